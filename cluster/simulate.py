@@ -65,8 +65,12 @@ class Simulation:
         self.waiting = deque(tasks)  # seconds of work that are left
         self.unfinished = len(self.waiting)
         self.slowness = [cluster.slowness if chance.random() < cluster.slow else 1.0 for _ in range(cluster.nodes)]
-        self.idle = [node for node in range(cluster.nodes) for _ in range(cluster.cores)][::-1]  # the node of each idle core
-        self.running: list[dict[int, tuple[float, float]]] = [{} for _ in range(cluster.nodes)]  # by number: work, and its begin
+        self.idle = [node for node in range(cluster.nodes) for _ in range(cluster.cores)][
+            ::-1
+        ]  # the node of each idle core
+        self.running: list[dict[int, tuple[float, float]]] = [
+            {} for _ in range(cluster.nodes)
+        ]  # by number: work, and its begin
         self.events: list[tuple[float, int, Callable[..., None], tuple[object, ...]]] = []
         self.numbers = itertools.count()
         self.now = self.busy = self.lost = 0.0
@@ -150,10 +154,15 @@ def agents_of(dry_run: str) -> list[Agent]:
     rows = [row for row in ROW.findall(dry_run) if row[0] != "all"]
     if not rows:
         raise ValueError("the text has no line such as 'basic 55 units 1000 decisions 0.1 core-hours'")
-    return [Agent(name, int(units), int(decisions) / int(units), float(hours) * 3600 / int(units)) for name, units, decisions, hours in rows]
+    return [
+        Agent(name, int(units), int(decisions) / int(units), float(hours) * 3600 / int(units))
+        for name, units, decisions, hours in rows
+    ]
 
 
-def lengths_of(agents: Sequence[Agent], measured: dict[str, list[tuple[float, float]]], chance: random.Random) -> list[float]:
+def lengths_of(
+    agents: Sequence[Agent], measured: dict[str, list[tuple[float, float]]], chance: random.Random
+) -> list[float]:
     """Seconds of all units in the order of the plan: by game, then by agent. measured: as pilot_of() returns it."""
     games = math.gcd(*(agent.units for agent in agents))
     lengths = []
@@ -191,8 +200,10 @@ def pilot_of(results: pathlib.Path) -> dict[str, list[tuple[float, float]]]:
 
 # The command
 
+
 def number(kind: type[int] | type[float], least: float, most: float = math.inf) -> Callable[[str], float]:
     """A type of argparse: numbers from `least` to `most`."""
+
     def parse(text: str) -> float:
         try:
             value = kind(text)
@@ -202,12 +213,15 @@ def number(kind: type[int] | type[float], least: float, most: float = math.inf) 
             bounds = f"from {least:g} on" if math.isinf(most) else f"from {least:g} to {most:g}"
             raise argparse.ArgumentTypeError(f"it is {text!r}; it takes a {'whole ' * (kind is int)}number {bounds}")
         return value
+
     return parse
 
 
 def summary(units: Sequence[Sequence[float]], cluster: Cluster, shards: int) -> list[Run]:
     """A simulation for each of `units`, in the order of their time."""
-    return sorted((simulate(lengths, cluster, shards, seed) for seed, lengths in enumerate(units)), key=lambda run: run.elapsed)
+    return sorted(
+        (simulate(lengths, cluster, shards, seed) for seed, lengths in enumerate(units)), key=lambda run: run.elapsed
+    )
 
 
 def percentile(runs: Sequence[Run], part: float) -> float:
@@ -216,8 +230,10 @@ def percentile(runs: Sequence[Run], part: float) -> float:
 
 def fewest_nodes(units: Sequence[Sequence[float]], cluster: Cluster, shards: int, within: float) -> int | None:
     """For which 95 % of the simulations take at most `within` seconds. None if no number is enough."""
+
     def is_enough(nodes: int) -> bool:
         return percentile(summary(units, replace(cluster, nodes=nodes), shards), 0.95) <= within
+
     low, high = 0, 1
     while not is_enough(high):
         if high * cluster.cores > max(map(len, units)):
@@ -236,27 +252,39 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--within", type=number(float, 0), metavar="HOURS", help="find the number of nodes")
     parser.add_argument("--cores", type=number(int, 1), default=64, help="of a node (default 64)")
     parser.add_argument("--shards", type=number(int, 0), default=0, help="tasks (default: a task a unit)")
-    parser.add_argument("--longest-first", action="store_true", help="not in the order of the plan, as with a plan for each agent")
+    parser.add_argument(
+        "--longest-first", action="store_true", help="not in the order of the plan, as with a plan for each agent"
+    )
     parser.add_argument("--pilot", type=pathlib.Path, metavar="RESULTS")
     parser.add_argument("--failures", type=number(float, 0), default=4, help="of a node in a year (default 4)")
     parser.add_argument("--repair", type=number(float, 0), default=3600, help="seconds (default 3600)")
     parser.add_argument("--requeue", type=number(float, 0), default=120, help="seconds (default 120)")
     parser.add_argument("--checkpoint", type=number(float, 1), default=60, help="seconds (default 60)")
-    parser.add_argument("--slow", type=number(float, 0, 1), default=0.05, help="share of nodes that are slow (default 0.05)")
+    parser.add_argument(
+        "--slow", type=number(float, 0, 1), default=0.05, help="share of nodes that are slow (default 0.05)"
+    )
     parser.add_argument("--slowness", type=number(float, 1), default=2, help="of slow nodes (default 2)")
     parser.add_argument("--runs", type=number(int, 1), default=20, help="simulations (default 20)")
-    parser.add_argument("--program", default="racebeam", help="that says how long units take: a name in the PATH, or a path (default: %(default)s)")
+    parser.add_argument(
+        "--program",
+        default="racebeam",
+        help="that says how long units take: a name in the PATH, or a path (default: %(default)s)",
+    )
     return parser.parse_args()
 
 
 def main() -> None:
     options = parse_arguments()
     try:
-        asked = subprocess.run([options.program, "experiment", options.plan, "--dry-run"], capture_output=True, text=True)
+        asked = subprocess.run(
+            [options.program, "experiment", options.plan, "--dry-run"], capture_output=True, text=True
+        )
     except OSError as error:
         place = options.program if "/" in options.program else f"{options.program}, looked for in the PATH"
-        sys.exit(f"simulate.py needs the program racebeam; it cannot start {place}: {error.strerror}; "
-                 "--program takes its path")
+        sys.exit(
+            f"simulate.py needs the program racebeam; it cannot start {place}: {error.strerror}; "
+            "--program takes its path"
+        )
     if asked.returncode != 0:
         sys.exit(asked.stderr.strip())
     try:
@@ -266,7 +294,16 @@ def main() -> None:
     units = [lengths_of(agents, measured, random.Random(seed)) for seed in range(options.runs)]
     if options.longest_first:
         units = [sorted(lengths, reverse=True) for lengths in units]
-    cluster = Cluster(1, options.cores, options.failures, options.repair, options.requeue, options.checkpoint, options.slow, options.slowness)
+    cluster = Cluster(
+        1,
+        options.cores,
+        options.failures,
+        options.repair,
+        options.requeue,
+        options.checkpoint,
+        options.slow,
+        options.slowness,
+    )
     work = statistics.median(map(sum, units)) / 3600
     print(f"{len(units[0])} units, {work:.1f} core-hours, longest unit {max(map(max, units)) / 3600:.1f} hours")
     nodes = list(options.nodes)
@@ -280,8 +317,10 @@ def main() -> None:
         runs = summary(units, replace(cluster, nodes=count), options.shards)
         cores, elapsed = count * options.cores, percentile(runs, 0.5)
         busy = statistics.median(run.busy / run.elapsed / cores for run in runs)
-        print(f"{count:6}{cores:7}{elapsed / 3600:8.1f}{percentile(runs, 0.95) / 3600:8.1f}{busy:7.0%}"
-              f"{statistics.median(run.lost for run in runs) / 3600:8.2f}{statistics.median(run.failures for run in runs):10.0f}")
+        print(
+            f"{count:6}{cores:7}{elapsed / 3600:8.1f}{percentile(runs, 0.95) / 3600:8.1f}{busy:7.0%}"
+            f"{statistics.median(run.lost for run in runs) / 3600:8.2f}{statistics.median(run.failures for run in runs):10.0f}"
+        )
 
 
 if __name__ == "__main__":

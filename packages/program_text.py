@@ -3,6 +3,7 @@
 
 usage: program_text.py PROGRAM FOLDER
 """
+
 import os
 import pathlib
 import re
@@ -13,7 +14,18 @@ OPTION = re.compile(r"^  (?:-\w,)?(--[\w-]+)(.*)$", re.MULTILINE)
 SUBCOMMAND = re.compile(r"^  (\w+) {2,}(.+)$", re.MULTILINE)
 MACHINE = re.compile(r"(--threads INT|--max-memory UINT\S* \[[^\]]*\])=\d+")  # defaults that depend on the machine
 GAMES = "racebeam games 2>/dev/null | awk 'NR > 1 { print $1 }'"
-FILES = {"--rom", "--game-file", "--token-file", "--tls-cert", "--tls-key", "--config", "--ready-file", "--authorities", "--roms", "--record-dir"}
+FILES = {
+    "--rom",
+    "--game-file",
+    "--token-file",
+    "--tls-cert",
+    "--tls-key",
+    "--config",
+    "--ready-file",
+    "--authorities",
+    "--roms",
+    "--record-dir",
+}
 
 
 def help_of(program, *words):
@@ -54,12 +66,12 @@ def bash(commands):
 _racebeam() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} options=
   if ((COMP_CWORD == 1)); then
-    COMPREPLY=($(compgen -W '{' '.join(commands)} --help --version' -- "$word"))
+    COMPREPLY=($(compgen -W '{" ".join(commands)} --help --version' -- "$word"))
     return
   fi
   case $before in
     --game) COMPREPLY=($(compgen -W "$({GAMES})" -- "$word")); return ;;
-    {'|'.join(sorted(FILES))}) compopt -o default; COMPREPLY=(); return ;;
+    {"|".join(sorted(FILES))}) compopt -o default; COMPREPLY=(); return ;;
   esac
   case ${{COMP_WORDS[1]}} in
 {cases}
@@ -89,7 +101,7 @@ _racebeam() {{
   fi
   case $words[CURRENT-1] in
     --game) compadd -- ${{(f)"$({GAMES})"}}; return ;;
-    {'|'.join(sorted(FILES))}) _files; return ;;
+    {"|".join(sorted(FILES))}) _files; return ;;
   esac
   case $words[2] in
 {cases}
@@ -110,7 +122,13 @@ def fish(commands, summaries):
         about = summaries[name].replace("'", "")
         lines.append(f"complete -c racebeam -n __fish_use_subcommand -f -a {name} -d '{about}'")
         for option, takes_value in found.items():
-            values = f" -x -a '({GAMES.replace(chr(39), chr(34)).replace('$1', chr(92) + '$1')})'" if option == "--game" else " -r" if takes_value else ""
+            values = (
+                f" -x -a '({GAMES.replace(chr(39), chr(34)).replace('$1', chr(92) + '$1')})'"
+                if option == "--game"
+                else " -r"
+                if takes_value
+                else ""
+            )
             lines.append(f"complete -c racebeam -n '__fish_seen_subcommand_from {name}' -l {option[2:]}{values}")
     return "\n".join(lines) + "\n"
 
@@ -126,7 +144,9 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "racebeam.1").write_text(man_page("racebeam", about, version, about.partition("\n")[0], pages))
     for name, text in texts.items():
-        (folder / f"racebeam-{name}.1").write_text(man_page(f"racebeam-{name}", text, version, summaries[name], ["racebeam"]))
+        (folder / f"racebeam-{name}.1").write_text(
+            man_page(f"racebeam-{name}", text, version, summaries[name], ["racebeam"])
+        )
     (folder / "racebeam.bash").write_text(bash(commands))
     (folder / "_racebeam").write_text(zsh(commands, summaries))
     (folder / "racebeam.fish").write_text(fish(commands, summaries))

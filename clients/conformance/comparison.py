@@ -8,7 +8,9 @@ import subprocess
 import servers
 
 STEPS = servers.ROOT / "clients/conformance"
-PATIENCE = 550  # seconds for a conversation: a busy machine takes three times the minute of bash; ctest waits for ten minutes
+PATIENCE = (
+    550  # seconds for a conversation: a busy machine takes three times the minute of bash; ctest waits for ten minutes
+)
 DESCRIPTORS = 128  # that a runner may have open: fewer than its connections, should it leak any
 SECTION = re.compile(r"section (\S+)(?: like (\S+))?(?: needs (.+))?\n?$")
 
@@ -40,8 +42,14 @@ def run(client, names, racebeam, roms=None, **variables):
     with servers.started(racebeam, roms) as told:
         path = servers.pathlib.Path(told["AUTHORITY"]).parent / "steps.txt"
         path.write_text("".join(steps(names, client.offers)))
-        done = subprocess.run([*client.runner, str(path)], env={**told, **dict(client.variables), **variables}, capture_output=True, text=True,
-                              timeout=PATIENCE, preexec_fn=limit_descriptors)
+        done = subprocess.run(
+            [*client.runner, str(path)],
+            env={**told, **dict(client.variables), **variables},
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE,
+            preexec_fn=limit_descriptors,
+        )
     if done.returncode != 0 or done.stderr:
         raise Failed(f"status {done.returncode}: {done.stderr[-2000:]}")
     return done.stdout.splitlines()
@@ -72,11 +80,17 @@ def differences(printed, names, reference, offers):
     """A sentence for each section that is not as the reference's, or not as the section that it is like."""
     own, others = sections(printed), sections(reference)
     wanted = section_names(names, offers)
-    wrong = [difference(name, own.get(name, []), others[name]) for name in others if name in wanted and own.get(name) != others[name]]
+    wrong = [
+        difference(name, own.get(name, []), others[name])
+        for name in others
+        if name in wanted and own.get(name) != others[name]
+    ]
     for name, other in alike(names):
         if name not in wanted:
             continue
-        pair = [[line for line in own.get(section, []) if not line.startswith("ok fields=")] for section in (name, other)]
+        pair = [
+            [line for line in own.get(section, []) if not line.startswith("ok fields=")] for section in (name, other)
+        ]
         if pair[0] != pair[1]:
             wrong.append(difference(f"{name}, which is like {other}", *pair))
     return wrong

@@ -14,7 +14,9 @@ STEPS_WITH_REQUEST = (">", "send")
 
 def helped(racebeam, subject):
     """The sentence of `help SUBJECT`."""
-    done = subprocess.run([racebeam, "serve", "--stdio"], input=f"help {subject}\n", capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [racebeam, "serve", "--stdio"], input=f"help {subject}\n", capture_output=True, text=True, check=True
+    )
     return done.stdout.removeprefix("ok ").strip()
 
 
@@ -50,7 +52,9 @@ def used(steps, printed):
     """What the steps ask for, and what the lines that a client printed tell, by kind."""
     requests = [line.split()[1:] for line in steps if line.startswith(STEPS_WITH_REQUEST)]
     pairs = [word.partition("=")[::2] for words in requests for word in words if "=" in word]
-    fields = list(itertools.chain.from_iterable(words[1:] for words in requests if words and words[0] in ("observe", "look")))
+    fields = list(
+        itertools.chain.from_iterable(words[1:] for words in requests if words and words[0] in ("observe", "look"))
+    )
     shown = {key for line in printed for key in re.findall(r" (\w+)=", line)}
     return {
         "command": {words[0] for words in requests if words},
@@ -66,7 +70,9 @@ def used(steps, printed):
 def missing(racebeam, steps, printed):
     """A word for each thing that is not used, such as `command open`."""
     have = used(steps, printed)
-    return [f"{kind} {name}" for kind, listed in expected(racebeam).items() for name in listed if name not in have[kind]]
+    return [
+        f"{kind} {name}" for kind, listed in expected(racebeam).items() for name in listed if name not in have[kind]
+    ]
 
 
 def undescribed(printed):
@@ -75,5 +81,7 @@ def undescribed(printed):
     known = {row.name for table in (protocol.fields, protocol.settings) for row in table}
     for command in protocol.commands:
         known |= {key.removesuffix("?") for key in (*command.reply, *command.groups)}
-    shown = {key.removeprefix("final_") for line in printed if line.startswith("ok ") for key in re.findall(r" (\w+)=", line)}
+    shown = {
+        key.removeprefix("final_") for line in printed if line.startswith("ok ") for key in re.findall(r" (\w+)=", line)
+    }
     return sorted(key for key in shown if kind_of_size(key) not in known and not re.fullmatch(r"grey84(x\d+)?", key))

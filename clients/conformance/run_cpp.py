@@ -12,8 +12,17 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEADERS = ROOT / "clients/cpp"
 BUILT = ROOT / "build/clients/cpp"
-COMPILE = (os.environ.get("CXX", "c++"), "-std=c++20", "-O1", "-Wall", "-Wextra",
-           "-Wpedantic", "-Werror", "-I", str(HEADERS))
+COMPILE = (
+    os.environ.get("CXX", "c++"),
+    "-std=c++20",
+    "-O1",
+    "-Wall",
+    "-Wextra",
+    "-Wpedantic",
+    "-Werror",
+    "-I",
+    str(HEADERS),
+)
 LIBRARIES = ("-lssl", "-lcrypto", "-lz", "-pthread")
 
 
@@ -42,7 +51,10 @@ def built(source):
     header = compiled_headers()
     program = header.parent / digest(source.read_bytes())
     if not program.exists():
-        subprocess.run([*COMPILE, "-include", header, "-x", "c++", source, *LIBRARIES, "-o", f"{program}.{os.getpid()}"], check=True)
+        subprocess.run(
+            [*COMPILE, "-include", header, "-x", "c++", source, *LIBRARIES, "-o", f"{program}.{os.getpid()}"],
+            check=True,
+        )
         os.rename(f"{program}.{os.getpid()}", program)
     return program
 
@@ -51,7 +63,14 @@ def probe():
     """Ends with status 0 if the compiler finds what the client needs."""
     needed = ("boost/asio/awaitable.hpp", "openssl/ssl.h", "zlib.h")
     text = "".join(f"#if !__has_include(<{name}>)\n#error {name}\n#endif\n" for name in needed)
-    sys.exit(subprocess.run([os.environ.get("CXX", "c++"), "-std=c++20", "-E", "-x", "c++", "-"], input=text, text=True, capture_output=True).returncode)
+    sys.exit(
+        subprocess.run(
+            [os.environ.get("CXX", "c++"), "-std=c++20", "-E", "-x", "c++", "-"],
+            input=text,
+            text=True,
+            capture_output=True,
+        ).returncode
+    )
 
 
 if __name__ == "__main__":

@@ -19,22 +19,45 @@ PATIENCE = 30  # seconds until a server that is not ready counts as broken
 def certificate(folder):
     """A certificate for 127.0.0.1 alone, and its key."""
     paths = folder / "certificate.pem", folder / "key.pem"
-    subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2",
-                    "-subj", "/CN=127.0.0.1", "-addext", "subjectAltName=IP:127.0.0.1", "-out", paths[0], "-keyout", paths[1]],
-                   check=True, capture_output=True)
+    subprocess.run(
+        [
+            "openssl",
+            "req",
+            "-x509",
+            "-newkey",
+            "ec",
+            "-pkeyopt",
+            "ec_paramgen_curve:prime256v1",
+            "-nodes",
+            "-days",
+            "2",
+            "-subj",
+            "/CN=127.0.0.1",
+            "-addext",
+            "subjectAltName=IP:127.0.0.1",
+            "-out",
+            paths[0],
+            "-keyout",
+            paths[1],
+        ],
+        check=True,
+        capture_output=True,
+    )
     return paths
 
 
 def damaged_announcements(announced, folder):
     """Announce files with a fault, and what is none, as variables of the steps."""
     text = announced.read_text()
-    texts = {"STALE": re.sub(r'"tcp://[^"]*"', f'"{faulty_server.closed_address()}"', text),
-             "HALF_WRITTEN": text[:len(text) // 2],
-             "LATER_VERSION": text.replace('"racebeam_announce": 1,', '"racebeam_announce": 2,'),
-             "NO_ADDRESS": re.sub(r'"tcp://[^"]*"', '"other://x"', text),
-             "EMPTY": "",
-             "NOTES": "dear diary\n",
-             "GARBAGE": "{\x00\xff\x80\n\x1b[31m\n"}
+    texts = {
+        "STALE": re.sub(r'"tcp://[^"]*"', f'"{faulty_server.closed_address()}"', text),
+        "HALF_WRITTEN": text[: len(text) // 2],
+        "LATER_VERSION": text.replace('"racebeam_announce": 1,', '"racebeam_announce": 2,'),
+        "NO_ADDRESS": re.sub(r'"tcp://[^"]*"', '"other://x"', text),
+        "EMPTY": "",
+        "NOTES": "dear diary\n",
+        "GARBAGE": "{\x00\xff\x80\n\x1b[31m\n",
+    }
     for name, damaged in texts.items():
         (folder / name).write_text(damaged, encoding="latin1")
     (folder / "FOLDER").mkdir()
@@ -52,8 +75,12 @@ class Servers:
     def start(self, name, *options):
         """Returns the addresses of the new server, and the file that lists them."""
         ready = self.folder / f"{name}.ready"
-        self.processes.append(subprocess.Popen(
-            [self.racebeam, "serve", "--ready-file", ready, "--log-level", "error", "--grace", "0", *options], cwd=self.folder))
+        self.processes.append(
+            subprocess.Popen(
+                [self.racebeam, "serve", "--ready-file", ready, "--log-level", "error", "--grace", "0", *options],
+                cwd=self.folder,
+            )
+        )
         until = time.monotonic() + PATIENCE
         while not ready.exists():
             if self.processes[-1].poll() is not None or time.monotonic() > until:
@@ -79,9 +106,19 @@ def started(racebeam, roms=None):
         guarded = ("--token-file", "tokens")
         try:
             (main_tcp, main_unix), ready = servers.start(
-                "main", *tcp, "--listen", f"unix:{folder}/socket", "--record-dir", ".", "--max-line", "100000",
-                *(["--roms", roms] if roms else []))
-            (tls,), _ = servers.start("tls", "--listen", "tls://127.0.0.1:0", *guarded, "--tls-cert", chain, "--tls-key", key)
+                "main",
+                *tcp,
+                "--listen",
+                f"unix:{folder}/socket",
+                "--record-dir",
+                ".",
+                "--max-line",
+                "100000",
+                *(["--roms", roms] if roms else []),
+            )
+            (tls,), _ = servers.start(
+                "tls", "--listen", "tls://127.0.0.1:0", *guarded, "--tls-cert", chain, "--tls-key", key
+            )
             announced = folder / "announced"
             servers.start("announced", *tcp, "--announce", announced)
             for pipes in ("pipes", "more_pipes"):  # each serves one client

@@ -15,11 +15,10 @@ import signal
 import subprocess
 import sys
 
+import racebeam.program
 import ray
 from options import positive
 from ray.exceptions import RayTaskError
-
-import racebeam.program
 
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
 
@@ -32,8 +31,12 @@ def end_with_parent() -> None:
 @ray.remote(num_cpus=1, max_retries=-1, retry_exceptions=False)
 def play(plan: str, results: str, shard: str, words: list[str]) -> str:
     """Runs a shard, such as 3/100. Returns what it printed. Raises RuntimeError with its error."""
-    done = subprocess.run([racebeam.program.path(), "experiment", plan, "--into", results, "--shard", shard, "--threads", "1", *words],
-                          capture_output=True, text=True, preexec_fn=end_with_parent)
+    done = subprocess.run(
+        [racebeam.program.path(), "experiment", plan, "--into", results, "--shard", shard, "--threads", "1", *words],
+        capture_output=True,
+        text=True,
+        preexec_fn=end_with_parent,
+    )
     if done.returncode != 0:
         raise RuntimeError(f"shard {shard}: {done.stderr.strip() or f'status {done.returncode}'}")
     return done.stdout

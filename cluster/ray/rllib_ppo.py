@@ -14,17 +14,18 @@ from typing import Any
 
 import gymnasium
 import numpy as np
+import racebeam  # noqa: F401  # it registers its environments
 from options import positive
 from ray.rllib.algorithms.ppo import PPOConfig
 from ray.rllib.connectors.env_to_module.observation_preprocessor import SingleAgentObservationPreprocessor
-
-import racebeam  # noqa: F401  # it registers its environments
 
 
 class Scaled(SingleAgentObservationPreprocessor):
     """Bytes of an observation as numbers from 0 to 1."""
 
-    def recompute_output_observation_space(self, input_observation_space: gymnasium.Space, _: gymnasium.Space) -> gymnasium.Space:
+    def recompute_output_observation_space(
+        self, input_observation_space: gymnasium.Space, _: gymnasium.Space
+    ) -> gymnasium.Space:
         return gymnasium.spaces.Box(0, 1, input_observation_space.shape, np.float32)
 
     def preprocess(self, observation: np.ndarray, episode: Any) -> np.ndarray:
@@ -33,12 +34,17 @@ class Scaled(SingleAgentObservationPreprocessor):
 
 def config(game: str, *, runners: int = 1, envs: int = 8, vector: bool = True, **settings: Any) -> PPOConfig:
     """settings: of racebeam.AtariVectorEnv or, without `vector`, of racebeam.AtariEnv."""
-    return (PPOConfig()
-            .environment(f"racebeam:racebeam/{game}-v5", env_config={"obs_type": "ram", **settings})
-            .env_runners(num_env_runners=runners, num_envs_per_env_runner=envs,
-                         gym_env_vectorize_mode="vector_entry_point" if vector else "sync",
-                         env_to_module_connector=lambda env, spaces, device: Scaled())
-            .training(train_batch_size_per_learner=1024, minibatch_size=256, num_epochs=4))
+    return (
+        PPOConfig()
+        .environment(f"racebeam:racebeam/{game}-v5", env_config={"obs_type": "ram", **settings})
+        .env_runners(
+            num_env_runners=runners,
+            num_envs_per_env_runner=envs,
+            gym_env_vectorize_mode="vector_entry_point" if vector else "sync",
+            env_to_module_connector=lambda env, spaces, device: Scaled(),
+        )
+        .training(train_batch_size_per_learner=1024, minibatch_size=256, num_epochs=4)
+    )
 
 
 def main() -> None:

@@ -15,11 +15,10 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
+import racebeam
 import ray
 from options import positive
 from ray.exceptions import ObjectLostError, RayActorError, RayTaskError
-
-import racebeam
 
 Rollout = dict[str, np.ndarray]
 Policy = Callable[[np.ndarray, np.random.Generator], np.ndarray]  # observations of all environments to actions
@@ -44,8 +43,11 @@ class Player:
         rewards, done = np.empty(actions.shape, np.int32), np.empty(actions.shape, np.bool_)
         envs.reset(seed=seed, out=observations[0])
         for step in range(steps):
-            actions[step] = (policy(observations[step], chance) if policy is not None
-                             else chance.integers(envs.single_action_space.n, size=envs.num_envs))
+            actions[step] = (
+                policy(observations[step], chance)
+                if policy is not None
+                else chance.integers(envs.single_action_space.n, size=envs.num_envs)
+            )
             _, rewards[step], terminated, truncated, _ = envs.step(actions[step], out=observations[step + 1])
             done[step] = terminated | truncated
         return {"observations": observations, "actions": actions, "rewards": rewards, "done": done}
@@ -61,14 +63,24 @@ def result_of(reference: ray.ObjectRef) -> Any:
         return None
 
 
-def rollouts(game: str, *, actors: int, count: int, num_envs: int = 8, steps: int = 128, policy: Policy | None = None,
-             **settings: Any) -> Iterator[Rollout]:
+def rollouts(
+    game: str,
+    *,
+    actors: int,
+    count: int,
+    num_envs: int = 8,
+    steps: int = 128,
+    policy: Policy | None = None,
+    **settings: Any,
+) -> Iterator[Rollout]:
     """What `count` rollouts gave, those that end first first. Each begins with seeds of its own.
 
     policy: None plays at random. The arrays of a rollout are read-only: they lie in the object store.
     """
     waiting, idle = deque(range(count)), []
-    awaited: dict[ray.ObjectRef, tuple[Any, int | None]] = {}  # to the actor and the number of its rollout; None: its start
+    awaited: dict[
+        ray.ObjectRef, tuple[Any, int | None]
+    ] = {}  # to the actor and the number of its rollout; None: its start
 
     def start() -> None:
         actor = Player.remote(game, num_envs, settings)
@@ -107,7 +119,9 @@ def main() -> None:
     options = parser.parse_args()
     images = {"RACEBEAM_ROMS": options.roms} if options.roms else {}
     ray.init(options.address, runtime_env={"env_vars": images})
-    played = rollouts(options.game, actors=options.actors, count=options.rollouts, num_envs=options.envs, steps=options.steps)
+    played = rollouts(
+        options.game, actors=options.actors, count=options.rollouts, num_envs=options.envs, steps=options.steps
+    )
     try:
         print(sum(int(rollout["rewards"].sum()) for rollout in played))
     except (RayActorError, RayTaskError) as error:  # its last line is what the environments raised

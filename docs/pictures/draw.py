@@ -31,10 +31,18 @@ LIBRARIES = {
         "emulator": (0, 6, 1, "emulator", ["the machine"], "code"),
         "system": (2, 6, 1, "system", ["files, processors, memory"], "code"),
     },
-    "arrows": [("cli", "server", ""), ("cli", "agents", ""), ("server", "protocol", ""), ("agents", "protocol", ""),
-               ("protocol", "recording", ""),
-               ("protocol", "environment", ""), ("recording", "environment", ""), ("environment", "games", ""),
-               ("games", "emulator", ""), ("games", "system", "")],
+    "arrows": [
+        ("cli", "server", ""),
+        ("cli", "agents", ""),
+        ("server", "protocol", ""),
+        ("agents", "protocol", ""),
+        ("protocol", "recording", ""),
+        ("protocol", "environment", ""),
+        ("recording", "environment", ""),
+        ("environment", "games", ""),
+        ("games", "emulator", ""),
+        ("games", "system", ""),
+    ],
 }
 
 FRAME = {
@@ -51,9 +59,18 @@ FRAME = {
         "pixels": (1, 3, 1, "pixels, collisions", ["layers to colours: AVX-512,", "AVX2 or plain; 15 ANDs"], "code"),
         "picture": (0, 3, 1, "FrameBuffer", ["160 bytes a row,", "one palette index a pixel"], "data"),
     },
-    "arrows": [("cpu", "log", ""), ("log", "end", ""), ("end", "lines", ""), ("lines", "known", ""),
-               ("known", "recall", "yes"), ("known", "spans", "no"), ("spans", "masks", ""),
-               ("masks", "pixels", ""), ("pixels", "picture", ""), ("recall", "picture", "")],
+    "arrows": [
+        ("cpu", "log", ""),
+        ("log", "end", ""),
+        ("end", "lines", ""),
+        ("lines", "known", ""),
+        ("known", "recall", "yes"),
+        ("known", "spans", "no"),
+        ("spans", "masks", ""),
+        ("masks", "pixels", ""),
+        ("pixels", "picture", ""),
+        ("recall", "picture", ""),
+    ],
 }
 
 THREADS = {
@@ -70,8 +87,14 @@ THREADS = {
         "resets": (1, 3, 1, "finished resets", ["one lock; at most 128"], "data"),
         "meters": (2, 3, 1, "meters", ["one for each loop: no lock;", "summed for --http"], "data"),
     },
-    "arrows": [("first", "loops", "accepts"), ("loops", "session", ""), ("streams", "session", ""),
-               ("session", "pool", "step"), ("session", "log", "lines"), ("session", "recorder", "frames")],
+    "arrows": [
+        ("first", "loops", "accepts"),
+        ("loops", "session", ""),
+        ("streams", "session", ""),
+        ("session", "pool", "step"),
+        ("session", "log", "lines"),
+        ("session", "recorder", "frames"),
+    ],
 }
 
 STATE = {
@@ -86,9 +109,16 @@ STATE = {
         "again": (1, 2, 1, "the same future", ["on this machine, another,", "or in another process"], "code"),
         "refused": (2, 2, 1, "bad-state", ["names the field; the", "session goes on unchanged"], "outside"),
     },
-    "arrows": [("machine", "saved", "save"), ("saved", "bytes", "export"), ("machine", "drawn", ""),
-               ("saved", "restore", ""), ("bytes", "check", "import"), ("check", "restore", "valid"),
-               ("check", "refused", "not valid"), ("restore", "again", "")],
+    "arrows": [
+        ("machine", "saved", "save"),
+        ("saved", "bytes", "export"),
+        ("machine", "drawn", ""),
+        ("saved", "restore", ""),
+        ("bytes", "check", "import"),
+        ("check", "restore", "valid"),
+        ("check", "refused", "not valid"),
+        ("restore", "again", ""),
+    ],
 }
 
 PICTURES = {"libraries": LIBRARIES, "frame": FRAME, "threads": THREADS, "state": STATE}
@@ -97,9 +127,15 @@ PICTURES = {"libraries": LIBRARIES, "frame": FRAME, "threads": THREADS, "state":
 def places(picture):
     """{name: (left, top, width, height)} of all boxes."""
     width, height, gap_x, gap_y = picture.get("grid", GRID)
-    return {name: (MARGIN + column * (width + gap_x), MARGIN + HEAD + row * (height + gap_y),
-                   span * width + (span - 1) * gap_x, height)
-            for name, (column, row, span, *_) in picture["boxes"].items()}
+    return {
+        name: (
+            MARGIN + column * (width + gap_x),
+            MARGIN + HEAD + row * (height + gap_y),
+            span * width + (span - 1) * gap_x,
+            height,
+        )
+        for name, (column, row, span, *_) in picture["boxes"].items()
+    }
 
 
 def draw_box(box, where):
@@ -107,10 +143,14 @@ def draw_box(box, where):
     *_, title, lines, kind = box
     fill, stroke = COLOURS[kind]
     middle, first = left + width / 2, top + height / 2 - 8 * len(lines) + 4
-    parts = [f'<rect x="{left}" y="{top}" width="{width}" height="{height}" rx="6" fill="{fill}" stroke="{stroke}"/>',
-             f'<text x="{middle}" y="{first}" font-weight="bold">{escape(title)}</text>']
-    parts += [f'<text x="{middle}" y="{first + 17 * (at + 1)}" font-size="12">{escape(line)}</text>'
-              for at, line in enumerate(lines)]
+    parts = [
+        f'<rect x="{left}" y="{top}" width="{width}" height="{height}" rx="6" fill="{fill}" stroke="{stroke}"/>',
+        f'<text x="{middle}" y="{first}" font-weight="bold">{escape(title)}</text>',
+    ]
+    parts += [
+        f'<text x="{middle}" y="{first + 17 * (at + 1)}" font-size="12">{escape(line)}</text>'
+        for at, line in enumerate(lines)
+    ]
     return "\n".join(parts)
 
 
@@ -142,15 +182,20 @@ def draw(picture):
     shapes = [draw_box(box, where[name]) for name, box in picture["boxes"].items()]
     shapes += [draw_arrow(where[start], where[end], label) for start, end, label in picture["arrows"]]
     title = escape(picture["title"])
-    return "\n".join([
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"',
-        '     font-family="sans-serif" font-size="14" text-anchor="middle" role="img">',
-        f"<title>{title}</title>",
-        '<defs><marker id="tip" viewBox="0 0 8 8" refX="8" refY="4" markerWidth="8" markerHeight="8" orient="auto">',
-        '<path d="M0 0 L8 4 L0 8 z" fill="#444"/></marker></defs>',
-        f'<rect width="{width}" height="{height}" fill="white"/>',
-        f'<text x="{width / 2}" y="26" font-size="13">{title}</text>',
-        *shapes, "</svg>", ""])
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"',
+            '     font-family="sans-serif" font-size="14" text-anchor="middle" role="img">',
+            f"<title>{title}</title>",
+            '<defs><marker id="tip" viewBox="0 0 8 8" refX="8" refY="4" markerWidth="8" markerHeight="8" orient="auto">',
+            '<path d="M0 0 L8 4 L0 8 z" fill="#444"/></marker></defs>',
+            f'<rect width="{width}" height="{height}" fill="white"/>',
+            f'<text x="{width / 2}" y="26" font-size="13">{title}</text>',
+            *shapes,
+            "</svg>",
+            "",
+        ]
+    )
 
 
 def main():

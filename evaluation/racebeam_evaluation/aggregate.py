@@ -37,16 +37,29 @@ def aggregate_rows(scores: Scores, ranges: Ranges, group: Group, bootstrap: Boot
         for agent in group.agents if games else ():
             estimate = bootstrap.estimate(aggregates, normalised_matrix(scores, ranges, agent, games))
             means = ranges.normalise(scores.columns((agent,)).loc[games])[agent]
-            rows.append({"normalisation": ranges.name, "set": name, "agent": agent, "games": len(games),
-                         "n/a": len(without), "above 1": int((means > 1).sum()), "average": float(means.mean()),
-                         "median": float(means.median()), **_interval("IQM", estimate, 0),
-                         **_interval("optimality gap", estimate, 1)})
+            rows.append(
+                {
+                    "normalisation": ranges.name,
+                    "set": name,
+                    "agent": agent,
+                    "games": len(games),
+                    "n/a": len(without),
+                    "above 1": int((means > 1).sum()),
+                    "average": float(means.mean()),
+                    "median": float(means.median()),
+                    **_interval("IQM", estimate, 0),
+                    **_interval("optimality gap", estimate, 1),
+                }
+            )
     return pd.DataFrame(rows)
 
 
 def _interval(name: str, estimate: Estimate, index: int) -> dict[str, float]:
-    return {name: float(estimate.value[index]), f"{name} low": float(estimate.low[index]),
-            f"{name} high": float(estimate.high[index])}
+    return {
+        name: float(estimate.value[index]),
+        f"{name} low": float(estimate.low[index]),
+        f"{name} high": float(estimate.high[index]),
+    }
 
 
 def distribution_rows(scores: Scores, ranges: Ranges, group: Group) -> pd.DataFrame:
@@ -57,8 +70,17 @@ def distribution_rows(scores: Scores, ranges: Ranges, group: Group) -> pd.DataFr
         for agent in group.agents if games else ():
             values = np.sort(normalised[agent].to_numpy())
             share = [float((values >= value).mean()) for value in values]
-            parts.append(pd.DataFrame({"normalisation": ranges.name, "set": name, "agent": agent, "score": values,
-                                       "share of games": share}).drop_duplicates())
+            parts.append(
+                pd.DataFrame(
+                    {
+                        "normalisation": ranges.name,
+                        "set": name,
+                        "agent": agent,
+                        "score": values,
+                        "share of games": share,
+                    }
+                ).drop_duplicates()
+            )
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
 
 
@@ -70,8 +92,19 @@ def profile_rows(scores: Scores, ranges: Ranges, group: Group, bootstrap: Bootst
         normalised = normalised_matrix(scores, ranges, agent, games)
         thresholds = np.linspace(0, 1 if ranges.bounded else 2, 41)
         estimate = bootstrap.estimate(profile(thresholds), normalised)
-        parts.append(pd.DataFrame({"normalisation": ranges.name, "set": name, "agent": agent, "threshold": thresholds,
-                                   "share of trials": estimate.value, "low": estimate.low, "high": estimate.high}))
+        parts.append(
+            pd.DataFrame(
+                {
+                    "normalisation": ranges.name,
+                    "set": name,
+                    "agent": agent,
+                    "threshold": thresholds,
+                    "share of trials": estimate.value,
+                    "low": estimate.low,
+                    "high": estimate.high,
+                }
+            )
+        )
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
 
 
@@ -87,5 +120,7 @@ def improvement_rows(scores: Scores, group: Group, bootstrap: Bootstrap) -> pd.D
             if min(int(trials_of(each).min()) for each in matrices) < FEWEST_TRIALS:
                 continue
             estimate = bootstrap.estimate(improvement, *matrices)
-            rows.append({"first": first, "second": second, "games": len(games), **_interval("probability", estimate, 0)})
+            rows.append(
+                {"first": first, "second": second, "games": len(games), **_interval("probability", estimate, 0)}
+            )
     return pd.DataFrame(rows)

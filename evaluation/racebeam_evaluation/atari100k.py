@@ -36,23 +36,58 @@ def _of_its_games(scores: Scores) -> Scores:
     games = [game for game in scores.means.index if game in ATARI100K]
     if not games:
         raise BadInput(f"no game of RESULTS is one of Atari 100k; expected some of {', '.join(ATARI100K)}")
-    return dataclasses.replace(scores, means=scores.means.loc[games], references=scores.references.loc[games],
-                               views=scores.views.loc[games])
+    return dataclasses.replace(
+        scores, means=scores.means.loc[games], references=scores.references.loc[games], views=scores.views.loc[games]
+    )
 
 
 def _add_group(report: Report, scores: Scores, group: Group, bootstrap: Bootstrap) -> None:
     normalised = _RANGES.normalise(scores.columns(group.agents))
     columns = pd.concat([HUMAN.loc[normalised.index], scores.columns(group.agents)], axis=1)
-    report.add_table(Table(f"{group.name}-scores", "Scores; random and human are published ones.",
-                           columns.rename_axis("game").reset_index(), report.sources, digits=1, best_of=group.agents))
-    report.add_table(Table(f"{group.name}-human-normalised", "Human-normalised scores.",
-                           normalised.rename_axis("game").reset_index(), report.sources, best_of=group.agents))
+    report.add_table(
+        Table(
+            f"{group.name}-scores",
+            "Scores; random and human are published ones.",
+            columns.rename_axis("game").reset_index(),
+            report.sources,
+            digits=1,
+            best_of=group.agents,
+        )
+    )
+    report.add_table(
+        Table(
+            f"{group.name}-human-normalised",
+            "Human-normalised scores.",
+            normalised.rename_axis("game").reset_index(),
+            report.sources,
+            best_of=group.agents,
+        )
+    )
     rows = aggregate.aggregate_rows(scores, _RANGES, group, bootstrap)
-    report.add_table(Table(f"{group.name}-aggregates", "Aggregates of human-normalised scores; `above 1` counts games.", rows,
-                           report.sources, notes.of_aggregates(scores, group, [_RANGES])))
+    report.add_table(
+        Table(
+            f"{group.name}-aggregates",
+            "Aggregates of human-normalised scores; `above 1` counts games.",
+            rows,
+            report.sources,
+            notes.of_aggregates(scores, group, [_RANGES]),
+        )
+    )
     profiles = aggregate.profile_rows(scores, _RANGES, group, bootstrap)
     if len(profiles):
-        report.add_table(Table(f"{group.name}-profiles", "Share of trials above a normalised score, with its interval.",
-                               profiles, report.sources))
-        report.parts.append(Picture(f"{group.name}-profiles", "Performance profiles of human-normalised scores.",
-                                    figure.profiles(profiles), report.sources))
+        report.add_table(
+            Table(
+                f"{group.name}-profiles",
+                "Share of trials above a normalised score, with its interval.",
+                profiles,
+                report.sources,
+            )
+        )
+        report.parts.append(
+            Picture(
+                f"{group.name}-profiles",
+                "Performance profiles of human-normalised scores.",
+                figure.profiles(profiles),
+                report.sources,
+            )
+        )

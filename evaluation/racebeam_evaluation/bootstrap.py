@@ -45,7 +45,8 @@ class Bootstrap:
         scores = {"": matrices[0] if len(matrices) == 1 else list(matrices)}
         with _seeded(self.seed):
             values, bounds = library.get_interval_estimates(
-                scores, function, reps=self.repetitions, confidence_interval_size=self.confidence)
+                scores, function, reps=self.repetitions, confidence_interval_size=self.confidence
+            )
         return Estimate(values[""], bounds[""][0], bounds[""][1])
 
     def _of_ragged(self, function: Callable[..., Matrix], matrices: tuple[Matrix, ...]) -> Estimate:
@@ -71,7 +72,7 @@ def padded(columns: list[npt.NDArray[np.float64]]) -> Matrix:
     """The matrix with these columns, which are filled with NaN."""
     matrix = np.full((max(map(len, columns)), len(columns)), np.nan)
     for game, trials in enumerate(columns):
-        matrix[:len(trials), game] = trials
+        matrix[: len(trials), game] = trials
     return matrix
 
 
@@ -115,11 +116,13 @@ def aggregates(scores: Matrix) -> Matrix:
 
 def profile(thresholds: Matrix) -> Callable[[Matrix], Matrix]:
     """The performance profile: the share of scores above each threshold."""
+
     def shares(scores: Matrix) -> Matrix:
         if _is_ragged(scores):
             above = scores[..., np.newaxis] > thresholds
             return _mean(np.where(np.isnan(scores)[..., np.newaxis], np.nan, above))
         return np.array((scores[..., np.newaxis] > thresholds).mean(axis=(0, 1)))
+
     return shares
 
 

@@ -32,7 +32,7 @@ _MOST_DECIMAL = 1e15  # sums of squares are finite
 class Source:
     """A file that tables are made from."""
 
-    name: str    # the file's name without its folder
+    name: str  # the file's name without its folder
     sha256: str  # the digest of its bytes, in hexadecimal
 
 
@@ -48,8 +48,9 @@ def read(path: pathlib.Path, columns: dict[str, Kind], may_be_empty: bool = Fals
         raise BadInput(f"{path} cannot be read: {error.strerror}; expected a CSV file") from error
     _check_shape(path, content, columns, 0 if may_be_empty else 1)
     types = {name: "category" if kind in _TEXTS else "str" for name, kind in columns.items()}
-    frame = pd.read_csv(io.BytesIO(content), usecols=list(columns), dtype=types, keep_default_na=False,
-                        quoting=csv.QUOTE_NONE)
+    frame = pd.read_csv(
+        io.BytesIO(content), usecols=list(columns), dtype=types, keep_default_na=False, quoting=csv.QUOTE_NONE
+    )
     for name, kind in columns.items():
         if kind is Kind.NAME:
             _refuse(path, frame[name], frame[name].str.strip() == "", kind)

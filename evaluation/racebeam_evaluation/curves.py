@@ -26,8 +26,20 @@ def learning_curves(curves: pd.DataFrame) -> pd.DataFrame:
     of_trials = episodes.assign(stretch=stretch).groupby([*keys, "trial"])["score"].mean()
     rows = of_trials.groupby(keys).agg(["mean", "sem", "count"]).reset_index()
     frames = rows["stretch"] * rows["game"].map(episodes.groupby("game")["trained"].max()) / _BINS
-    made = pd.DataFrame({"game": rows["game"], "agent": rows["agent"], "frames": frames.round().astype(int),
-                         "trials": rows["count"], "score": rows["mean"], "standard error": rows["sem"]})
+    made = pd.DataFrame(
+        {
+            "game": rows["game"],
+            "agent": rows["agent"],
+            "frames": frames.round().astype(int),
+            "trials": rows["count"],
+            "score": rows["mean"],
+            "standard error": rows["sem"],
+        }
+    )
     order = {game: index for index, game in enumerate(in_order(list(set(made["game"]))))}
-    return made.sort_values(["game", "agent", "frames"], kind="stable", ignore_index=True,
-                            key=lambda column: column.map(order) if column.name == "game" else column)
+    return made.sort_values(
+        ["game", "agent", "frames"],
+        kind="stable",
+        ignore_index=True,
+        key=lambda column: column.map(order) if column.name == "game" else column,
+    )

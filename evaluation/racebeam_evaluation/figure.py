@@ -15,9 +15,18 @@ from matplotlib.ticker import EngFormatter, MaxNLocator
 from .csv_file import Source
 from .table import made_from
 
-_STYLE = matplotlib.rc_context({  # a decorator
-    "svg.hashsalt": "racebeam", "svg.fonttype": "path", "font.family": "DejaVu Sans", "font.size": 9,
-    "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "figure.dpi": 100})
+_STYLE = matplotlib.rc_context(
+    {  # a decorator
+        "svg.hashsalt": "racebeam",
+        "svg.fonttype": "path",
+        "font.family": "DejaVu Sans",
+        "font.size": 9,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "legend.frameon": False,
+        "figure.dpi": 100,
+    }
+)
 _DOTS_PER_INCH = 150
 
 
@@ -25,7 +34,7 @@ _DOTS_PER_INCH = 150
 class Picture:
     """One figure."""
 
-    name: str     # of the files, without ending
+    name: str  # of the files, without ending
     caption: str  # a sentence
     figure: Figure
     sources: tuple[Source, ...]
@@ -36,8 +45,10 @@ class Picture:
         self.figure.draw_without_rendering()
         self.figure.set_layout_engine("none")  # the layout is settled, for both forms
         about = "; ".join(made_from(self.sources))
-        return {f"{self.name}.svg": self._drawn("svg", {"Date": None, "Creator": None, "Description": about}),
-                f"{self.name}.png": self._drawn("png", {"Software": None, "Description": about})}
+        return {
+            f"{self.name}.svg": self._drawn("svg", {"Date": None, "Creator": None, "Description": about}),
+            f"{self.name}.png": self._drawn("png", {"Software": None, "Description": about}),
+        }
 
     def _drawn(self, form: str, metadata: dict[str, str | None]) -> bytes:
         buffer = io.BytesIO()
@@ -75,8 +86,12 @@ def normalised_scores(normalised: dict[str, pd.DataFrame]) -> Figure:
         _show_all(axes, scores.stack())
         for agent, colour in _colours(list(scores)).items():
             axes.plot(scores[agent], range(len(games)), "o", color=colour, markersize=4, label=agent)
-        axes.set(title=f"{name} scores", yticks=range(len(games)), ylim=(len(games) - 0.5, -0.5),
-                 yticklabels=games if axes is panels[0] else [])
+        axes.set(
+            title=f"{name} scores",
+            yticks=range(len(games)),
+            ylim=(len(games) - 0.5, -0.5),
+            yticklabels=games if axes is panels[0] else [],
+        )
         axes.grid(axis="y", linewidth=0.3)
     panels[-1].legend(loc="upper left", bbox_to_anchor=(1, 1))
     return figure
@@ -89,7 +104,7 @@ def aggregate_scores(rows: pd.DataFrame) -> Figure:
     figure, panels = _grid(len(names), 2, 6.4, 1.9 * len(names))
     for line, name in enumerate(names):
         shown = rows[rows["normalisation"] == name]
-        for axes, statistic in zip(panels[2 * line:], ("average", "median")):
+        for axes, statistic in zip(panels[2 * line :], ("average", "median")):
             axes.bar(shown["agent"], shown[statistic], color=list(_colours(list(shown["agent"])).values()))
             axes.set(title=f"{statistic} {name} score")
             axes.axhline(0, color="black", linewidth=0.5)
@@ -120,8 +135,9 @@ def profiles(rows: pd.DataFrame) -> Figure:
     for axes, (name, shown) in zip(panels, _parts(rows, "normalisation")):
         colours = _colours(list(dict.fromkeys(shown["agent"])))
         for agent, curve in _parts(shown, "agent"):
-            _curve_with_band(axes, curve["threshold"], curve["share of trials"], (curve["low"], curve["high"]),
-                             colours[agent], agent)
+            _curve_with_band(
+                axes, curve["threshold"], curve["share of trials"], (curve["low"], curve["high"]), colours[agent], agent
+            )
         axes.set(title=f"{name} scores", xlabel="threshold", ylabel="share of trials above it", ylim=(0, 1.02))
     panels[-1].legend()
     return figure
@@ -138,20 +154,27 @@ def learning_curves(rows: pd.DataFrame) -> Figure:
     for axes, (game, shown) in zip(panels, _parts(rows, "game")):
         for agent, curve in _parts(shown, "agent"):
             error = curve["standard error"].fillna(0)
-            _curve_with_band(axes, curve["frames"], curve["score"], (curve["score"] - error, curve["score"] + error),
-                             colours[agent], agent)
+            _curve_with_band(
+                axes,
+                curve["frames"],
+                curve["score"],
+                (curve["score"] - error, curve["score"] + error),
+                colours[agent],
+                agent,
+            )
         axes.set(title=game, xlabel="frames", ylabel="score")
         axes.xaxis.set_major_locator(MaxNLocator(5))
         axes.xaxis.set_major_formatter(EngFormatter(sep=""))
-    for axes in panels[len(games):]:
+    for axes in panels[len(games) :]:
         axes.set_axis_off()
     handles = [matplotlib.lines.Line2D([], [], color=colour, label=agent) for agent, colour in colours.items()]
     figure.legend(handles=handles, loc="outside lower center", ncols=min(8, len(handles)))
     return figure
 
 
-def _curve_with_band(axes: Axes, x: pd.Series, y: pd.Series, band: tuple[pd.Series, pd.Series], colour: str,
-                     label: str) -> None:
+def _curve_with_band(
+    axes: Axes, x: pd.Series, y: pd.Series, band: tuple[pd.Series, pd.Series], colour: str, label: str
+) -> None:
     axes.plot(x, y, color=colour, label=label, linewidth=1.2)
     low, high = (np.asarray(bound, dtype=float) for bound in band)
     axes.fill_between(x, low, high, color=colour, alpha=0.2, linewidth=0)

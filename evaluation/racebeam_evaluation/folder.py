@@ -26,4 +26,6 @@ def write(folder: pathlib.Path, files: dict[str, bytes]) -> None:
                 (aside / name).write_bytes(content)
             os.replace(aside, folder)
     except OSError as error:
-        raise BadInput(f"{folder} cannot be written: {error.strerror}; expected a folder with room for the report") from error
+        raise BadInput(
+            f"{folder} cannot be written: {error.strerror}; expected a folder with room for the report"
+        ) from error

@@ -11,9 +11,33 @@ DATA = pathlib.Path(__file__).parent / "data"
 
 # Kaiser et al.: "Model-Based Reinforcement Learning for Atari", arXiv:1903.00374, table of results.
 ATARI100K = (
-    "alien", "amidar", "assault", "asterix", "bank_heist", "battle_zone", "boxing", "breakout", "chopper_command",
-    "crazy_climber", "demon_attack", "freeway", "frostbite", "gopher", "hero", "jamesbond", "kangaroo", "krull",
-    "kung_fu_master", "ms_pacman", "pong", "private_eye", "qbert", "road_runner", "seaquest", "up_n_down")
+    "alien",
+    "amidar",
+    "assault",
+    "asterix",
+    "bank_heist",
+    "battle_zone",
+    "boxing",
+    "breakout",
+    "chopper_command",
+    "crazy_climber",
+    "demon_attack",
+    "freeway",
+    "frostbite",
+    "gopher",
+    "hero",
+    "jamesbond",
+    "kangaroo",
+    "krull",
+    "kung_fu_master",
+    "ms_pacman",
+    "pong",
+    "private_eye",
+    "qbert",
+    "road_runner",
+    "seaquest",
+    "up_n_down",
+)
 
 _OTHER = "other"  # the set of a game that the paper does not have
 
@@ -24,7 +48,7 @@ def published(name: str) -> pd.DataFrame:
 
 
 PAPER = published("paper2013/games")  # the paper's 55 games in its order: set, title
-HUMAN = published("human")            # random, human: published mean scores of 57 games
+HUMAN = published("human")  # random, human: published mean scores of 57 games
 CATALOGUE = tuple(published("catalogue").index)  # the names of all games that racebeam has
 
 
@@ -34,9 +58,14 @@ def check_games(path: pathlib.Path, games: pd.Series, others: set[str]) -> None:
     for row, game in enumerate(games.astype("str")):
         if game not in known:
             close = difflib.get_close_matches(game.lower(), known, n=1)
-            raise BadInput(f"{path}, line {row + 2}: there is no game '{game}'; " +
-                           (f"did you mean {close[0]}?" if close else "expected a name that racebeam games lists, or that the "
-                            "folder's plan.toml has under [images]"))
+            raise BadInput(
+                f"{path}, line {row + 2}: there is no game '{game}'; "
+                + (
+                    f"did you mean {close[0]}?"
+                    if close
+                    else "expected a name that racebeam games lists, or that the folder's plan.toml has under [images]"
+                )
+            )
 
 
 def in_order(games: list[str]) -> list[str]:

@@ -15,23 +15,41 @@ from .results import Results
 from .table import Table
 
 _CHECKPOINTS = (10_000_000, 50_000_000, 100_000_000, 200_000_000)  # frames of a trial
-_LAST = 100                                                        # training episodes
+_LAST = 100  # training episodes
 _LONGEST = 18_000  # frames of an episode, which is how far short of a checkpoint the last whole one may end
 
 
 def evaluate(results: Results, _: Bootstrap) -> Report:
     """The report of training episodes. Raises BadInput if there are none."""
     if results.curves is None:
-        raise BadInput("the report machado2018 is of training episodes, and no curves.csv of RESULTS has one; expected learners")
+        raise BadInput(
+            "the report machado2018 is of training episodes, and no curves.csv of RESULTS has one; expected learners"
+        )
     sources = results.curve_sources
     report = Report("Evaluation as in Machado et al. 2018", list(results.notes), sources)
-    report.add_table(Table("machado2018", f"Mean score of the last {_LAST} training episodes at four numbers of frames, and its "
-                           "standard deviation over trials.", checkpoints(results.curves), sources,
-                           (f"n/a: fewer frames, or fewer than {_LAST} episodes; a deviation needs two trials.",), digits=1))
+    report.add_table(
+        Table(
+            "machado2018",
+            f"Mean score of the last {_LAST} training episodes at four numbers of frames, and its "
+            "standard deviation over trials.",
+            checkpoints(results.curves),
+            sources,
+            (f"n/a: fewer frames, or fewer than {_LAST} episodes; a deviation needs two trials.",),
+            digits=1,
+        )
+    )
     curves = learning_curves(results.curves)
-    report.add_table(Table("learning-curves", "Scores of training episodes by the frames trained for.", curves, sources))
-    report.parts.append(Picture("learning-curves", "Scores of training episodes, with their standard error over trials.",
-                                figure.learning_curves(curves), sources))
+    report.add_table(
+        Table("learning-curves", "Scores of training episodes by the frames trained for.", curves, sources)
+    )
+    report.parts.append(
+        Picture(
+            "learning-curves",
+            "Scores of training episodes, with their standard error over trials.",
+            figure.learning_curves(curves),
+            sources,
+        )
+    )
     return report
 
 

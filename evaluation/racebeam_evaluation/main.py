@@ -39,13 +39,23 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="racebeam-evaluate", epilog=_EPILOG,
-                                     description="Makes tables, tests and figures from results of racebeam experiment.")
-    parser.add_argument("results", nargs="*", type=pathlib.Path, metavar="RESULTS",
-                        help="a folder with results.csv; several are evaluated together")
+    parser = argparse.ArgumentParser(
+        prog="racebeam-evaluate",
+        epilog=_EPILOG,
+        description="Makes tables, tests and figures from results of racebeam experiment.",
+    )
+    parser.add_argument(
+        "results",
+        nargs="*",
+        type=pathlib.Path,
+        metavar="RESULTS",
+        help="a folder with results.csv; several are evaluated together",
+    )
     parser.add_argument("--paper", action="store_true", help="evaluate the scores that Bellemare et al. 2013 print")
     parser.add_argument("--into", required=True, type=pathlib.Path, metavar="FOLDER", help="a new or an empty folder")
-    parser.add_argument("--report", choices=_REPORTS, default="paper2013", help="the kind of report (default: %(default)s)")
+    parser.add_argument(
+        "--report", choices=_REPORTS, default="paper2013", help="the kind of report (default: %(default)s)"
+    )
     parser.add_argument("--seed", type=_whole, default=1, help="of the bootstrap (default: %(default)s)")
     parser.add_argument("--repetitions", type=_positive, default=2000, help="of the bootstrap (default: %(default)s)")
     return parser

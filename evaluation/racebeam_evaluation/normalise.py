@@ -13,7 +13,7 @@ class Ranges:
     """The score range of each game. A range that is not known is NaN."""
 
     name: str
-    low: pd.Series   # a score for each game
+    low: pd.Series  # a score for each game
     high: pd.Series  # the same
     notes: tuple[str, ...] = ()
     bounded: bool = False  # all normalised scores are from 0 to 1
@@ -43,7 +43,9 @@ def all_ranges(scores: Scores, group: Group) -> list[Ranges]:
 
 def _random(scores: Scores) -> Ranges:
     """From 0 to the absolute value of the mean score of random play."""
-    high = scores.views["random"].abs() if "random" in scores.views else pd.Series(index=scores.means.index, dtype=float)
+    high = (
+        scores.views["random"].abs() if "random" in scores.views else pd.Series(index=scores.means.index, dtype=float)
+    )
     return Ranges("random", high * 0, high)
 
 
@@ -51,8 +53,10 @@ def _baseline(scores: Scores) -> Ranges:
     """From the lowest to the highest score of the references, which should be all 37 baselines."""
     known = scores.references.notna().sum(axis=1)
     fewer = sorted(set(known[(known > 0) & (known < BASELINES)]))
-    notes = [f"Baseline scores: {_games(int((known == count).sum()))} {count} of the {BASELINES} references."
-             for count in fewer]
+    notes = [
+        f"Baseline scores: {_games(int((known == count).sum()))} {count} of the {BASELINES} references."
+        for count in fewer
+    ]
     return Ranges("baseline", scores.references.min(axis=1), scores.references.max(axis=1), tuple(notes))
 
 

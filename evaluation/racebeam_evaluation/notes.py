@@ -31,8 +31,11 @@ def of_aggregates(scores: Scores, group: Group, ranges: list[Ranges]) -> tuple[s
 def of_left_out(scores: Scores, results: Results) -> list[str]:
     """The tables that the report does not have."""
     groups = [group.name for group in scores.groups]
-    lacking = [f"There are no {role}: the tables {group}-... are left out."
-               for role, group in (("learners", "learning"), ("planners", "planning")) if group not in groups]
+    lacking = [
+        f"There are no {role}: the tables {group}-... are left out."
+        for role, group in (("learners", "learning"), ("planners", "planning"))
+        if group not in groups
+    ]
     if groups == ["baselines"]:
         lacking.append("There are only baselines: the tables groups, -tests, -means and -improvement are left out.")
     if results.curves is None:
@@ -54,8 +57,12 @@ def of_trials(scores: Scores, group: Group) -> tuple[str, ...]:
 
 def of_lacking(found: list[Pair]) -> tuple[str, ...]:
     """Games that one of two agents lacks."""
-    return tuple(f"{pair.first} and {pair.second} are compared in {counted_games(len(pair.games))}; only one of them has played "
-                 f"{_listed(pair.lacking)}." for pair in found if pair.lacking)
+    return tuple(
+        f"{pair.first} and {pair.second} are compared in {counted_games(len(pair.games))}; only one of them has played "
+        f"{_listed(pair.lacking)}."
+        for pair in found
+        if pair.lacking
+    )
 
 
 def of_untested(scores: Scores, group: Group, found: list[Pair]) -> list[str]:
@@ -65,7 +72,15 @@ def of_untested(scores: Scores, group: Group, found: list[Pair]) -> list[str]:
         for agent in (pair.first, pair.second):
             short = [game for game in pair.few if len(scores.trial_scores(agent, game)) < FEWEST_TRIALS]
             few[agent] = [*few.get(agent, []), *(game for game in short if game not in few.get(agent, []))]
-    sentences = [f"Not tested: {agent} on {_listed(games)} has fewer than {FEWEST_TRIALS} trials; "
-                 f"a test takes {FEWEST_TRIALS} or more." for agent, games in few.items() if games]
-    return sentences + [f"Not tested: {pair.first} and {pair.second} on {_listed(pair.constant)} have no variance; "
-                        f"a test takes trials that differ." for pair in found if pair.constant]
+    sentences = [
+        f"Not tested: {agent} on {_listed(games)} has fewer than {FEWEST_TRIALS} trials; "
+        f"a test takes {FEWEST_TRIALS} or more."
+        for agent, games in few.items()
+        if games
+    ]
+    return sentences + [
+        f"Not tested: {pair.first} and {pair.second} on {_listed(pair.constant)} have no variance; "
+        f"a test takes trials that differ."
+        for pair in found
+        if pair.constant
+    ]

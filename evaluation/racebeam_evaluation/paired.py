@@ -23,14 +23,14 @@ class Pair:
 
     first: str
     second: str
-    games: list[str]          # that both have played
-    lacking: list[str]        # that only one has
-    higher: list[str]         # in which the first has the higher mean
+    games: list[str]  # that both have played
+    lacking: list[str]  # that only one has
+    higher: list[str]  # in which the first has the higher mean
     lower: list[str]
-    better: list[str]         # in which the first is significantly better
+    better: list[str]  # in which the first is significantly better
     worse: list[str]
-    few: list[str]            # not tested: one has fewer than two trials
-    constant: list[str]       # not tested: neither varies
+    few: list[str]  # not tested: one has fewer than two trials
+    constant: list[str]  # not tested: neither varies
 
     @property
     def tested(self) -> list[str]:
@@ -50,11 +50,18 @@ def _pair(scores: Scores, first: str, second: str) -> Pair:
     found: dict[str, list[str]] = {name: [] for name in ("better", "worse", "even", "few", "constant")}
     for game in games:
         found[_verdict(scores.trial_scores(first, game), scores.trial_scores(second, game))].append(game)
-    return Pair(first, second, games,
-                lacking=list(both.index[both.isna().sum(axis=1) == 1]),
-                higher=list(means.index[means[first] > means[second]]),
-                lower=list(means.index[means[first] < means[second]]),
-                better=found["better"], worse=found["worse"], few=found["few"], constant=found["constant"])
+    return Pair(
+        first,
+        second,
+        games,
+        lacking=list(both.index[both.isna().sum(axis=1) == 1]),
+        higher=list(means.index[means[first] > means[second]]),
+        lower=list(means.index[means[first] < means[second]]),
+        better=found["better"],
+        worse=found["worse"],
+        few=found["few"],
+        constant=found["constant"],
+    )
 
 
 def _verdict(first: Sample, second: Sample) -> str:
@@ -71,7 +78,9 @@ def _verdict(first: Sample, second: Sample) -> str:
 def welch(first: Sample, second: Sample) -> float:
     """The two-tailed p-value of Welch's t-test. At least one sample varies."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # of nearly equal values, whose p-value is right to fewer digits
+        warnings.simplefilter(
+            "ignore", RuntimeWarning
+        )  # of nearly equal values, whose p-value is right to fewer digits
         return float(scipy.stats.ttest_ind(first, second, equal_var=False).pvalue)
 
 

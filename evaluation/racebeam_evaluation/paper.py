@@ -17,8 +17,14 @@ def paper_scores() -> Scores:
     learners, planners = published("paper2013/learners"), published("paper2013/planners")
     views = learners[list(BASELINE_VIEWS)]
     means = pd.concat([learners.drop(columns=list(BASELINE_VIEWS)), planners[["full_tree", "uct"]]], axis=1)
-    return Scores(means=means.loc[PAPER.index], trials=None, references=views, views=views, notes=_NOTES,
-                  other_rewards=("skiing",))
+    return Scores(
+        means=means.loc[PAPER.index],
+        trials=None,
+        references=views,
+        views=views,
+        notes=_NOTES,
+        other_rewards=("skiing",),
+    )
 
 
 def beside_published(scores: Scores) -> pd.DataFrame:
@@ -27,6 +33,10 @@ def beside_published(scores: Scores) -> pd.DataFrame:
     ours = pd.concat([scores.means, scores.views], axis=1)
     theirs = pd.concat([paper.means, paper.views, published("successors")], axis=1)
     shared = [agent for agent in ours if agent in theirs]
-    rows = [{"game": game, "agent": agent, "score": ours.loc[game, agent], "published": theirs.loc[game, agent]}
-            for game in ours.index if game in theirs.index for agent in shared]
+    rows = [
+        {"game": game, "agent": agent, "score": ours.loc[game, agent], "published": theirs.loc[game, agent]}
+        for game in ours.index
+        if game in theirs.index
+        for agent in shared
+    ]
     return pd.DataFrame(rows).dropna() if rows else pd.DataFrame()

@@ -22,14 +22,29 @@ def evaluate(results: Results, bootstrap: Bootstrap) -> Report:
     """The report of results."""
     scores = scores_of(results)
     report = Report("Evaluation", [*scores.notes, *notes.of_left_out(scores, results)], results.sources)
-    report.add_table(Table("beside-published", "Scores beside those of the paper and of its successors.", beside_published(scores),
-                           results.sources, digits=1))
+    report.add_table(
+        Table(
+            "beside-published",
+            "Scores beside those of the paper and of its successors.",
+            beside_published(scores),
+            results.sources,
+            digits=1,
+        )
+    )
     add_groups(report, scores, bootstrap)
     if results.curves is not None:
         curves, sources = learning_curves(results.curves), results.curve_sources
-        report.add_table(Table("learning-curves", "Scores of training episodes by the frames trained for.", curves, sources))
-        report.parts.append(Picture("learning-curves", "Scores of training episodes, with their standard error over trials.",
-                                    figure.learning_curves(curves), sources))
+        report.add_table(
+            Table("learning-curves", "Scores of training episodes by the frames trained for.", curves, sources)
+        )
+        report.parts.append(
+            Picture(
+                "learning-curves",
+                "Scores of training episodes, with their standard error over trials.",
+                figure.learning_curves(curves),
+                sources,
+            )
+        )
     return report
 
 
@@ -48,8 +63,10 @@ def add_groups(report: Report, scores: Scores, bootstrap: Bootstrap) -> None:
 
 def _counted(games: list[str]) -> str:
     each = {name: those for name, those in sets(games).items() if " + " not in name}
-    return ", ".join(f"{len(those)} of the {name} set" if name != "other" else f"{len(those)} that the paper lacks"
-                     for name, those in each.items())
+    return ", ".join(
+        f"{len(those)} of the {name} set" if name != "other" else f"{len(those)} that the paper lacks"
+        for name, those in each.items()
+    )
 
 
 def _with_set(frame: pd.DataFrame) -> pd.DataFrame:
@@ -64,9 +81,14 @@ def columns(scores: Scores, group: Group) -> pd.DataFrame:
     if group.name != "planning":
         views = () if group.name == "baselines" else tuple(scores.views)
         return scores.columns(group.agents + views).dropna(how="all")
-    best = {f"best_{kind}": others.max(axis=1) for kind, others in
-            (("learner", _learners(scores)), ("baseline", scores.views)) if len(others.columns)}
-    return pd.concat([scores.columns(group.agents), pd.DataFrame(best)], axis=1).dropna(how="all", subset=list(group.agents))
+    best = {
+        f"best_{kind}": others.max(axis=1)
+        for kind, others in (("learner", _learners(scores)), ("baseline", scores.views))
+        if len(others.columns)
+    }
+    return pd.concat([scores.columns(group.agents), pd.DataFrame(best)], axis=1).dropna(
+        how="all", subset=list(group.agents)
+    )
 
 
 def _learners(scores: Scores) -> pd.DataFrame:
@@ -79,60 +101,108 @@ def _against(scores: Scores, sources: tuple[Source, ...]) -> Table:
     planners = scores.means.drop(columns=_learners(scores).columns)
     others = pd.concat([_learners(scores), scores.views], axis=1)
     rows = []
-    for name, first, second in (("learners above baselines", _learners(scores), scores.views),
-                                ("planners above learners and baselines", planners, others)):
+    for name, first, second in (
+        ("learners above baselines", _learners(scores), scores.views),
+        ("planners above learners and baselines", planners, others),
+    ):
         if len(first.columns) and len(second.columns):
             above, equal, below = paired.group_against(first, second)
-            rows.append({"comparison of the best": name, "above": len(above), "equal": len(equal), "below": len(below),
-                         "games that are equal": " ".join(equal)})
-    return Table("groups", "Games in which the best of one group is above the best of others.", pd.DataFrame(rows), sources)
+            rows.append(
+                {
+                    "comparison of the best": name,
+                    "above": len(above),
+                    "equal": len(equal),
+                    "below": len(below),
+                    "games that are equal": " ".join(equal),
+                }
+            )
+    return Table(
+        "groups", "Games in which the best of one group is above the best of others.", pd.DataFrame(rows), sources
+    )
 
 
 def _add_scores(report: Report, scores: Scores, group: Group) -> None:
     shown = columns(scores, group)
     best_of = "of const and perturb, the best policy" if group.name != "planning" else "beside the best of the others"
     caption = f"Scores of the group {group.name} in each game; {best_of}."
-    report.add_table(Table(f"{group.name}-scores", caption, _with_set(shown), report.sources, digits=1,
-                           best_of=tuple(shown)))
+    report.add_table(
+        Table(f"{group.name}-scores", caption, _with_set(shown), report.sources, digits=1, best_of=tuple(shown))
+    )
     best, ties = paired.times_best(shown)
     notes = [f"Tied in {game}: {', '.join(tied)}." for game, tied in ties.items()]
-    report.add_table(Table(f"{group.name}-times-best", "Games in which each has the highest score; the first of a tie counts.",
-                           best.rename_axis("agent").rename("times best").reset_index(), report.sources, tuple(notes)))
+    report.add_table(
+        Table(
+            f"{group.name}-times-best",
+            "Games in which each has the highest score; the first of a tie counts.",
+            best.rename_axis("agent").rename("times best").reset_index(),
+            report.sources,
+            tuple(notes),
+        )
+    )
 
 
 def _add_normalised(report: Report, scores: Scores, group: Group, ranges: list[Ranges]) -> None:
     played = scores.columns(group.agents).dropna()
     normalised = {each.name: each.normalise(played) for each in ranges}
-    parts = [pd.concat({name: _with_set(frame)}, names=["normalisation"]).reset_index(0) for name, frame in normalised.items()]
+    parts = [
+        pd.concat({name: _with_set(frame)}, names=["normalisation"]).reset_index(0)
+        for name, frame in normalised.items()
+    ]
     if not len(played) or not parts:
         return
-    report.add_table(Table(f"{group.name}-normalised", f"Normalised scores of the group {group.name}.",
-                           pd.concat(parts, ignore_index=True), report.sources))
+    report.add_table(
+        Table(
+            f"{group.name}-normalised",
+            f"Normalised scores of the group {group.name}.",
+            pd.concat(parts, ignore_index=True),
+            report.sources,
+        )
+    )
     drawn = {name: frame for name, frame in normalised.items() if name in _OWN_FIGURES}
     if drawn:
-        report.parts.append(Picture(f"{group.name}-normalised", f"Normalised scores of the group {group.name}.",
-                                    figure.normalised_scores(drawn), report.sources))
+        report.parts.append(
+            Picture(
+                f"{group.name}-normalised",
+                f"Normalised scores of the group {group.name}.",
+                figure.normalised_scores(drawn),
+                report.sources,
+            )
+        )
 
 
 def _add_aggregates(report: Report, scores: Scores, group: Group, ranges: list[Ranges], bootstrap: Bootstrap) -> None:
     rows = _joined([aggregate.aggregate_rows(scores, each, group, bootstrap) for each in ranges])
-    report.add_table(Table(f"{group.name}-aggregates", f"Aggregates of normalised scores of the group {group.name}.", rows,
-                           report.sources, notes.of_aggregates(scores, group, ranges)))
+    report.add_table(
+        Table(
+            f"{group.name}-aggregates",
+            f"Aggregates of normalised scores of the group {group.name}.",
+            rows,
+            report.sources,
+            notes.of_aggregates(scores, group, ranges),
+        )
+    )
     bounded = [each for each in ranges if each.name != "random"]  # the random-normalised are too large to draw
     distributions = _joined([aggregate.distribution_rows(scores, each, group) for each in bounded])
     profiles = _joined([aggregate.profile_rows(scores, each, group, bootstrap) for each in bounded])
     drawn = rows[rows["normalisation"] != "random"] if len(rows) else rows
     for name, caption, data, draw in (
-            ("aggregates", "Average and median normalised scores", drawn, figure.aggregate_scores),
-            ("distribution", "Share of games with a normalised score or a higher one", distributions, figure.distributions),
-            ("profiles", "Share of trials above a normalised score, with its interval", profiles, figure.profiles)):
+        ("aggregates", "Average and median normalised scores", drawn, figure.aggregate_scores),
+        ("distribution", "Share of games with a normalised score or a higher one", distributions, figure.distributions),
+        ("profiles", "Share of trials above a normalised score, with its interval", profiles, figure.profiles),
+    ):
         if not len(data):
             continue
         if name != "aggregates":
             report.add_table(Table(f"{group.name}-{name}", f"{caption}.", data, report.sources))
         whole = data["set"].iloc[-1]  # the set of all games is the last
-        report.parts.append(Picture(f"{group.name}-{name}", f"{caption}, group {group.name}, games: {whole}.",
-                                    draw(data[data["set"] == whole]), report.sources))
+        report.parts.append(
+            Picture(
+                f"{group.name}-{name}",
+                f"{caption}, group {group.name}, games: {whole}.",
+                draw(data[data["set"] == whole]),
+                report.sources,
+            )
+        )
 
 
 def _joined(parts: list[pd.DataFrame]) -> pd.DataFrame:
@@ -145,13 +215,31 @@ def _add_pairs(report: Report, scores: Scores, group: Group, bootstrap: Bootstra
     if not found:
         return
     report.untested += notes.of_untested(scores, group, found)
-    report.add_table(Table(f"{group.name}-tests", "Games in which the agent of the row is significantly better--worse than that "
-                           "of the column (Welch's t-test over trials, two-tailed, 99 %).",
-                           paired.counts(found, group.agents, "better", "worse", "tested"), report.sources,
-                           (*notes.of_lacking(found), *notes.of_untested(scores, group, found))))
-    report.add_table(Table(f"{group.name}-means", "Games in which the agent of the row has a higher--lower mean than that of the "
-                           "column.", paired.counts(found, group.agents, "higher", "lower", "games"), report.sources,
-                           notes.of_lacking(found)))
-    report.add_table(Table(f"{group.name}-improvement", "Probability that a trial of the first scores more than one of the "
-                           "second.", aggregate.improvement_rows(scores, group, bootstrap), report.sources,
-                           notes.of_trials(scores, group)))
+    report.add_table(
+        Table(
+            f"{group.name}-tests",
+            "Games in which the agent of the row is significantly better--worse than that "
+            "of the column (Welch's t-test over trials, two-tailed, 99 %).",
+            paired.counts(found, group.agents, "better", "worse", "tested"),
+            report.sources,
+            (*notes.of_lacking(found), *notes.of_untested(scores, group, found)),
+        )
+    )
+    report.add_table(
+        Table(
+            f"{group.name}-means",
+            "Games in which the agent of the row has a higher--lower mean than that of the column.",
+            paired.counts(found, group.agents, "higher", "lower", "games"),
+            report.sources,
+            notes.of_lacking(found),
+        )
+    )
+    report.add_table(
+        Table(
+            f"{group.name}-improvement",
+            "Probability that a trial of the first scores more than one of the second.",
+            aggregate.improvement_rows(scores, group, bootstrap),
+            report.sources,
+            notes.of_trials(scores, group),
+        )
+    )

@@ -27,8 +27,14 @@ def evaluate_paper(bootstrap: Bootstrap) -> Report:
     report.add_table(_claims(scores, sources))
     add_groups(report, scores, bootstrap)
     report.add_table(_paired_counts(scores, sources))
-    report.add_table(Table("beginner", "Scores of a beginner in five games.",
-                           published("paper2013/human").reset_index(), (digest(DATA / "paper2013/human.csv"),)))
+    report.add_table(
+        Table(
+            "beginner",
+            "Scores of a beginner in five games.",
+            published("paper2013/human").reset_index(),
+            (digest(DATA / "paper2013/human.csv"),),
+        )
+    )
     return report
 
 
@@ -37,11 +43,14 @@ def _claims(scores: Scores, sources: tuple[Source, ...]) -> Table:
     rows = []
     for group in scores.groups:
         best, _ = paired.times_best(columns(scores, group))
-        rows += [(f"times best: {agent}", printed, int(best[agent])) for agent, printed in _TIMES_BEST[group.name].items()]
+        rows += [
+            (f"times best: {agent}", printed, int(best[agent])) for agent, printed in _TIMES_BEST[group.name].items()
+        ]
     learners, planners = (scores.columns(group.agents) for group in scores.groups)
     for name, printed, first, second in (
-            ("learners above baselines", 40, learners, scores.views),
-            ("planners above both", 49, planners, pd.concat([learners, scores.views], axis=1))):
+        ("learners above baselines", 40, learners, scores.views),
+        ("planners above both", 49, planners, pd.concat([learners, scores.views], axis=1)),
+    ):
         above, equal, _ = paired.group_against(first, second)
         rows += [(name, printed, len(above)), (f"{name} or equal", printed, len(above) + len(equal))]
     frame = pd.DataFrame(rows, columns=["statement", "printed", "rebuilt"])
@@ -53,8 +62,16 @@ def _paired_counts(scores: Scores, sources: tuple[Source, ...]) -> Table:
     printed = published("paper2013/paired").reset_index()
     counted = {(pair.first, pair.second): pair for group in scores.groups for pair in paired.pairs(scores, group)}
     found = [counted[row.first, row.second] for row in printed.itertuples()]
-    frame = printed.assign(higher=[len(pair.higher) for pair in found], lower=[len(pair.lower) for pair in found],
-                           tied=[len(pair.games) - len(pair.higher) - len(pair.lower) for pair in found])
+    frame = printed.assign(
+        higher=[len(pair.higher) for pair in found],
+        lower=[len(pair.lower) for pair in found],
+        tied=[len(pair.games) - len(pair.higher) - len(pair.lower) for pair in found],
+    )
     note = "A test that finds a difference finds it in the direction of the means. Means that are printed as tied may differ."
-    return Table("paired", "Printed tests (better, worse) beside the games with a higher, lower and tied printed mean.", frame,
-                 (*sources, digest(DATA / "paper2013/paired.csv")), (note,))
+    return Table(
+        "paired",
+        "Printed tests (better, worse) beside the games with a higher, lower and tied printed mean.",
+        frame,
+        (*sources, digest(DATA / "paper2013/paired.csv")),
+        (note,),
+    )

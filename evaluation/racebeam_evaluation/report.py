@@ -14,7 +14,7 @@ class Report:
     """What a run writes."""
 
     title: str
-    introduction: list[str]                                        # sentences
+    introduction: list[str]  # sentences
     sources: tuple[Source, ...]
     parts: list[Table | Picture] = dataclasses.field(default_factory=list)
     untested: list[str] = dataclasses.field(default_factory=list)  # sentences on tests that could not be made

@@ -13,15 +13,28 @@ from .games import check_games
 
 DIVERGED = "diverged"  # the end of a trial whose weights are not finite; its row has no score
 
-_RESULTS = {"game": Kind.NAME, "image_md5": Kind.TEXT, "agent": Kind.NAME, "trial": Kind.WHOLE, "episode": Kind.WHOLE,
-            "score": Kind.OPTIONAL, "end": Kind.TEXT}
-_CURVES = {"game": Kind.NAME, "agent": Kind.NAME, "trial": Kind.WHOLE, "episode": Kind.WHOLE, "score": Kind.DECIMAL,
-           "frames": Kind.WHOLE}
+_RESULTS = {
+    "game": Kind.NAME,
+    "image_md5": Kind.TEXT,
+    "agent": Kind.NAME,
+    "trial": Kind.WHOLE,
+    "episode": Kind.WHOLE,
+    "score": Kind.OPTIONAL,
+    "end": Kind.TEXT,
+}
+_CURVES = {
+    "game": Kind.NAME,
+    "agent": Kind.NAME,
+    "trial": Kind.WHOLE,
+    "episode": Kind.WHOLE,
+    "score": Kind.DECIMAL,
+    "frames": Kind.WHOLE,
+}
 _AGENTS = {"agent": Kind.NAME, "role": Kind.TEXT}
 _KEY = ["game", "agent", "trial", "episode"]
 
 _OWN = {"name", "seed", "games", "agents", "trials"}  # keys in which the plans of one report may differ
-_OWN_TABLES = {"images"}                              # images are compared in results.csv
+_OWN_TABLES = {"images"}  # images are compared in results.csv
 
 ROLES = ("learner", "planner", "baseline")
 
@@ -32,7 +45,7 @@ _Settings = dict[str, str]  # by KEY or TABLE.KEY, as the plan has it
 class Results:
     """The episodes of one or more folders."""
 
-    episodes: pd.DataFrame       # a row for each evaluation episode; the columns of _RESULTS
+    episodes: pd.DataFrame  # a row for each evaluation episode; the columns of _RESULTS
     curves: pd.DataFrame | None  # a row for each training episode; the columns of _CURVES; None: there are none
     sources: tuple[Source, ...]  # of episodes
     curve_sources: tuple[Source, ...]
@@ -50,8 +63,9 @@ def read_results(folders: list[pathlib.Path]) -> Results:
     curves = _joined([frame for frame, _ in found]) if found else None
     if curves is not None:
         _check_once(curves, "training")
-    return Results(together, curves, sources, tuple(source for _, source in found), _differences(folders),
-                   _roles(folders))
+    return Results(
+        together, curves, sources, tuple(source for _, source in found), _differences(folders), _roles(folders)
+    )
 
 
 def _episodes(folder: pathlib.Path) -> tuple[pd.DataFrame, Source]:
@@ -59,8 +73,9 @@ def _episodes(folder: pathlib.Path) -> tuple[pd.DataFrame, Source]:
     frame, source = read(path, _RESULTS)
     unscored = frame["score"].isna() & (frame["end"] != DIVERGED)
     if unscored.any():
-        raise BadInput(f"{path}, line {unscored.idxmax() + 2}: score is ''; expected a decimal number, "
-                       f"or the end {DIVERGED}")
+        raise BadInput(
+            f"{path}, line {unscored.idxmax() + 2}: score is ''; expected a decimal number, or the end {DIVERGED}"
+        )
     check_games(path, frame["game"], _games_of_plan(folder / "plan.toml"))
     return frame, source
 
@@ -82,10 +97,14 @@ def _roles(folders: list[pathlib.Path]) -> dict[str, str]:
         rows = read(path, _AGENTS, may_be_empty=True)[0].astype("str").itertuples() if path.exists() else ()
         for line, row in enumerate(rows, 2):
             if row.role not in ROLES:
-                raise BadInput(f"{path}, line {line}: role is '{row.role}'; expected {', '.join(ROLES[:-1])} or {ROLES[-1]}")
+                raise BadInput(
+                    f"{path}, line {line}: role is '{row.role}'; expected {', '.join(ROLES[:-1])} or {ROLES[-1]}"
+                )
             if roles.setdefault(row.agent, row.role) != row.role:
-                raise BadInput(f"{path}, line {line}: {row.agent} is a {row.role}, and a {roles[row.agent]} before; "
-                               "expected one role of each agent")
+                raise BadInput(
+                    f"{path}, line {line}: {row.agent} is a {row.role}, and a {roles[row.agent]} before; "
+                    "expected one role of each agent"
+                )
     return roles
 
 
@@ -98,8 +117,10 @@ def _check_once(episodes: pd.DataFrame, kind: str) -> None:
     twice = episodes[episodes.duplicated(_KEY)]
     if len(twice):
         row = twice.iloc[0]
-        raise BadInput(f"{kind} episode {row.episode} of trial {row.trial} of {row.agent} on {row.game} occurs twice; "
-                       f"expected each episode once, in all results together")
+        raise BadInput(
+            f"{kind} episode {row.episode} of trial {row.trial} of {row.agent} on {row.game} occurs twice; "
+            f"expected each episode once, in all results together"
+        )
 
 
 def _check_images(episodes: pd.DataFrame) -> None:
@@ -120,8 +141,10 @@ def _differences(folders: list[pathlib.Path]) -> tuple[str, ...]:
         for key, value in (_settings(path) if path.is_file() else {}).items():
             first, other = seen.setdefault(key, (value, folder.name))
             if first != value:
-                sentences.setdefault(key, f"The plans differ: {key} is {first} in {other}, and {value} in {folder.name}; "
-                                          "scores are of both.")
+                sentences.setdefault(
+                    key,
+                    f"The plans differ: {key} is {first} in {other}, and {value} in {folder.name}; scores are of both.",
+                )
     return tuple(sentences.values())
 
 

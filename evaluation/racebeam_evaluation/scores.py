@@ -11,7 +11,7 @@ from .errors import BadInput
 from .games import in_order
 from .results import DIVERGED, Results
 
-BASELINES = 37                                   # Random, and one Const and one Perturb policy for each of 18 actions
+BASELINES = 37  # Random, and one Const and one Perturb policy for each of 18 actions
 BASELINE_VIEWS = ("random", "const", "perturb")  # const and perturb: the best of 18 in each game
 _BASELINE = re.compile("random|(const|perturb)[-_].+")  # such as const_noop
 # In the order of tables. Other agents follow those of their role, which agents.csv says; without it, they are learners.
@@ -34,11 +34,11 @@ class Group:
 class Scores:
     """Scores of every agent in every game."""
 
-    means: pd.DataFrame                  # of trials: a row for each game, a column for each agent; NaN: not played
-    trials: Trials | None                # the mean of each trial of an agent in a game; None: only `means` are known
-    references: pd.DataFrame             # scores of baselines: a row for each game, a column for each baseline
-    views: pd.DataFrame                  # scores of BASELINE_VIEWS: a row for each game
-    notes: tuple[str, ...] = ()          # sentences on what was left out
+    means: pd.DataFrame  # of trials: a row for each game, a column for each agent; NaN: not played
+    trials: Trials | None  # the mean of each trial of an agent in a game; None: only `means` are known
+    references: pd.DataFrame  # scores of baselines: a row for each game, a column for each baseline
+    views: pd.DataFrame  # scores of BASELINE_VIEWS: a row for each game
+    notes: tuple[str, ...] = ()  # sentences on what was left out
     other_rewards: tuple[str, ...] = ()  # games whose rewards were others than those of today
     planners: tuple[str, ...] = _PLANNERS
 
@@ -77,10 +77,17 @@ def scores_of(results: Results) -> Scores:
     means = means.reindex(index=in_order(list(set(results.episodes["game"]))))
     roles = {name: results.roles.get(name) or _usual_role(name) for name in means}
     references = means[[name for name in means if roles[name] == "baseline"]]
-    lost_trials = [f"Trial {row.trial} of {row.agent} on {row.game} diverged, and is in no mean." for row in lost.itertuples()]
-    return Scores(means=means[_agents_in_order(roles)], trials=_by_agent_and_game(trials), references=references,
-                  views=_views(references), notes=(*results.notes, *lost_trials),
-                  planners=tuple(name for name in means if roles[name] == "planner"))
+    lost_trials = [
+        f"Trial {row.trial} of {row.agent} on {row.game} diverged, and is in no mean." for row in lost.itertuples()
+    ]
+    return Scores(
+        means=means[_agents_in_order(roles)],
+        trials=_by_agent_and_game(trials),
+        references=references,
+        views=_views(references),
+        notes=(*results.notes, *lost_trials),
+        planners=tuple(name for name in means if roles[name] == "planner"),
+    )
 
 
 def _by_agent_and_game(trials: pd.Series) -> Trials:

@@ -17,12 +17,12 @@ _LATEX = str.maketrans({letter: f"\\{letter}" for letter in "&%_#$"})
 class Table:
     """Rows under headings. A cell that is NaN is not available."""
 
-    name: str                      # of the files, without ending
-    caption: str                   # a sentence
+    name: str  # of the files, without ending
+    caption: str  # a sentence
     frame: pd.DataFrame
     sources: tuple[Source, ...]
-    notes: tuple[str, ...] = ()    # sentences that stand below the table
-    digits: int = 3                # after the point, in Markdown and LaTeX; CSV has them all
+    notes: tuple[str, ...] = ()  # sentences that stand below the table
+    digits: int = 3  # after the point, in Markdown and LaTeX; CSV has them all
     best_of: tuple[str, ...] = ()  # columns; the highest number of a row is printed in bold
 
     def files(self) -> dict[str, str]:
@@ -33,7 +33,9 @@ class Table:
         """The digests as comments, the headings, and a line for each row."""
         text = io.StringIO()
         text.writelines(f"# {line}\n" for line in made_from(self.sources))
-        csv.writer(text, lineterminator="\n").writerows([list(self.frame), *(map(_exact, row) for row in self._cells())])
+        csv.writer(text, lineterminator="\n").writerows(
+            [list(self.frame), *(map(_exact, row) for row in self._cells())]
+        )
         return text.getvalue()
 
     def markdown(self) -> str:
@@ -48,10 +50,23 @@ class Table:
         """A tabular that needs the package booktabs. Caption, notes and digests are comments."""
         columns = ["r" if pd.api.types.is_numeric_dtype(self.frame[name]) else "l" for name in self.frame]
         comments = [f"% {line}" for line in (self.caption, *self.notes, *made_from(self.sources))]
-        header, *rows = [" & ".join(line) + r" \\" for line in
-                         ([str(name).translate(_LATEX) for name in self.frame], *self._printed(r"\textbf{{{}}}".format))]
-        return "\n".join([*comments, rf"\begin{{tabular}}{{{''.join(columns)}}}", r"\toprule", header, r"\midrule", *rows,
-                          r"\bottomrule", r"\end{tabular}", ""])
+        header, *rows = [
+            " & ".join(line) + r" \\"
+            for line in ([str(name).translate(_LATEX) for name in self.frame], *self._printed(r"\textbf{{{}}}".format))
+        ]
+        return "\n".join(
+            [
+                *comments,
+                rf"\begin{{tabular}}{{{''.join(columns)}}}",
+                r"\toprule",
+                header,
+                r"\midrule",
+                *rows,
+                r"\bottomrule",
+                r"\end{tabular}",
+                "",
+            ]
+        )
 
     def _cells(self) -> list[tuple[object, ...]]:
         return list(self.frame.itertuples(index=False, name=None))
@@ -63,8 +78,12 @@ class Table:
         rows = []
         for row, highest in zip(self._cells(), best):
             texts = [_rounded(cell, self.digits).translate(_LATEX if escape else {}) for cell in row]
-            rows.append([bold(text) if name in self.best_of and cell == highest else text
-                         for name, cell, text in zip(self.frame, row, texts)])
+            rows.append(
+                [
+                    bold(text) if name in self.best_of and cell == highest else text
+                    for name, cell, text in zip(self.frame, row, texts)
+                ]
+            )
         return rows
 
 

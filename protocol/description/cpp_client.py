@@ -1,12 +1,18 @@
 """The tables and the methods of the client in C++."""
 
 from javascript_client import generated, sentence
+
 from server import HEAD, quoted
 
 FOLDER = "clients/cpp/racebeam/client"
 TYPES = {"int": "std::int64_t", "seed": "std::int64_t", "flag": "bool", "text": "std::string_view"}
-RESULTS = {"first": ("first", "Group"), "groups": ("rest", "the Group of each"), "nothing": ("first", ""),
-           "list": ('list("{key}")', "a list"), "ints": ('numbers("{key}")', "a list of numbers")}
+RESULTS = {
+    "first": ("first", "Group"),
+    "groups": ("rest", "the Group of each"),
+    "nothing": ("first", ""),
+    "list": ('list("{key}")', "a list"),
+    "ints": ('numbers("{key}")', "a list of numbers"),
+}
 
 
 class Shape:
@@ -17,7 +23,9 @@ class Shape:
         self.others = [argument for argument in command.arguments if argument not in self.required]
         # A command that takes one key, and nothing else, has a method with its value instead.
         self.only_key = self.others[0] if len(self.others) == 1 and self.others[0].key and not self.required else None
-        self.pack = next((argument.name for argument in self.others if argument.is_repeated), "settings" if command.keys else "words")
+        self.pack = next(
+            (argument.name for argument in self.others if argument.is_repeated), "settings" if command.keys else "words"
+        )
 
 
 def explained(argument):
@@ -30,7 +38,9 @@ def comment(command, shape, told):
     lines += [f"@param {argument.name} {argument.about or argument.usage}" for argument in shape.required]
     if shape.others and not shape.only_key:
         about = [explained(argument) for argument in shape.others if argument.about]
-        lines.append(f"@param {shape.pack} {'; '.join(about) or '`' + ' '.join(argument.usage for argument in shape.others) + '`'}")
+        lines.append(
+            f"@param {shape.pack} {'; '.join(about) or '`' + ' '.join(argument.usage for argument in shape.others) + '`'}"
+        )
     return "".join(f"  /// {line}\n" for line in lines)
 
 
@@ -45,13 +55,17 @@ def method(command):
         return f"{head}  auto {command.method}({', '.join(parameters)}) {{ return ask({', '.join(called)}); }}\n"
     if shape.only_key:
         argument = shape.only_key
-        return (f"{head}  auto {command.method}() {{ return ask({', '.join(called)}); }}\n"
-                f"  /// The same with {argument.key}: {argument.about}.\n"
-                f"  auto {command.method}({TYPES[argument.type]} {argument.key}) {{\n"
-                f"    return ask({', '.join([*called, f'Setting({quoted(argument.key)}, {argument.key})'])});\n  }}\n")
-    return (f"{head}  template <class... Words>\n"
-            f"  auto {command.method}({', '.join([*parameters, f'const Words&... {shape.pack}'])}) {{\n"
-            f"    return ask({', '.join([*called, f'{shape.pack}...'])});\n  }}\n")
+        return (
+            f"{head}  auto {command.method}() {{ return ask({', '.join(called)}); }}\n"
+            f"  /// The same with {argument.key}: {argument.about}.\n"
+            f"  auto {command.method}({TYPES[argument.type]} {argument.key}) {{\n"
+            f"    return ask({', '.join([*called, f'Setting({quoted(argument.key)}, {argument.key})'])});\n  }}\n"
+        )
+    return (
+        f"{head}  template <class... Words>\n"
+        f"  auto {command.method}({', '.join([*parameters, f'const Words&... {shape.pack}'])}) {{\n"
+        f"    return ask({', '.join([*called, f'{shape.pack}...'])});\n  }}\n"
+    )
 
 
 BEGIN = """#pragma once
@@ -116,15 +130,19 @@ def enumerator(encoding):
 
 def fields(protocol):
     named = protocol.byte_fields
-    return (f"{HEAD}#pragma once\n\n#include <array>\n#include <cstddef>\n#include <string_view>\n#include <utility>\n\n"
-            '#include "racebeam/client/encoding.hpp"\n\nnamespace racebeam::client::detail {\n\n'
-            "/// What bytes are written in where the client does not say.\n"
-            + table("Encoding", "kUsual", ((field.name, enumerator(field.encoding)) for field in named))
-            + "/// Bytes of fields that always have the same number.\n"
-            + table("std::size_t", "kSizes", ((field.name, field.fixed_size) for field in named if field.fixed_size))
-            + "/// Bytes of a pixel of fields that have the size of the screen.\n"
-            + table("std::size_t", "kPixels", ((field.name, field.bytes_of_pixel) for field in named if not field.fixed_size))
-            + "\n}  // namespace racebeam::client::detail\n")
+    return (
+        f"{HEAD}#pragma once\n\n#include <array>\n#include <cstddef>\n#include <string_view>\n#include <utility>\n\n"
+        '#include "racebeam/client/encoding.hpp"\n\nnamespace racebeam::client::detail {\n\n'
+        "/// What bytes are written in where the client does not say.\n"
+        + table("Encoding", "kUsual", ((field.name, enumerator(field.encoding)) for field in named))
+        + "/// Bytes of fields that always have the same number.\n"
+        + table("std::size_t", "kSizes", ((field.name, field.fixed_size) for field in named if field.fixed_size))
+        + "/// Bytes of a pixel of fields that have the size of the screen.\n"
+        + table(
+            "std::size_t", "kPixels", ((field.name, field.bytes_of_pixel) for field in named if not field.fixed_size)
+        )
+        + "\n}  // namespace racebeam::client::detail\n"
+    )
 
 
 def files(protocol, read):

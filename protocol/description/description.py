@@ -4,6 +4,7 @@ import dataclasses
 import math
 import pathlib
 import re
+
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -172,10 +173,16 @@ def rows(table, kind, document):
     known = {field.name for field in dataclasses.fields(kind)}
     for row in document.get(table, []):
         unknown = set(row) - known
-        expect(not unknown, f"rows of {table} have no {', '.join(sorted(unknown))}; they have {', '.join(sorted(known))}")
+        expect(
+            not unknown, f"rows of {table} have no {', '.join(sorted(unknown))}; they have {', '.join(sorted(known))}"
+        )
         try:
-            yield kind(**{"since": document["since"], **{key: tuple(value) if isinstance(value, list) else value
-                                                          for key, value in row.items()}})
+            yield kind(
+                **{
+                    "since": document["since"],
+                    **{key: tuple(value) if isinstance(value, list) else value for key, value in row.items()},
+                }
+            )
         except TypeError as error:
             raise ValueError(f"{SOURCE}: {table} {row.get('name', row.get('code', ''))}: {error}") from None
 
@@ -186,9 +193,13 @@ def completed(command):
     required = sum(1 for argument in arguments if not argument.optional)
     most = math.inf if any(argument.is_repeated for argument in arguments) else len(arguments)
     return dataclasses.replace(
-        command, arguments=arguments, method=command.method or command.name,
+        command,
+        arguments=arguments,
+        method=command.method or command.name,
         usage=command.usage or " ".join(argument.usage for argument in arguments),
-        least=required if command.least < 0 else command.least, most=most if command.most < 0 else command.most)
+        least=required if command.least < 0 else command.least,
+        most=most if command.most < 0 else command.most,
+    )
 
 
 def check(protocol):
@@ -205,11 +216,20 @@ def check(protocol):
             expect(kind in TYPES, f"{where}the type of the key {key} is {kind!r}; it is one of {', '.join(TYPES)}")
     encodings = [encoding.name for encoding in protocol.encodings]
     for field in protocol.fields:
-        expect(bool(field.shape) == bool(field.encoding), f"field {field.name}: a field of bytes has a shape and an encoding")
-        expect(not field.encoding or field.encoding in encodings, f"field {field.name}: there is no encoding {field.encoding!r}")
+        expect(
+            bool(field.shape) == bool(field.encoding),
+            f"field {field.name}: a field of bytes has a shape and an encoding",
+        )
+        expect(
+            not field.encoding or field.encoding in encodings,
+            f"field {field.name}: there is no encoding {field.encoding!r}",
+        )
     for table in (protocol.commands, protocol.settings, protocol.presets, protocol.fields, protocol.encodings):
         names = [row.name for row in table]
-        expect(len(set(names)) == len(names), f"a name is there twice: {sorted(name for name in names if names.count(name) > 1)}")
+        expect(
+            len(set(names)) == len(names),
+            f"a name is there twice: {sorted(name for name in names if names.count(name) > 1)}",
+        )
 
 
 def read(path=SOURCE):
@@ -222,6 +242,7 @@ def read(path=SOURCE):
         presets=tuple(rows("preset", Preset, document)),
         fields=tuple(rows("field", Field, document)),
         encodings=tuple(rows("encoding", Encoding, document)),
-        errors=tuple(rows("error", Error, document)))
+        errors=tuple(rows("error", Error, document)),
+    )
     check(protocol)
     return protocol

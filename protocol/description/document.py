@@ -15,8 +15,12 @@ def row(*cells):
 def choices(protocol, command, *keys):
     """The keys of a command, and the values that they may have, with their meanings."""
     arguments = next(one.arguments for one in protocol.commands if one.name == command)
-    return [(argument.key, value, meaning) for argument in arguments if argument.key in keys
-            for value, meaning in argument.choices.items()]
+    return [
+        (argument.key, value, meaning)
+        for argument in arguments
+        if argument.key in keys
+        for value, meaning in argument.choices.items()
+    ]
 
 
 def autoresets(protocol):
@@ -27,16 +31,20 @@ def autoresets(protocol):
 def tables(protocol):
     """The rows of each table, by the line of its headings."""
     return {
-        "| command | what it does |": [row(code(f"{command.name} {command.usage}".rstrip()), command.told)
-                                       for command in protocol.commands],
-        "| setting | values | default | meaning |": [row(code(one.name), one.accepted, one.default, one.told)
-                                                     for one in protocol.settings],
+        "| command | what it does |": [
+            row(code(f"{command.name} {command.usage}".rstrip()), command.told) for command in protocol.commands
+        ],
+        "| setting | values | default | meaning |": [
+            row(code(one.name), one.accepted, one.default, one.told) for one in protocol.settings
+        ],
         "| preset | sets | source |": [row(code(one.name), code(one.sets), one.told) for one in protocol.presets],
         "| field | content | encoding |": [row(code(one.name), one.told, one.encoding) for one in protocol.fields],
         "| encoding | form |": [row(code(one.name), one.told) for one in protocol.encodings],
         "| autoreset | at the end of an episode |": autoresets(protocol),
-        "| key | value | meaning |": [row(code(key), code(value), meaning) for key, value, meaning in choices(
-            protocol, "open", "start", "lives", "stack", "pool")],
+        "| key | value | meaning |": [
+            row(code(key), code(value), meaning)
+            for key, value, meaning in choices(protocol, "open", "start", "lives", "stack", "pool")
+        ],
         "| code | meaning |": [row(code(one.code), one.told) for one in protocol.errors],
     }
 
@@ -46,7 +54,7 @@ def with_table(text, head, rows):
     begin = text.index(f"{head}\n|---")
     first = text.index("\n", begin + len(head) + 1) + 1
     end = text.find("\n\n", first)
-    return text[:first] + "".join(rows) + (text[end + 1:] if end >= 0 else "")
+    return text[:first] + "".join(rows) + (text[end + 1 :] if end >= 0 else "")
 
 
 def files(protocol, read):

@@ -6,11 +6,13 @@ FOLDER = "clients/java/src/main/java/racebeam"
 HEAD = "// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.\npackage racebeam;\n\n"
 TYPES = {"int": "long", "seed": "long", "flag": "boolean", "text": "String"}
 # Type, what is returned, and how the Javadoc calls it.
-RESULTS = {"first": ("Group", "return request(line{}).first();", "the first group of the reply"),
-           "groups": ("List<Group>", "return request(line{}).rest();", "the groups after the first"),
-           "nothing": ("void", "request(line{});", ""),
-           "list": ("List<String>", 'return request(line{}).first().list("{key}");', "the list {key} of the reply"),
-           "ints": ("List<Integer>", 'return integers(request(line{}).first().list("{key}"));', "the list {key} of the reply")}
+RESULTS = {
+    "first": ("Group", "return request(line{}).first();", "the first group of the reply"),
+    "groups": ("List<Group>", "return request(line{}).rest();", "the groups after the first"),
+    "nothing": ("void", "request(line{});", ""),
+    "list": ("List<String>", 'return request(line{}).first().list("{key}");', "the list {key} of the reply"),
+    "ints": ("List<Integer>", 'return integers(request(line{}).first().list("{key}"));', "the list {key} of the reply"),
+}
 
 
 def overloads(command):
@@ -56,16 +58,20 @@ def javadoc(command, parameters, result):
     rows = [f"@param {name_of(argument)} {explained(command, argument)}" for argument in parameters]
     rows += [f"@return {result}"] if result else []
     rows.append("@throws IOException if the session has ended")
-    return "  /**\n" + f"   * {sentence(command.summary)}\n   *\n" + "".join(f"   * {row}\n" for row in rows) + "   */\n"
+    return (
+        "  /**\n" + f"   * {sentence(command.summary)}\n   *\n" + "".join(f"   * {row}\n" for row in rows) + "   */\n"
+    )
 
 
 def method(command, parameters):
     kind, _, key = command.returns.partition(" ")
     result, body, told = (text.replace("{key}", key) for text in RESULTS[kind])
     line = " + ".join([f'"{command.name}"', *map(expression, parameters)])
-    return (javadoc(command, parameters, told)
-            + f"  public {result} {camel(command.method)}({', '.join(map(parameter, parameters))}) throws IOException {{\n"
-            + f"    {body.replace('line{}', line)}\n  }}\n")
+    return (
+        javadoc(command, parameters, told)
+        + f"  public {result} {camel(command.method)}({', '.join(map(parameter, parameters))}) throws IOException {{\n"
+        + f"    {body.replace('line{}', line)}\n  }}\n"
+    )
 
 
 BASE = """/** The commands whose methods only send their words. */
@@ -93,7 +99,9 @@ public abstract sealed class Commands permits Session {
 
 
 def commands(protocol):
-    methods = "\n".join(method(command, parameters) for command in generated(protocol) for parameters in overloads(command))
+    methods = "\n".join(
+        method(command, parameters) for command in generated(protocol) for parameters in overloads(command)
+    )
     return f"{HEAD}import java.io.IOException;\nimport java.util.List;\nimport java.util.Map;\n\n{BASE}{methods}}}\n"
 
 
@@ -106,11 +114,13 @@ def fields(protocol):
     usual = map_of((field.name, f"Encoding.{field.encoding.upper()}") for field in named)
     sizes = map_of((field.name, field.fixed_size) for field in named if field.fixed_size)
     pixels = map_of((field.name, field.bytes_of_pixel) for field in named if not field.fixed_size)
-    return (f"{HEAD}import java.util.Map;\n\n/** The fields of bytes. */\nfinal class FieldTable {{\n"
-            f"  /** What bytes are written in where the client does not say. */\n  static final Map<String, Encoding> USUAL = {usual};\n"
-            f"  /** Bytes of fields that always have the same number. */\n  static final Map<String, Integer> SIZES = {sizes};\n"
-            f"  /** Bytes of a pixel of fields that have the size of the screen. */\n"
-            f"  static final Map<String, Integer> PIXELS = {pixels};\n\n  private FieldTable() {{ }}\n}}\n")
+    return (
+        f"{HEAD}import java.util.Map;\n\n/** The fields of bytes. */\nfinal class FieldTable {{\n"
+        f"  /** What bytes are written in where the client does not say. */\n  static final Map<String, Encoding> USUAL = {usual};\n"
+        f"  /** Bytes of fields that always have the same number. */\n  static final Map<String, Integer> SIZES = {sizes};\n"
+        f"  /** Bytes of a pixel of fields that have the size of the screen. */\n"
+        f"  static final Map<String, Integer> PIXELS = {pixels};\n\n  private FieldTable() {{ }}\n}}\n"
+    )
 
 
 def files(protocol, read):

@@ -4,7 +4,15 @@ from regions import with_region
 
 HEAD = "// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.\n\n"
 FOLDER = "clients/js/src"
-TYPES = {"int": "number", "seed": 'number | "random"', "flag": "0 | 1 | boolean", "text": "string", "fields": "string", "texts": "string", "actions": "Action"}
+TYPES = {
+    "int": "number",
+    "seed": 'number | "random"',
+    "flag": "0 | 1 | boolean",
+    "text": "string",
+    "fields": "string",
+    "texts": "string",
+    "actions": "Action",
+}
 RESULTS = {"first": "Group", "groups": "Group[]", "nothing": "void", "list": "string[]", "ints": "number[]"}
 
 
@@ -80,8 +88,13 @@ def method(command):
     kind, _, key = command.returns.partition(" ")
     signature = Signature(command)
     request = f"await this.request({', '.join(signature.request())})"
-    body = {"first": f"return ({request})[0];", "groups": f"return ({request}).slice(1);", "nothing": f"{request};",
-            "list": f"return list(({request})[0].{key});", "ints": f"return list(({request})[0].{key}).map(Number);"}[kind]
+    body = {
+        "first": f"return ({request})[0];",
+        "groups": f"return ({request}).slice(1);",
+        "nothing": f"{request};",
+        "list": f"return list(({request})[0].{key});",
+        "ints": f"return list(({request})[0].{key}).map(Number);",
+    }[kind]
     return f"  async {camel(command.method)}({', '.join(signature.parameters())}) {{\n    {body}\n  }}\n"
 
 
@@ -91,9 +104,11 @@ def generated(protocol):
 
 def commands(protocol):
     methods = "\n".join(method(command) for command in generated(protocol))
-    return (f'{HEAD}import {{ keyed, list }} from "./words.js";\n\n'
-            "/** The commands whose methods only send their words. `request` is a session's. */\n"
-            f"export class Commands {{\n{methods}}}\n")
+    return (
+        f'{HEAD}import {{ keyed, list }} from "./words.js";\n\n'
+        "/** The commands whose methods only send their words. `request` is a session's. */\n"
+        f"export class Commands {{\n{methods}}}\n"
+    )
 
 
 def declaration(command):
@@ -108,9 +123,11 @@ def declaration(command):
 
 def entries_of(protocol):
     """Of the fields of bytes whose names are fixed: usual encodings, sizes, and the bytes of a pixel."""
-    return ([(field.name, f'"{field.encoding}"') for field in protocol.byte_fields],
-            [(field.name, field.fixed_size) for field in protocol.byte_fields if field.fixed_size],
-            [(field.name, field.bytes_of_pixel) for field in protocol.byte_fields if not field.fixed_size])
+    return (
+        [(field.name, f'"{field.encoding}"') for field in protocol.byte_fields],
+        [(field.name, field.fixed_size) for field in protocol.byte_fields if field.fixed_size],
+        [(field.name, field.bytes_of_pixel) for field in protocol.byte_fields if not field.fixed_size],
+    )
 
 
 def object_of(pairs):
@@ -119,12 +136,17 @@ def object_of(pairs):
 
 def fields(protocol):
     usual, sizes, pixels = map(object_of, entries_of(protocol))
-    return (f"{HEAD}/** What bytes are written in where the client does not say. */\nexport const USUAL = {usual};\n"
-            f"/** Bytes of fields that always have the same number. */\nexport const SIZES = {sizes};\n"
-            f"/** Bytes of a pixel of fields that have the size of the screen. */\nexport const PIXELS = {pixels};\n")
+    return (
+        f"{HEAD}/** What bytes are written in where the client does not say. */\nexport const USUAL = {usual};\n"
+        f"/** Bytes of fields that always have the same number. */\nexport const SIZES = {sizes};\n"
+        f"/** Bytes of a pixel of fields that have the size of the screen. */\nexport const PIXELS = {pixels};\n"
+    )
 
 
 def files(protocol, read):
     types = f"{FOLDER}/index.d.ts"
-    return {f"{FOLDER}/commands.js": commands(protocol), f"{FOLDER}/field_table.js": fields(protocol),
-            types: with_region(read(types), "  ", "//", "commands", "".join(map(declaration, generated(protocol))))}
+    return {
+        f"{FOLDER}/commands.js": commands(protocol),
+        f"{FOLDER}/field_table.js": fields(protocol),
+        types: with_region(read(types), "  ", "//", "commands", "".join(map(declaration, generated(protocol)))),
+    }

@@ -37,9 +37,11 @@ def method(command):
     signature = Signature(command)
     words = ", ".join(["self", *([f'"{key}"'] if key else []), *request(command, signature)])
     about = "".join(f"\n-- {argument.name}: {argument.about}." for argument in command.arguments if argument.about)
-    return (f"-- {command.summary[0].upper()}{command.summary[1:]}.{about}\n"
-            f"function methods:{command.method}({', '.join(parameters(signature))})\n"
-            f"  {'' if kind == 'nothing' else 'return '}{KINDS[kind]}({words})\nend\n")
+    return (
+        f"-- {command.summary[0].upper()}{command.summary[1:]}.{about}\n"
+        f"function methods:{command.method}({', '.join(parameters(signature))})\n"
+        f"  {'' if kind == 'nothing' else 'return '}{KINDS[kind]}({words})\nend\n"
+    )
 
 
 HELPERS = """local methods = {}
@@ -98,11 +100,13 @@ def table(pairs):
 
 def fields(protocol):
     usual, sizes, pixels = (table(pairs) for pairs in entries_of(protocol))
-    return (f"{HEAD}return {{\n"
-            f"  -- What bytes are written in where the client does not say.\n  usual = {usual},\n"
-            f"  -- Bytes of fields that always have the same number.\n  sizes = {sizes},\n"
-            f"  -- Bytes of a pixel of fields that have the size of the screen.\n  pixels = {pixels},\n"
-            f"  -- What is true or false: 0 would be true in Lua.\n  flags = {table((name, 'true') for name in flags(protocol))},\n}}\n")
+    return (
+        f"{HEAD}return {{\n"
+        f"  -- What bytes are written in where the client does not say.\n  usual = {usual},\n"
+        f"  -- Bytes of fields that always have the same number.\n  sizes = {sizes},\n"
+        f"  -- Bytes of a pixel of fields that have the size of the screen.\n  pixels = {pixels},\n"
+        f"  -- What is true or false: 0 would be true in Lua.\n  flags = {table((name, 'true') for name in flags(protocol))},\n}}\n"
+    )
 
 
 def files(protocol, read):

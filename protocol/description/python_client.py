@@ -10,11 +10,28 @@ FOLDER = "clients/python/racebeam/wire"
 FIELDS, COMMANDS = f"{FOLDER}/fields.py", f"{FOLDER}/commands.py"
 SINGLE_FILE = "clients/python/single_file/client.py"
 WIDTH = 120
-RESULTS = {"first": "The values of the first group of the reply.", "groups": "The values of each group after the first.",
-           "list": "The list of the reply.", "ints": "The numbers of the reply."}
-TYPES = {"int": "int", "seed": "int | str", "flag": "bool | int", "text": "str", "fields": "str", "texts": "str", "actions": "object"}
-RETURNS = {"first": ("Values", "_first"), "groups": ("list[Values]", "_rest"), "nothing": ("None", "ask"),
-           "list": ("list[str]", "list_of"), "ints": ("list[int]", "_ints_of")}
+RESULTS = {
+    "first": "The values of the first group of the reply.",
+    "groups": "The values of each group after the first.",
+    "list": "The list of the reply.",
+    "ints": "The numbers of the reply.",
+}
+TYPES = {
+    "int": "int",
+    "seed": "int | str",
+    "flag": "bool | int",
+    "text": "str",
+    "fields": "str",
+    "texts": "str",
+    "actions": "object",
+}
+RETURNS = {
+    "first": ("Values", "_first"),
+    "groups": ("list[Values]", "_rest"),
+    "nothing": ("None", "ask"),
+    "list": ("list[str]", "list_of"),
+    "ints": ("list[int]", "_ints_of"),
+}
 
 
 def sentence(text):
@@ -98,15 +115,22 @@ def length(one):
 
 def fields(protocol):
     usual = "".join(f'    "{field.name}": "{field.encoding}",\n' for field in protocol.byte_fields)
-    shapes = "".join(f'    "{field.name}": ({", ".join(map(length, field.shape))}{"," * (len(field.shape) == 1)}),\n'
-                     for field in protocol.byte_fields)
-    return (f"# The encoding of each field when `observe` does not name one.\nUSUAL_ENCODING = {{\n{usual}}}\n"
-            f"SHAPES: dict[str, tuple[int | str, ...]] = {{\n{shapes}}}\n")
+    shapes = "".join(
+        f'    "{field.name}": ({", ".join(map(length, field.shape))}{"," * (len(field.shape) == 1)}),\n'
+        for field in protocol.byte_fields
+    )
+    return (
+        f"# The encoding of each field when `observe` does not name one.\nUSUAL_ENCODING = {{\n{usual}}}\n"
+        f"SHAPES: dict[str, tuple[int | str, ...]] = {{\n{shapes}}}\n"
+    )
 
 
 def files(protocol, read):
-    written = {FIELDS: with_region(read(FIELDS), "", "#", "fields", fields(protocol)),
-               COMMANDS: with_region(read(COMMANDS), "    ", "#", "commands", commands(protocol))}
-    modules = {name: written.get(f"{FOLDER}/{name}.py") or read(f"{FOLDER}/{name}.py")
-               for name in python_single_file.MODULES}
+    written = {
+        FIELDS: with_region(read(FIELDS), "", "#", "fields", fields(protocol)),
+        COMMANDS: with_region(read(COMMANDS), "    ", "#", "commands", commands(protocol)),
+    }
+    modules = {
+        name: written.get(f"{FOLDER}/{name}.py") or read(f"{FOLDER}/{name}.py") for name in python_single_file.MODULES
+    }
     return written | {SINGLE_FILE: python_single_file.joined(modules)}

@@ -4,8 +4,20 @@ import ast
 import collections
 
 HEAD = "# Made from clients/python/racebeam/wire by protocol/description/generate. Do not change it by hand.\n"
-MODULES = ("messages", "encodings", "fields", "observations", "addresses", "transport", "exchange", "commands", "session",
-           "stack", "opening", "client")  # each after those that it imports; the last has the docstring and __all__
+MODULES = (
+    "messages",
+    "encodings",
+    "fields",
+    "observations",
+    "addresses",
+    "transport",
+    "exchange",
+    "commands",
+    "session",
+    "stack",
+    "opening",
+    "client",
+)  # each after those that it imports; the last has the docstring and __all__
 
 
 def is_docstring(node):
@@ -28,11 +40,17 @@ def defined(tree):
 def body(name, text):
     """The lines of a module after its imports. Only the last module keeps its __all__."""
     tree = ast.parse(text)
-    dropped = [node for node in tree.body if is_docstring(node) or isinstance(node, (ast.Import, ast.ImportFrom))
-               or is_export_list(node) and name != MODULES[-1]]
+    dropped = [
+        node
+        for node in tree.body
+        if is_docstring(node)
+        or isinstance(node, (ast.Import, ast.ImportFrom))
+        or is_export_list(node)
+        and name != MODULES[-1]
+    ]
     lines = text.splitlines()
     for node in dropped:
-        lines[node.lineno - 1:node.end_lineno] = [None] * (node.end_lineno - node.lineno + 1)
+        lines[node.lineno - 1 : node.end_lineno] = [None] * (node.end_lineno - node.lineno + 1)
     return "\n".join(line for line in lines if line is not None).strip()
 
 
@@ -49,8 +67,10 @@ def imports(trees):
             plain |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module != "__future__":
             members[node.module] |= {alias.name for alias in node.names}
-    froms = [f"from {module} import {', '.join(sorted(names, key=lambda name: (group(name), name)))}"
-             for module, names in sorted(members.items())]
+    froms = [
+        f"from {module} import {', '.join(sorted(names, key=lambda name: (group(name), name)))}"
+        for module, names in sorted(members.items())
+    ]
     return "\n".join(["from __future__ import annotations", "", *(f"import {name}" for name in sorted(plain)), *froms])
 
 

@@ -86,32 +86,67 @@ consteval bool same_names(const One& one, const Other& other) {
 
 
 def tables(protocol):
-    return "\n".join((
-        HEAD + STRUCTS.rstrip("\n") + "\n",
-        array("Setting", "kSettings", (braced(quoted(row.name), quoted(row.accepted), quoted(row.told)) for row in protocol.settings)),
-        array("Preset", "kPresets", (braced(quoted(row.name), quoted(row.sets), quoted(row.told)) for row in protocol.presets)),
-        array("Field", "kFields", (braced(quoted(row.name), quoted(row.told), boolean(row.of_request), quoted(row.encoding))
-                                   for row in protocol.fields)),
-        array("Choice", "kChoices", (braced(quoted(command.name), quoted(argument.key), quoted(value), quoted(meaning))
-                                     for command in protocol.commands for argument in command.arguments
-                                     for value, meaning in argument.choices.items())),
-        array("Encoding", "kEncodings", (braced(quoted(row.name), quoted(row.told)) for row in protocol.encodings)),
-        array("Error", "kErrors", (braced(quoted(row.code), quoted(row.told)) for row in protocol.errors)),
-        "}  // namespace racebeam::description\n"))
+    return "\n".join(
+        (
+            HEAD + STRUCTS.rstrip("\n") + "\n",
+            array(
+                "Setting",
+                "kSettings",
+                (braced(quoted(row.name), quoted(row.accepted), quoted(row.told)) for row in protocol.settings),
+            ),
+            array(
+                "Preset",
+                "kPresets",
+                (braced(quoted(row.name), quoted(row.sets), quoted(row.told)) for row in protocol.presets),
+            ),
+            array(
+                "Field",
+                "kFields",
+                (
+                    braced(quoted(row.name), quoted(row.told), boolean(row.of_request), quoted(row.encoding))
+                    for row in protocol.fields
+                ),
+            ),
+            array(
+                "Choice",
+                "kChoices",
+                (
+                    braced(quoted(command.name), quoted(argument.key), quoted(value), quoted(meaning))
+                    for command in protocol.commands
+                    for argument in command.arguments
+                    for value, meaning in argument.choices.items()
+                ),
+            ),
+            array("Encoding", "kEncodings", (braced(quoted(row.name), quoted(row.told)) for row in protocol.encodings)),
+            array("Error", "kErrors", (braced(quoted(row.code), quoted(row.told)) for row in protocol.errors)),
+            "}  // namespace racebeam::description\n",
+        )
+    )
 
 
 def command_rows(protocol):
     """For command_table.cpp: the handlers, and the rows that bind them."""
     handlers = "".join(f"void run_{command.name}(Session&, Words);\n" for command in protocol.commands)
     rows = "".join(
-        braced(quoted(command.name), quoted(command.usage), quoted(command.told), quoted(command.hint), quoted(command.example),
-               str(command.least), "kAnyNumber" if command.most == math.inf else str(command.most),
-               f"Needs::{enumerator(command.needs)}", f"run_{command.name}")
-        for command in protocol.commands)
+        braced(
+            quoted(command.name),
+            quoted(command.usage),
+            quoted(command.told),
+            quoted(command.hint),
+            quoted(command.example),
+            str(command.least),
+            "kAnyNumber" if command.most == math.inf else str(command.most),
+            f"Needs::{enumerator(command.needs)}",
+            f"run_{command.name}",
+        )
+        for command in protocol.commands
+    )
     aliases = "".join(braced(quoted(name), quoted(command)) for name, command in protocol.aliases.items())
-    return (f"{HEAD}\n{handlers}\n"
-            f"constexpr std::array<Command, {len(protocol.commands)}> kCommands = {{{{\n{rows}}}}};\n\n"
-            f"constexpr std::array<Alias, {len(protocol.aliases)}> kAliases = {{{{\n{aliases}}}}};\n")
+    return (
+        f"{HEAD}\n{handlers}\n"
+        f"constexpr std::array<Command, {len(protocol.commands)}> kCommands = {{{{\n{rows}}}}};\n\n"
+        f"constexpr std::array<Alias, {len(protocol.aliases)}> kAliases = {{{{\n{aliases}}}}};\n"
+    )
 
 
 def keys(types):
@@ -120,8 +155,16 @@ def keys(types):
 
 def reply_rows(protocol):
     """For the tests: what each command answers."""
-    rows = "".join(braced(quoted(command.name), keys(command.reply), keys(command.groups), quoted(command.shows), quoted(command.echoes))
-                   for command in protocol.commands)
+    rows = "".join(
+        braced(
+            quoted(command.name),
+            keys(command.reply),
+            keys(command.groups),
+            quoted(command.shows),
+            quoted(command.echoes),
+        )
+        for command in protocol.commands
+    )
     return f"{HEAD}\ninline constexpr std::array<ReplyRow, {len(protocol.commands)}> kReplies = {{{{\n{rows}}}}};\n"
 
 

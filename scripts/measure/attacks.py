@@ -1,4 +1,5 @@
 """The attacks of scripts/load --hostile: what one session does to a server. ATTACKS has them by name."""
+
 import base64
 import collections
 import pathlib
@@ -44,7 +45,7 @@ class Session:
     def send_bytes(self, data):
         try:
             self.socket.sendall(data)
-        except socket.timeout:
+        except TimeoutError:
             self.replies["(not read by the server)"] += 1
 
     def read(self, seconds):
@@ -52,7 +53,7 @@ class Session:
         self.socket.settimeout(seconds)
         try:
             data = self.socket.recv(1 << 18)
-        except socket.timeout:
+        except TimeoutError:
             return b""
         for kind in re.findall(rb"(?:^|\n)(ok|error [a-z-]+)\b", data):
             self.replies[kind.decode()] += 1

@@ -5,6 +5,7 @@ Both sides make stacks of four grey screens of 84 x 84, pooled over the last two
 and step. Elapsed time of the steps alone is measured. Processor time is printed, too, because it varies less on a busy
 machine. After every chunk, observations and RAM of both sides are compared.
 """
+
 import argparse
 import json
 import math
@@ -33,11 +34,14 @@ SEED = 123
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="scripts/bench batch", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="scripts/bench batch", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--games", nargs="+", default=GAMES, metavar="GAME", help="default: " + " ".join(GAMES))
     parser.add_argument("--machines", type=int, default=64, help="in a batch (default 64)")
-    parser.add_argument("--threads", type=int, default=os.cpu_count(), help="threads on both sides (default: all processors)")
+    parser.add_argument(
+        "--threads", type=int, default=os.cpu_count(), help="threads on both sides (default: all processors)"
+    )
     parser.add_argument("--steps", type=int, default=200, help="steps of every machine in a chunk (default 200)")
     parser.add_argument("--chunks", type=int, default=3, help="chunks of each side (default 3); medians are printed")
     parser.add_argument("--json", metavar="FILE", help="also write the figures to FILE")
@@ -67,10 +71,32 @@ def play_reference(game, actions, options):
 
 def play_racebeam(game, actions_file, threads, options):
     frames = options.machines * options.steps * FRAME_SKIP
-    figures = json.loads(subprocess.run(
-        [RACEBEAM, "bench", "--json", "--rom", image(game), "--batch", str(options.machines), "--threads", str(threads),
-         "--frame-skip", str(FRAME_SKIP), "--frames", str(frames), "--actions", actions_file, "--seed", str(SEED)],
-        check=True, capture_output=True, text=True).stdout)
+    figures = json.loads(
+        subprocess.run(
+            [
+                RACEBEAM,
+                "bench",
+                "--json",
+                "--rom",
+                image(game),
+                "--batch",
+                str(options.machines),
+                "--threads",
+                str(threads),
+                "--frame-skip",
+                str(FRAME_SKIP),
+                "--frames",
+                str(frames),
+                "--actions",
+                actions_file,
+                "--seed",
+                str(SEED),
+            ],
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout
+    )
     return figures["seconds"], figures["cpu_seconds"], figures["observation_crc"], figures["resident_bytes_per_machine"]
 
 
@@ -97,9 +123,16 @@ def measure(game, options, folder):
             sys.exit(f"bench: {game}: observations differ: {seen}")
     median = lambda side, column: statistics.median(chunk[column] for chunk in sides[side])
     frames = options.machines * options.steps * FRAME_SKIP
-    return {"game": game, "frames": frames, "reference": frames / median("reference", 0), "racebeam": frames / median("all", 0),
-            "ratio": median("reference", 0) / median("all", 0), "cpu_ratio": median("reference", 1) / median("all", 1),
-            "over_one_thread": median("one", 0) / median("all", 0), "kib_a_machine": median("all", 3) / 1024}
+    return {
+        "game": game,
+        "frames": frames,
+        "reference": frames / median("reference", 0),
+        "racebeam": frames / median("all", 0),
+        "ratio": median("reference", 0) / median("all", 0),
+        "cpu_ratio": median("reference", 1) / median("all", 1),
+        "over_one_thread": median("one", 0) / median("all", 0),
+        "kib_a_machine": median("all", 3) / 1024,
+    }
 
 
 def geomean(rows, column):
@@ -110,22 +143,35 @@ def main():
     options = parse_arguments()
     if import_error:
         sys.exit(f"bench: {import_error}; scripts/reference installs it")
-    print(f"{options.machines} machines, {options.threads} threads, {options.chunks} x {options.steps} steps of {FRAME_SKIP} frames, "
-          f"4 x 84 x 84; ALE {ale_py.__version__}\n")
-    print("| game | AtariVectorEnv, frames/s | racebeam, frames/s | ratio | of processor time | "
-          f"{options.threads} threads over 1 | KiB a machine |\n|---|---|---|---|---|---|---|")
+    print(
+        f"{options.machines} machines, {options.threads} threads, {options.chunks} x {options.steps} steps of {FRAME_SKIP} frames, "
+        f"4 x 84 x 84; ALE {ale_py.__version__}\n"
+    )
+    print(
+        "| game | AtariVectorEnv, frames/s | racebeam, frames/s | ratio | of processor time | "
+        f"{options.threads} threads over 1 | KiB a machine |\n|---|---|---|---|---|---|---|"
+    )
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for game in options.games:
             row = measure(game, options, folder)
             rows.append(row)
-            print(f"| {game} | {row['reference']:,.0f} | {row['racebeam']:,.0f} | {row['ratio']:.2f} | {row['cpu_ratio']:.2f} | "
-                  f"{row['over_one_thread']:.2f} | {row['kib_a_machine']:.0f} |", flush=True)
+            print(
+                f"| {game} | {row['reference']:,.0f} | {row['racebeam']:,.0f} | {row['ratio']:.2f} | {row['cpu_ratio']:.2f} | "
+                f"{row['over_one_thread']:.2f} | {row['kib_a_machine']:.0f} |",
+                flush=True,
+            )
     means = {column: geomean(rows, column) for column in ("ratio", "cpu_ratio", "over_one_thread")}
-    print(f"| **geomean** | | | **{means['ratio']:.2f}** | **{means['cpu_ratio']:.2f}** | **{means['over_one_thread']:.2f}** | |")
+    print(
+        f"| **geomean** | | | **{means['ratio']:.2f}** | **{means['cpu_ratio']:.2f}** | **{means['over_one_thread']:.2f}** | |"
+    )
     if options.json:
-        pathlib.Path(options.json).write_text(json.dumps({"machines": options.machines, "threads": options.threads,
-                                                          "games": rows, "geomean": means}, indent=1) + "\n")
+        pathlib.Path(options.json).write_text(
+            json.dumps(
+                {"machines": options.machines, "threads": options.threads, "games": rows, "geomean": means}, indent=1
+            )
+            + "\n"
+        )
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ plays the same actions again on new machines, not timed, and compares a checksum
 lives after every act. A game that differs has no figures, and the run fails; scripts/conformance locates the
 difference.
 """
+
 import argparse
 import datetime
 import json
@@ -41,22 +42,37 @@ ROUNDS, RESETS, SNAPSHOTS = 5, 4, 200  # of each round: resets, saved states
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="scripts/bench core", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="scripts/bench core", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--games", nargs="+", metavar="GAME", help="default: all games that the reference can play")
-    parser.add_argument("--frames", type=int, metavar="N",
-                        help="measured frames of a game in a setting (default 8000)")
+    parser.add_argument("--frames", type=int, metavar="N", help="measured frames of a game in a setting (default 8000)")
     parser.add_argument("--settings", nargs="+", choices=[*SETTINGS, STATES], default=[*SETTINGS, STATES])
-    parser.add_argument("--cpu", choices=["auto", "interpreter", "translator"],
-                        help="how instructions are executed (passed to racebeam bench)")
-    parser.add_argument("--quick", action="store_true",
-                        help="only 4000 frames of five games: " + " ".join(QUICK_GAMES))
-    parser.add_argument("--out", type=pathlib.Path, default=cartridges.ROOT / "build/bench/core.json", metavar="FILE",
-                        help="file for all figures, as JSON (default build/bench/core.json)")
-    parser.add_argument("--write", action="store_true",
-                        help="write docs/performance/figures.md and its picture, and the summary in docs/performance.md")
-    parser.add_argument("--from", dest="source", type=pathlib.Path, metavar="FILE",
-                        help="measure nothing, and read the figures from this file")
+    parser.add_argument(
+        "--cpu",
+        choices=["auto", "interpreter", "translator"],
+        help="how instructions are executed (passed to racebeam bench)",
+    )
+    parser.add_argument("--quick", action="store_true", help="only 4000 frames of five games: " + " ".join(QUICK_GAMES))
+    parser.add_argument(
+        "--out",
+        type=pathlib.Path,
+        default=cartridges.ROOT / "build/bench/core.json",
+        metavar="FILE",
+        help="file for all figures, as JSON (default build/bench/core.json)",
+    )
+    parser.add_argument(
+        "--write",
+        action="store_true",
+        help="write docs/performance/figures.md and its picture, and the summary in docs/performance.md",
+    )
+    parser.add_argument(
+        "--from",
+        dest="source",
+        type=pathlib.Path,
+        metavar="FILE",
+        help="measure nothing, and read the figures from this file",
+    )
     options = parser.parse_args()
     options.games = options.games or (QUICK_GAMES if options.quick else cartridges.games())
     options.frames = options.frames or (4000 if options.quick else 8000)
@@ -67,7 +83,7 @@ def parse_arguments():
 
 def draw_chunks(game, legal_actions, chunks, acts):
     actions = draw_actions(game, legal_actions, chunks * acts)
-    return [" ".join(map(str, actions[start:start + acts])) for start in range(0, len(actions), acts)]
+    return [" ".join(map(str, actions[start : start + acts])) for start in range(0, len(actions), acts)]
 
 
 class Difference(Exception):
@@ -77,8 +93,10 @@ class Difference(Exception):
 def must_agree(game, where, theirs, ours, keys):
     for key in keys:
         if theirs.get(key) != ours.get(key):
-            raise Difference(f"{game} differs from the reference in {where}: {key} {theirs.get(key)} there, "
-                             f"{ours.get(key)} here; scripts/conformance --games {game} shows more")
+            raise Difference(
+                f"{game} differs from the reference in {where}: {key} {theirs.get(key)} there, "
+                f"{ours.get(key)} here; scripts/conformance --games {game} shows more"
+            )
 
 
 def both_open(reference, game, setting, cpu):
@@ -95,8 +113,13 @@ def time_chunks(reference, game, name, options):
     with racebeam:
         for number, actions in enumerate(chunks, 1):
             theirs, ours = reference.ask("play " + actions), racebeam.ask("play " + actions)
-            must_agree(game, f"setting {name}, after chunk {number}", theirs, ours,
-                       ("frames", "reward", "resets", "screen", "ram"))
+            must_agree(
+                game,
+                f"setting {name}, after chunk {number}",
+                theirs,
+                ours,
+                ("frames", "reward", "resets", "screen", "ram"),
+            )
             times.append([theirs["seconds"], ours["seconds"], ours["frames"]])
     return times[WARM_UP:], chunks
 
@@ -107,8 +130,9 @@ def check_chunks(reference, game, name, chunks, options):
         for number, actions in enumerate(chunks, 1):
             racebeam.send("check " + actions)
             theirs, ours = reference.ask("check " + actions), racebeam.answer()
-            must_agree(game, f"setting {name}, within chunk {number}", theirs, ours,
-                       ("digest", "frames", "reward", "resets"))
+            must_agree(
+                game, f"setting {name}, within chunk {number}", theirs, ours, ("digest", "frames", "reward", "resets")
+            )
 
 
 def measure_setting(reference, game, name, options):
@@ -116,10 +140,14 @@ def measure_setting(reference, game, name, options):
     check_chunks(reference, game, name, chunks, options)
     ratios = [theirs / ours for theirs, ours, _ in times]
     low, _, high = statistics.quantiles(ratios, n=4) if len(ratios) > 1 else ratios * 3
-    return {"ale_frames_per_second": statistics.median(frames / theirs for theirs, _, frames in times),
-            "racebeam_frames_per_second": statistics.median(frames / ours for _, ours, frames in times),
-            "ratio": statistics.median(ratios), "quartiles": [low, high],
-            "frames_checked": sum(frames for _, _, frames in times), "chunks": times}
+    return {
+        "ale_frames_per_second": statistics.median(frames / theirs for theirs, _, frames in times),
+        "racebeam_frames_per_second": statistics.median(frames / ours for _, ours, frames in times),
+        "ratio": statistics.median(ratios),
+        "quartiles": [low, high],
+        "frames_checked": sum(frames for _, _, frames in times),
+        "chunks": times,
+    }
 
 
 def measure_states(reference, game, options):
@@ -140,11 +168,15 @@ def measure_states(reference, game, options):
             saves.append((theirs["seconds"], ours["seconds"], ours["machine_seconds"]))
         must_agree(game, f"setting {STATES}, after its snapshots", *both("check " + after), ("digest",))
     median = lambda rows, column: statistics.median(row[column] for row in rows)
-    return {"ale_reset_ms": median(resets, 0) * 1e3, "racebeam_reset_ms": median(resets, 1) * 1e3,
-            "reset_ratio": statistics.median(theirs / ours for theirs, ours in resets),
-            "ale_save_restore_ns": median(saves, 0) * 1e9, "racebeam_save_restore_ns": median(saves, 1) * 1e9,
-            "machine_save_restore_ns": median(saves, 2) * 1e9,
-            "save_restore_ratio": statistics.median(theirs / ours for theirs, ours, _ in saves)}
+    return {
+        "ale_reset_ms": median(resets, 0) * 1e3,
+        "racebeam_reset_ms": median(resets, 1) * 1e3,
+        "reset_ratio": statistics.median(theirs / ours for theirs, ours in resets),
+        "ale_save_restore_ns": median(saves, 0) * 1e9,
+        "racebeam_save_restore_ns": median(saves, 1) * 1e9,
+        "machine_save_restore_ns": median(saves, 2) * 1e9,
+        "save_restore_ratio": statistics.median(theirs / ours for theirs, ours, _ in saves),
+    }
 
 
 def in_short(results):
@@ -174,11 +206,17 @@ def measure(options):
                 said = differences[-1]
             seconds = time.monotonic() - start
             print(f"{number}/{len(options.games)} {seconds:.0f} s  {said}", file=sys.stderr, flush=True)
-    return {"command": shlex.join(["scripts/bench", "core", *sys.argv[1:]]),
-            "date": datetime.date.today().isoformat(), "seconds": round(time.monotonic() - start),
-            "machine": bench_report.machine(), "versions": bench_report.versions(bench_sides.RACEBEAM),
-            "frames": options.frames // CHUNK * CHUNK, "chunk_frames": CHUNK, "games": games,
-            "differences": differences}
+    return {
+        "command": shlex.join(["scripts/bench", "core", *sys.argv[1:]]),
+        "date": datetime.date.today().isoformat(),
+        "seconds": round(time.monotonic() - start),
+        "machine": bench_report.machine(),
+        "versions": bench_report.versions(bench_sides.RACEBEAM),
+        "frames": options.frames // CHUNK * CHUNK,
+        "chunk_frames": CHUNK,
+        "games": games,
+        "differences": differences,
+    }
 
 
 def main():

@@ -4,6 +4,7 @@ The games are played randomly, with four frames an act. The client in Python
 (clients/python/single_file/client.py) and one in C++ (tests/protocol/bench/decode_bench.cpp) decode the same texts, and
 must get the same bytes. Times are processor time, the least of seven rounds. Prints the table of docs/performance.md.
 """
+
 import argparse
 import pathlib
 import random
@@ -58,8 +59,13 @@ def in_python(encoding, size, texts):
 
 
 def in_cpp(encoding, size, texts):
-    done = subprocess.run([BUILD / "tests/protocol/decode_bench", encoding, str(size)], input="\n".join(texts) + "\n",
-                          capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [BUILD / "tests/protocol/decode_bench", encoding, str(size)],
+        input="\n".join(texts) + "\n",
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     microseconds, digest = done.stdout.split()
     return float(microseconds), int(digest)
 
@@ -80,10 +86,16 @@ def row(roms, field, encoding, acts):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="scripts/bench encodings", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--games", nargs="+", default=["pong", "seaquest", "ms_pacman"], metavar="GAME",
-                        help="games whose mean is printed (default: pong seaquest ms_pacman)")
+    parser = argparse.ArgumentParser(
+        prog="scripts/bench encodings", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--games",
+        nargs="+",
+        default=["pong", "seaquest", "ms_pacman"],
+        metavar="GAME",
+        help="games whose mean is printed (default: pong seaquest ms_pacman)",
+    )
     parser.add_argument("--acts", type=int, default=300, help="acts of each game (default 300)")
     arguments = parser.parse_args()
     subprocess.run([ROOT / "scripts/build", "decode_bench"], check=True, stdout=sys.stderr)

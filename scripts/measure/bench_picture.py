@@ -1,4 +1,5 @@
 """Draws ratios as SVG: of all games, a bar for each, the shortest first; and a summary, a bar for each setting."""
+
 import html
 import math
 
@@ -7,8 +8,10 @@ BAR, LINE, TEXT = "#3b6ea5", "#bbbbbb", "#333333"
 
 
 def text(x, y, words, size=11, anchor="start", weight="normal"):
-    return (f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size}" text-anchor="{anchor}" font-weight="{weight}" '
-            f'fill="{TEXT}">{html.escape(words)}</text>')
+    return (
+        f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size}" text-anchor="{anchor}" font-weight="{weight}" '
+        f'fill="{TEXT}">{html.escape(words)}</text>'
+    )
 
 
 def draw(ratios, heading):
@@ -18,19 +21,26 @@ def draw(ratios, heading):
     end = max(10, math.ceil(rows[-1][1]))
     scale = WIDTH / end
     height = TOP + len(rows) * ROW + 10
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{LEFT + WIDTH + RIGHT}" height="{height}" '
-             f'font-family="sans-serif">', '<rect width="100%" height="100%" fill="white"/>',
-             text(10, 20, f"{heading}: frames/s of racebeam, as multiples of ALE's", 14, weight="bold"),
-             text(10, 38, f"{len(rows)} games, geomean {mean:.2f}, worst {rows[0][1]:.2f} ({rows[0][0]})")]
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{LEFT + WIDTH + RIGHT}" height="{height}" '
+        f'font-family="sans-serif">',
+        '<rect width="100%" height="100%" fill="white"/>',
+        text(10, 20, f"{heading}: frames/s of racebeam, as multiples of ALE's", 14, weight="bold"),
+        text(10, 38, f"{len(rows)} games, geomean {mean:.2f}, worst {rows[0][1]:.2f} ({rows[0][0]})"),
+    ]
     for multiple in range(1, end + 1):
         x = LEFT + multiple * scale
-        parts += [f'<line x1="{x:.1f}" y1="{TOP - 4}" x2="{x:.1f}" y2="{height - 8}" stroke="{LINE}"/>',
-                  text(x, TOP - 7, f"{multiple}x", 10, "middle")]
+        parts += [
+            f'<line x1="{x:.1f}" y1="{TOP - 4}" x2="{x:.1f}" y2="{height - 8}" stroke="{LINE}"/>',
+            text(x, TOP - 7, f"{multiple}x", 10, "middle"),
+        ]
     for number, (game, ratio) in enumerate(rows):
         y = TOP + number * ROW
-        parts += [text(LEFT - 6, y + ROW - GAP, game, anchor="end"),
-                  f'<rect x="{LEFT}" y="{y + 1}" width="{ratio * scale:.1f}" height="{ROW - GAP}" fill="{BAR}"/>',
-                  text(LEFT + ratio * scale + 4, y + ROW - GAP, f"{ratio:.2f}", 10)]
+        parts += [
+            text(LEFT - 6, y + ROW - GAP, game, anchor="end"),
+            f'<rect x="{LEFT}" y="{y + 1}" width="{ratio * scale:.1f}" height="{ROW - GAP}" fill="{BAR}"/>',
+            text(LEFT + ratio * scale + 4, y + ROW - GAP, f"{ratio:.2f}", 10),
+        ]
     return "\n".join([*parts, "</svg>"]) + "\n"
 
 
@@ -39,13 +49,21 @@ def draw_summary(means, games):
     row, left, width = 30, 230, 520
     scale = width / max(means.values())
     height = 44 + (len(means) + 1) * row
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + width + RIGHT}" height="{height}" '
-             f'font-family="sans-serif">', '<rect width="100%" height="100%" fill="white"/>',
-             text(10, 24, f"Frames a second on one core, as multiples of ALE's: means of {games} games", 14, weight="bold")]
-    bars = [("ALE 0.12, in any setting", 1.0, LINE), *((f"racebeam: {heading}", mean, BAR) for heading, mean in means.items())]
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + width + RIGHT}" height="{height}" '
+        f'font-family="sans-serif">',
+        '<rect width="100%" height="100%" fill="white"/>',
+        text(10, 24, f"Frames a second on one core, as multiples of ALE's: means of {games} games", 14, weight="bold"),
+    ]
+    bars = [
+        ("ALE 0.12, in any setting", 1.0, LINE),
+        *((f"racebeam: {heading}", mean, BAR) for heading, mean in means.items()),
+    ]
     for number, (heading, ratio, colour) in enumerate(bars):
         y = 40 + number * row
-        parts += [text(left - 8, y + 16, heading, anchor="end"),
-                  f'<rect x="{left}" y="{y + 2}" width="{ratio * scale:.1f}" height="{row - 10}" fill="{colour}"/>',
-                  text(left + ratio * scale + 6, y + 17, f"{ratio:.1f}", 12, weight="bold")]
+        parts += [
+            text(left - 8, y + 16, heading, anchor="end"),
+            f'<rect x="{left}" y="{y + 2}" width="{ratio * scale:.1f}" height="{row - 10}" fill="{colour}"/>',
+            text(left + ratio * scale + 6, y + 17, f"{ratio:.1f}", 12, weight="bold"),
+        ]
     return "\n".join([*parts, "</svg>"]) + "\n"

@@ -4,6 +4,7 @@ Instructions are not time, but they are the same in every run. All 18 actions ar
 before the counted ones fill caches and translate code. The program is built with the preset `profile`
 (build/profile), which is `release` with line numbers.
 """
+
 import argparse
 import re
 import sys
@@ -30,17 +31,24 @@ WIDEST = 80  # characters of a function's name
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="scripts/bench profile", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="scripts/bench profile", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("game", metavar="GAME")
     parser.add_argument("--frames", type=int, default=120, metavar="N", help="counted frames (default 120)")
     parser.add_argument("--before", type=int, default=600, metavar="N", help="frames before them (default 600)")
-    parser.add_argument("--setting", choices=bench_settings.SETTINGS, default="every",
-                        help="as in scripts/bench core (default every)")
-    parser.add_argument("--cpu", choices=["auto", "interpreter", "translator"],
-                        help="how instructions are executed (passed to racebeam bench)")
+    parser.add_argument(
+        "--setting", choices=bench_settings.SETTINGS, default="every", help="as in scripts/bench core (default every)"
+    )
+    parser.add_argument(
+        "--cpu",
+        choices=["auto", "interpreter", "translator"],
+        help="how instructions are executed (passed to racebeam bench)",
+    )
     parser.add_argument("--files", action="store_true", help="also print source files")
-    parser.add_argument("--functions", type=int, default=0, metavar="N", help="also print the N functions with the most instructions")
+    parser.add_argument(
+        "--functions", type=int, default=0, metavar="N", help="also print the N functions with the most instructions"
+    )
     options = parser.parse_args()
     if min(options.frames, options.before) < 4:
         parser.error("--frames and --before must be at least 4")
@@ -68,12 +76,21 @@ def main():
         sys.exit("bench: valgrind is missing; scripts/setup installs it")
     try:
         # With all the SIMD that this processor has, as in measurements.
-        counts = callgrind.count(cartridges.ROOT / "build/profile/racebeam", options.game, setting,
-                                 options.before, options.frames, options.cpu, environment={})
+        counts = callgrind.count(
+            cartridges.ROOT / "build/profile/racebeam",
+            options.game,
+            setting,
+            options.before,
+            options.frames,
+            options.cpu,
+            environment={},
+        )
     except (LookupError, RuntimeError) as error:
         sys.exit(f"bench: {error}")
-    print(f"{options.game}, {setting.heading.lower()}: {counts.a_frame():,.0f} instructions a frame, "
-          f"in the mean of {counts.frames} frames after {options.before}")
+    print(
+        f"{options.game}, {setting.heading.lower()}: {counts.a_frame():,.0f} instructions a frame, "
+        f"in the mean of {counts.frames} frames after {options.before}"
+    )
     print_table("part", [row for row in by_part(counts).items() if row[1]], counts)
     if options.files:
         print_table("file", counts.files.most_common(), counts)

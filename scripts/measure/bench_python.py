@@ -12,15 +12,15 @@ import zlib
 GAMES = "pong,breakout,seaquest,qbert,ms_pacman,freeway,asterix,beam_rider,space_invaders,up_n_down"
 KINDS = ("rgb", "grayscale", "ram")
 
-parser = argparse.ArgumentParser(prog="scripts/bench python", description=__doc__,
-                                 formatter_class=argparse.RawDescriptionHelpFormatter)
+parser = argparse.ArgumentParser(
+    prog="scripts/bench python", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+)
 parser.add_argument("--games", default=GAMES, help=f"A,B (default {GAMES})")
 parser.add_argument("--steps", type=int, default=100, help="of a chunk (default 100)")
 parser.add_argument("--chunks", type=int, default=9, help="of a game (default 9)")
 options = parser.parse_args()
 
 import ale_py  # noqa: E402
-
 import racebeam  # noqa: E402
 
 
@@ -52,9 +52,11 @@ def measure(game, kind):
             raise SystemExit(f"bench: {game}, {kind}: the two do not show the same")
         if chunk > 0:  # the first makes tables and code
             times.append((theirs, ours))
-    return (options.steps / statistics.median(theirs for theirs, _ in times),
-            options.steps / statistics.median(ours for _, ours in times),
-            statistics.median(theirs / ours for theirs, ours in times))
+    return (
+        options.steps / statistics.median(theirs for theirs, _ in times),
+        options.steps / statistics.median(ours for _, ours in times),
+        statistics.median(theirs / ours for theirs, ours in times),
+    )
 
 
 ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)

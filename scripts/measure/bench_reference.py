@@ -9,6 +9,7 @@ The processor time of this process is measured. It includes the loop and the cal
 microseconds an act, and 0.4 for the copy of a screen, while a frame takes 40 to 130. (racebeam's screen is
 read in place.)
 """
+
 import json
 import pathlib
 import struct
@@ -110,8 +111,10 @@ def main():
         if command == "open":
             skip, look, image = words.split(" ", 2)
             reference = Reference(int(skip), look == "1", image)
-            answer = {"version": ale_py.__version__,
-                      "legal_actions": [action.value for action in reference.ale.getLegalActionSet()]}
+            answer = {
+                "version": ale_py.__version__,
+                "legal_actions": [action.value for action in reference.ale.getLegalActionSet()],
+            }
         elif command in ("play", "check"):
             answer = getattr(reference, command)([int(word) for word in words.split()])
         else:

@@ -1,4 +1,5 @@
 """Writes the results of scripts/bench core: a summary in a document, each game's figures in another, and two pictures."""
+
 import math
 import os
 import pathlib
@@ -38,9 +39,14 @@ def compiler(binary):
 
 def versions(binary):
     import ale_py
-    return {"racebeam": output(binary, "--version").removeprefix("racebeam "),
-            "commit": output("git", "describe", "--always", "--dirty"),
-            "compiler": compiler(binary), "ale_py": ale_py.__version__, "python": platform.python_version()}
+
+    return {
+        "racebeam": output(binary, "--version").removeprefix("racebeam "),
+        "commit": output("git", "describe", "--always", "--dirty"),
+        "compiler": compiler(binary),
+        "ale_py": ale_py.__version__,
+        "python": platform.python_version(),
+    }
 
 
 def geomean(numbers):
@@ -54,24 +60,28 @@ def settings_in(results):
 
 def summary(results):
     """Returns {setting: (geomean, worst ratio, its game)}; resets and saved states count as settings."""
-    columns = {HEADINGS[name]: {game: found[name]["ratio"] for game, found in results["games"].items()}
-               for name in settings_in(results)}
+    columns = {
+        HEADINGS[name]: {game: found[name]["ratio"] for game, found in results["games"].items()}
+        for name in settings_in(results)
+    }
     if all("states" in found for found in results["games"].values()):
         for key, heading in (("reset_ratio", "Reset"), ("save_restore_ratio", "Save and restore, with pictures")):
             columns[heading] = {game: found["states"][key] for game, found in results["games"].items()}
-    return {heading: (geomean(ratios.values()), *min((ratio, game) for game, ratio in ratios.items()))
-            for heading, ratios in columns.items()}
+    return {
+        heading: (geomean(ratios.values()), *min((ratio, game) for game, ratio in ratios.items()))
+        for heading, ratios in columns.items()
+    }
 
 
 def table(headings, rows):
     numbers = "---:|" * (len(headings) - 1)
-    return "\n".join(["| " + " | ".join(headings) + " |", "|---|" + numbers,
-                      *("| " + " | ".join(row) + " |" for row in rows)])
+    return "\n".join(
+        ["| " + " | ".join(headings) + " |", "|---|" + numbers, *("| " + " | ".join(row) + " |" for row in rows)]
+    )
 
 
 def summary_table(results):
-    rows = [[heading, f"{mean:.2f}", f"{worst:.2f}", game]
-            for heading, (mean, worst, game) in summary(results).items()]
+    rows = [[heading, f"{mean:.2f}", f"{worst:.2f}", game] for heading, (mean, worst, game) in summary(results).items()]
     return table(["what is measured", "geomean", "worst", "of"], rows)
 
 
@@ -84,29 +94,55 @@ def speed_table(results):
     for game, found in results["games"].items():
         row = [game]
         for figures in (found[name] for name in names):
-            row += [f"{figures['ale_frames_per_second']:,.0f}", f"{figures['racebeam_frames_per_second']:,.0f}",
-                    f"{figures['ratio']:.2f}"]
+            row += [
+                f"{figures['ale_frames_per_second']:,.0f}",
+                f"{figures['racebeam_frames_per_second']:,.0f}",
+                f"{figures['ratio']:.2f}",
+            ]
         rows.append(row)
     return table(headings, rows)
 
 
 def states_table(results):
-    rows = [[game, f"{s['ale_reset_ms']:.2f}", f"{s['racebeam_reset_ms']:.3f}", f"{s['ale_save_restore_ns']:,.0f}",
-             f"{s['racebeam_save_restore_ns']:,.0f}", f"{s['machine_save_restore_ns']:,.0f}"]
-            for game, s in ((game, found["states"]) for game, found in results["games"].items())]
-    return table(["game", "reset: ALE, ms", "racebeam, ms", "save + restore: ALE, ns", "racebeam, with pictures, ns",
-                  "the machine alone, ns"], rows)
+    rows = [
+        [
+            game,
+            f"{s['ale_reset_ms']:.2f}",
+            f"{s['racebeam_reset_ms']:.3f}",
+            f"{s['ale_save_restore_ns']:,.0f}",
+            f"{s['racebeam_save_restore_ns']:,.0f}",
+            f"{s['machine_save_restore_ns']:,.0f}",
+        ]
+        for game, s in ((game, found["states"]) for game, found in results["games"].items())
+    ]
+    return table(
+        [
+            "game",
+            "reset: ALE, ms",
+            "racebeam, ms",
+            "save + restore: ALE, ns",
+            "racebeam, with pictures, ns",
+            "the machine alone, ns",
+        ],
+        rows,
+    )
 
 
 def circumstances(results):
     at, of = results["machine"], results["versions"]
-    facts = [("command", f"`{results['command']}`"),
-             ("date, duration", f"{results['date']}, {results['seconds']} seconds"),
-             ("processor", f"{at['processor']}, {at['processors']} processors"), ("system", at["system"]),
-             ("racebeam", f"{of['racebeam']} ({of['commit']}), {of['compiler']}"),
-             ("reference", f"ale-py {of['ale_py']}, Python {of['python']}"),
-             ("games", f"{len(results['games'])}, {results['frames']:,} frames of each in each setting, in chunks of "
-                       f"{results['chunk_frames']}; every frame was checked")]
+    facts = [
+        ("command", f"`{results['command']}`"),
+        ("date, duration", f"{results['date']}, {results['seconds']} seconds"),
+        ("processor", f"{at['processor']}, {at['processors']} processors"),
+        ("system", at["system"]),
+        ("racebeam", f"{of['racebeam']} ({of['commit']}), {of['compiler']}"),
+        ("reference", f"ale-py {of['ale_py']}, Python {of['python']}"),
+        (
+            "games",
+            f"{len(results['games'])}, {results['frames']:,} frames of each in each setting, in chunks of "
+            f"{results['chunk_frames']}; every frame was checked",
+        ),
+    ]
     return "\n".join(["| run | value |", "|---|---|", *(f"| {name} | {value} |" for name, value in facts)])
 
 
@@ -116,8 +152,12 @@ def page(results):
 
 def figures(results):
     """The document with every game's figures."""
-    parts = ["# Figures of all games", "Written by `scripts/bench core --write`, not by hand. "
-             "[performance.md](../performance.md) says how\nthey are measured.", circumstances(results)]
+    parts = [
+        "# Figures of all games",
+        "Written by `scripts/bench core --write`, not by hand. "
+        "[performance.md](../performance.md) says how\nthey are measured.",
+        circumstances(results),
+    ]
     if settings_in(results):
         parts += ["## Frames", speed_table(results)]
     if all("states" in found for found in results["games"].values()):

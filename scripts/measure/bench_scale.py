@@ -10,6 +10,7 @@ crowd: 50,000 sessions on several servers, of which 500 act ten times a second; 
 
 Other programs distort steps/s and latencies; the load average is printed for that. Processor time suffers less.
 """
+
 import argparse
 import os
 import pathlib
@@ -21,7 +22,16 @@ from bench_report import machine
 from bench_wire import ROOT, image, name_of
 from crowd import Crowd, Server
 
-SHOWN = ("reward ends", "reward ends ram", "screen:delta", "grey84:zlib", "screen:zlib", "screen:rle", "grey84:base64", "screen:base64")
+SHOWN = (
+    "reward ends",
+    "reward ends ram",
+    "screen:delta",
+    "grey84:zlib",
+    "screen:zlib",
+    "screen:rle",
+    "grey84:base64",
+    "screen:base64",
+)
 PARTS = ("steps", "cores", "sessions", "idle", "crowd")
 ACTORS = 64  # of steps
 ACTING = 500  # of crowd
@@ -29,17 +39,22 @@ PAUSE = 4  # seconds; sessions release their caches after two
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="scripts/bench scale", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="scripts/bench scale", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("parts", nargs="*", default=PARTS, metavar="PART", help=f"{', '.join(PARTS)} (default: all)")
     parser.add_argument("--game", default="seaquest", help="for steps and sessions (default: seaquest)")
     parser.add_argument("--frame-skip", type=int, default=4)
     parser.add_argument("--seconds", type=float, default=5, help="of each measurement (default 5)")
-    parser.add_argument("--acting", type=int, nargs="+", default=[1, 16, 64, 256, 1024], help="numbers of acting sessions")
+    parser.add_argument(
+        "--acting", type=int, nargs="+", default=[1, 16, 64, 256, 1024], help="numbers of acting sessions"
+    )
     parser.add_argument("--idle", type=int, nargs="+", default=[1000, 8000], help="numbers of idle sessions")
     parser.add_argument("--crowd", type=int, default=50000, help="sessions of crowd (default 50000)")
     parser.add_argument("--servers", type=int, default=3, help="of crowd: a process may open so many files (default 3)")
-    parser.add_argument("--build", type=pathlib.Path, help="folder of a build (default: build/release, which is built first)")
+    parser.add_argument(
+        "--build", type=pathlib.Path, help="folder of a build (default: build/release, which is built first)"
+    )
     found = parser.parse_args()
     if unknown := set(found.parts) - set(PARTS):
         parser.error(f"unknown part {', '.join(unknown)}; accepted are {', '.join(PARTS)}")
@@ -53,7 +68,9 @@ def acting(arguments, sessions, observe, processors=None):
     load = f"load {name_of(rom)} seed=1 sticky=0 max_episode_frames=0 frame_skip={arguments.frame_skip}"
     with Server(arguments.build, *options, processors=processors) as server:
         empty = server.resident()
-        with Crowd(arguments.build, server, sessions, sessions, arguments.seconds, 0, load=load, observe=observe) as crowd:
+        with Crowd(
+            arguments.build, server, sessions, sessions, arguments.seconds, 0, load=load, observe=observe
+        ) as crowd:
             crowd.wait()
             before = server.processor_seconds()
             crowd.begin()
@@ -61,18 +78,29 @@ def acting(arguments, sessions, observe, processors=None):
             spent = server.processor_seconds() - before
             memory = server.resident() - empty
     acts = found["acts"]
-    return {"rate": acts / found["seconds"], "us": 1e6 * spent / acts, "bytes": found["bytes"] / acts, "kib": memory / sessions,
-            "busy": spent / found["seconds"], "p99": found["p99"]}
+    return {
+        "rate": acts / found["seconds"],
+        "us": 1e6 * spent / acts,
+        "bytes": found["bytes"] / acts,
+        "kib": memory / sessions,
+        "busy": spent / found["seconds"],
+        "p99": found["p99"],
+    }
 
 
 def steps(arguments):
-    print(f"\n{name_of(image(arguments.game))}, frame_skip={arguments.frame_skip}, {ACTORS} sessions\n\n"
-          "| observation | bytes a reply | steps/s | us of a core | steps/s a core | MB/s a core |\n|---|---:|---:|---:|---:|---:|")
+    print(
+        f"\n{name_of(image(arguments.game))}, frame_skip={arguments.frame_skip}, {ACTORS} sessions\n\n"
+        "| observation | bytes a reply | steps/s | us of a core | steps/s a core | MB/s a core |\n|---|---:|---:|---:|---:|---:|"
+    )
     for shown in SHOWN:
         found = acting(arguments, ACTORS, f"observe {shown}")
         of_core = 1e6 / found["us"]
-        print(f"| `{shown}` | {found['bytes']:,.0f} | {found['rate']:,.0f} | {found['us']:.1f} | {of_core:,.0f} | "
-              f"{of_core * found['bytes'] / 1e6:,.1f} |", flush=True)
+        print(
+            f"| `{shown}` | {found['bytes']:,.0f} | {found['rate']:,.0f} | {found['us']:.1f} | {of_core:,.0f} | "
+            f"{of_core * found['bytes'] / 1e6:,.1f} |",
+            flush=True,
+        )
 
 
 def cores(arguments):
@@ -87,7 +115,10 @@ def sessions(arguments):
     print("\n| acting sessions | steps/s | us of a core | p99, ms | KiB a session |\n|---:|---:|---:|---:|---:|")
     for count in arguments.acting:
         found = acting(arguments, count, "observe reward ends ram")
-        print(f"| {count:,} | {found['rate']:,.0f} | {found['us']:.1f} | {found['p99'] / 1000:,.2f} | {found['kib']:,.0f} |", flush=True)
+        print(
+            f"| {count:,} | {found['rate']:,.0f} | {found['us']:.1f} | {found['p99'] / 1000:,.2f} | {found['kib']:,.0f} |",
+            flush=True,
+        )
 
 
 def kernel_memory():
@@ -97,7 +128,9 @@ def kernel_memory():
 
 
 def idle(arguments):
-    print("\n| idle sessions | connected in, s | KiB a session | in the kernel, KiB | of a core |\n|---:|---:|---:|---:|---:|")
+    print(
+        "\n| idle sessions | connected in, s | KiB a session | in the kernel, KiB | of a core |\n|---:|---:|---:|---:|---:|"
+    )
     for count in arguments.idle:
         with Server(arguments.build, "--max-sessions", "20000") as server:
             empty, kernel, began = server.resident(), kernel_memory(), time.monotonic()
@@ -108,8 +141,11 @@ def idle(arguments):
                 before, begins = server.processor_seconds(), time.monotonic()
                 time.sleep(arguments.seconds)
                 share = (server.processor_seconds() - before) / (time.monotonic() - begins)
-                print(f"| {count:,} | {seconds:.1f} | {(server.resident() - empty) / count:.1f} | "
-                      f"{(kernel_memory() - kernel) / count:.1f} | {share:.1%} |", flush=True)
+                print(
+                    f"| {count:,} | {seconds:.1f} | {(server.resident() - empty) / count:.1f} | "
+                    f"{(kernel_memory() - kernel) / count:.1f} | {share:.1%} |",
+                    flush=True,
+                )
 
 
 def shares(total, parts):
@@ -118,13 +154,20 @@ def shares(total, parts):
 
 def crowd(arguments):
     with ExitStack() as stack:
-        servers = [stack.enter_context(Server(arguments.build, "--max-sessions", "20000")) for _ in range(arguments.servers)]
+        servers = [
+            stack.enter_context(Server(arguments.build, "--max-sessions", "20000")) for _ in range(arguments.servers)
+        ]
 
         def all_of(what):
             return sum(getattr(server, what)() for server in servers)
+
         empty, kernel, began = all_of("resident"), kernel_memory(), time.monotonic()
-        crowds = [stack.enter_context(Crowd(arguments.build, server, idle + acting, acting, 2 * arguments.seconds, 100)) for server, idle, acting in
-                  zip(servers, shares(arguments.crowd, arguments.servers), shares(ACTING, arguments.servers))]
+        crowds = [
+            stack.enter_context(Crowd(arguments.build, server, idle + acting, acting, 2 * arguments.seconds, 100))
+            for server, idle, acting in zip(
+                servers, shares(arguments.crowd, arguments.servers), shares(ACTING, arguments.servers)
+            )
+        ]
         for one in crowds:
             one.wait()
         connected = time.monotonic() - began
@@ -137,10 +180,13 @@ def crowd(arguments):
         spent, memory = all_of("processor_seconds") - before, all_of("resident") - empty
         kernel = kernel_memory() - kernel
     count = arguments.crowd + ACTING
-    print(f"\n{arguments.crowd:,} idle and {ACTING} acting sessions on {arguments.servers} servers, connected in {connected:.1f} s\n"
-          f"memory: {memory / 2**20:.2f} GiB, {memory / count:.1f} KiB a session; in the kernel {kernel / count:.1f} KiB a session\n"
-          f"{sum(one['acts'] for one in found) / seconds:,.0f} acts/s take {spent / seconds:.0%} of a core; the worst server's latency: "
-          f"p50 {max(one['p50'] for one in found) / 1000:.2f} ms, p99 {max(one['p99'] for one in found) / 1000:.2f} ms", flush=True)
+    print(
+        f"\n{arguments.crowd:,} idle and {ACTING} acting sessions on {arguments.servers} servers, connected in {connected:.1f} s\n"
+        f"memory: {memory / 2**20:.2f} GiB, {memory / count:.1f} KiB a session; in the kernel {kernel / count:.1f} KiB a session\n"
+        f"{sum(one['acts'] for one in found) / seconds:,.0f} acts/s take {spent / seconds:.0%} of a core; the worst server's latency: "
+        f"p50 {max(one['p50'] for one in found) / 1000:.2f} ms, p99 {max(one['p99'] for one in found) / 1000:.2f} ms",
+        flush=True,
+    )
 
 
 def main():

@@ -1,4 +1,5 @@
 """The settings and the actions of measurements."""
+
 import random
 from dataclasses import dataclass
 
@@ -6,13 +7,15 @@ from dataclasses import dataclass
 @dataclass(frozen=True)
 class Setting:
     heading: str
-    skip: int   # frames of an act
+    skip: int  # frames of an act
     look: bool  # observe the screen after each act
 
 
-SETTINGS = {"every": Setting("Screen of every frame", 1, True),
-            "last": Setting("Frame skip 4, screen of the last", 4, True),
-            "none": Setting("Rewards and RAM only", 1, False)}
+SETTINGS = {
+    "every": Setting("Screen of every frame", 1, True),
+    "last": Setting("Frame skip 4, screen of the last", 4, True),
+    "none": Setting("Rewards and RAM only", 1, False),
+}
 
 
 def draw_actions(game, legal_actions, count):

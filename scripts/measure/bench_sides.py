@@ -1,4 +1,5 @@
 """The two processes of a comparison. Each reads commands, and answers each with a line of JSON."""
+
 import json
 import os
 import pathlib
@@ -20,8 +21,9 @@ def one_processor():
 class Side:
     def __init__(self, name, command):
         self.name = name
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
-                                        preexec_fn=one_processor)
+        self.process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=one_processor
+        )
 
     def __enter__(self):
         return self
@@ -55,6 +57,22 @@ class Reference(Side):
 
 class Racebeam(Side):
     def __init__(self, game, skip, look, cpu=None):
-        super().__init__("racebeam", [
-            RACEBEAM, "bench", "--commands", "--rom", cartridges.image(game), "--seed", str(SEED), "--sticky", "0",
-            "--frame-skip", str(skip), "--screen", "last" if look else "none", *(["--cpu", cpu] if cpu else [])])
+        super().__init__(
+            "racebeam",
+            [
+                RACEBEAM,
+                "bench",
+                "--commands",
+                "--rom",
+                cartridges.image(game),
+                "--seed",
+                str(SEED),
+                "--sticky",
+                "0",
+                "--frame-skip",
+                str(skip),
+                "--screen",
+                "last" if look else "none",
+                *(["--cpu", cpu] if cpu else []),
+            ],
+        )

@@ -19,8 +19,9 @@ import zlib
 
 GAMES = "pong,breakout,seaquest,qbert,ms_pacman,freeway,asterix,beam_rider,space_invaders,up_n_down"
 
-parser = argparse.ArgumentParser(prog="scripts/bench vector", description=__doc__,
-                                 formatter_class=argparse.RawDescriptionHelpFormatter)
+parser = argparse.ArgumentParser(
+    prog="scripts/bench vector", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+)
 parser.add_argument("--games", default=GAMES, help=f"A,B (default {GAMES})")
 parser.add_argument("--envs", default="16,64", help="numbers of environments (default 16,64)")
 parser.add_argument("--steps", type=int, default=1600, help="of all environments together, in a chunk (default 1600)")
@@ -30,7 +31,6 @@ options = parser.parse_args()
 import numpy as np  # noqa: E402
 from ale_py import ALEInterface, LoggerMode  # noqa: E402
 from ale_py.vector_env import AtariVectorEnv as Reference  # noqa: E402
-
 from racebeam import AtariVectorEnv, images, program  # noqa: E402
 
 try:
@@ -83,8 +83,10 @@ def players(game, count):
     apart["racebeam async"].send(np.zeros(third, np.int32))
     if envpool is not None:
         apart["EnvPool async"].async_reset()
-    return {**{name: (play_together, envs, count) for name, envs in together.items()},
-            **{name: (play_apart, envs, third) for name, envs in apart.items()}}
+    return {
+        **{name: (play_together, envs, count) for name, envs in together.items()},
+        **{name: (play_apart, envs, third) for name, envs in apart.items()},
+    }
 
 
 def measure(game, count):
@@ -116,8 +118,22 @@ def server(image):
     """Addresses of a server that has the image."""
     with tempfile.TemporaryDirectory() as folder:
         ready = pathlib.Path(folder, "ready")
-        own = subprocess.Popen([program.path(), "serve", "--listen", f"unix:{folder}/socket", "--listen", "tcp://127.0.0.1:0",
-                                "--rom", image, "--ready-file", ready, "--log-level", "warning"])
+        own = subprocess.Popen(
+            [
+                program.path(),
+                "serve",
+                "--listen",
+                f"unix:{folder}/socket",
+                "--listen",
+                "tcp://127.0.0.1:0",
+                "--rom",
+                image,
+                "--ready-file",
+                ready,
+                "--log-level",
+                "warning",
+            ]
+        )
         try:
             while not ready.exists():
                 if own.poll() is not None:
@@ -132,8 +148,10 @@ def server(image):
 def measure_servers(game, count):
     """Steps a second in this process, over a Unix socket and over TCP."""
     with server(images.find(game)) as addresses, contextlib.ExitStack() as stack:
-        everyone = [stack.enter_context(contextlib.closing(AtariVectorEnv(game, count, **where)))
-                    for where in ({}, *({"server": address} for address in addresses))]
+        everyone = [
+            stack.enter_context(contextlib.closing(AtariVectorEnv(game, count, **where)))
+            for where in ({}, *({"server": address} for address in addresses))
+        ]
         for envs in everyone:
             envs.reset(seed=1)
         times = [[] for _ in everyone]
@@ -187,6 +205,11 @@ for count in map(int, options.envs.split(",")):
     for game in options.games.split(","):
         speeds = measure_servers(game, count)
         ratios.append([speed / speeds[0] for speed in speeds[1:]])
-        print(f"{game:<18}" + "".join(f"{speed:16.0f}" for speed in speeds) + "".join(f"{ratio:8.2f}" for ratio in ratios[-1]), flush=True)
+        print(
+            f"{game:<18}"
+            + "".join(f"{speed:16.0f}" for speed in speeds)
+            + "".join(f"{ratio:8.2f}" for ratio in ratios[-1]),
+            flush=True,
+        )
     print(f"{'mean':<66}" + "".join(f"{statistics.mean(column):8.2f}" for column in zip(*ratios)))
 print(f"Python alone takes {python_alone():.1f} us of a step")

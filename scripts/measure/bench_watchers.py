@@ -4,6 +4,7 @@ The agent plays Beamfall over TCP, four frames an act, and sends 16 acts at once
 the newest picture 60 times a second; the watchers have a process of their own. The settings take turns, so that other work
 on the machine meets all of them. Figures are medians of the rounds. Exit status 1: the goal is missed.
 """
+
 import argparse
 import multiprocessing
 import os
@@ -27,6 +28,7 @@ def processor_seconds(process):
 
 def watch(port, stop, seen):
     from web_socket import WebSocket
+
     session, frame = WebSocket(port), b"-1"
     while not stop.is_set():
         since = time.monotonic()
@@ -66,7 +68,10 @@ def play(agent, seconds):
 def measure(watchers, seconds):
     """Acts a second, microseconds of the server's processor time for each, and pictures a second of all watchers."""
     from harness import Server, ask, connect_tcp
-    with Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "ws://127.0.0.1:0", "--threads", "2", "--grace", "0") as server:
+
+    with Server(
+        "serve", "--listen", "tcp://127.0.0.1:0", "--listen", "ws://127.0.0.1:0", "--threads", "2", "--grace", "0"
+    ) as server:
         port = int(server.wait_for(r"listening on ws://127\.0\.0\.1:(\d+)$")[1])
         agent = connect_tcp(server.port())
         ask(agent, b"load beamfall seed=1 sticky=0 frame_skip=4 autoreset=1 max_episode_frames=0")
@@ -90,7 +95,9 @@ def measure(watchers, seconds):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--watchers", type=int, nargs="+", default=[0, 1, 16], metavar="N", help="how many; the first is the base")
+    parser.add_argument(
+        "--watchers", type=int, nargs="+", default=[0, 1, 16], metavar="N", help="how many; the first is the base"
+    )
     parser.add_argument("--seconds", type=float, default=5, help="of each measurement (default: %(default)s)")
     parser.add_argument("--rounds", type=int, default=5, help="of all settings (default: %(default)s)")
     given = parser.parse_args()

@@ -9,6 +9,7 @@ processor time of the serving process for a step, which other processes disturb 
 processor each ("apart"), so that every wait ends with waking a thread. Or the system places them ("free"), often on
 one processor.
 """
+
 import argparse
 import glob
 import itertools
@@ -22,28 +23,64 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/release"
 RACEBEAM, WIRE_BENCH = BUILD / "racebeam", BUILD / "tests/server/wire_bench"
-GAMES = ["asterix", "beam_rider", "breakout", "freeway", "montezuma_revenge", "ms_pacman", "pong", "qbert", "seaquest",
-         "space_invaders"]
-ENCODINGS = ["screen:hex", "screen:rle", "screen:delta", "screen:base64", "screen:zlib", "grey84:base64", "grey84:zlib", "ram"]
+GAMES = [
+    "asterix",
+    "beam_rider",
+    "breakout",
+    "freeway",
+    "montezuma_revenge",
+    "ms_pacman",
+    "pong",
+    "qbert",
+    "seaquest",
+    "space_invaders",
+]
+ENCODINGS = [
+    "screen:hex",
+    "screen:rle",
+    "screen:delta",
+    "screen:base64",
+    "screen:zlib",
+    "grey84:base64",
+    "grey84:zlib",
+    "ram",
+]
 TRANSPORTS = ("stdio", "unix", "tcp")
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="scripts/bench wire", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="scripts/bench wire", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--games", nargs="+", default=GAMES, metavar="GAME", help="games for the bytes (default: ten)")
-    parser.add_argument("--speed-games", nargs="+", default=["pong", "seaquest"], metavar="GAME", help="games for the steps")
+    parser.add_argument(
+        "--speed-games", nargs="+", default=["pong", "seaquest"], metavar="GAME", help="games for the steps"
+    )
     parser.add_argument("--steps", type=int, default=4000, help="steps of one round (default 4000)")
-    parser.add_argument("--placement", nargs="+", default=["apart", "free"], choices=["apart", "free"],
-                        help="placement of client and server on the processors (default: both)")
-    parser.add_argument("--ahead", type=int, nargs="+", default=[1, 16],
-                        help="requests in flight; 1 waits for each reply (default 1 16)")
+    parser.add_argument(
+        "--placement",
+        nargs="+",
+        default=["apart", "free"],
+        choices=["apart", "free"],
+        help="placement of client and server on the processors (default: both)",
+    )
+    parser.add_argument(
+        "--ahead",
+        type=int,
+        nargs="+",
+        default=[1, 16],
+        help="requests in flight; 1 waits for each reply (default 1 16)",
+    )
     return parser.parse_args()
 
 
 def image(game):
-    folders = [os.environ.get("RACEBEAM_ROMS", "")] + glob.glob(str(ROOT / ".venv/lib/python*/site-packages/ale_py/roms"))
-    found = [path for path in (os.path.join(folder, game + ".bin") for folder in folders if folder) if os.path.exists(path)]
+    folders = [os.environ.get("RACEBEAM_ROMS", "")] + glob.glob(
+        str(ROOT / ".venv/lib/python*/site-packages/ale_py/roms")
+    )
+    found = [
+        path for path in (os.path.join(folder, game + ".bin") for folder in folders if folder) if os.path.exists(path)
+    ]
     return found[0] if found else "builtin:beamfall"
 
 
@@ -55,8 +92,11 @@ class Session:
     """A session on standard streams."""
 
     def __init__(self, rom, *options):
-        self.process = subprocess.Popen([RACEBEAM, "serve", "--stdio", "--rom", rom, "--log-level", "warning", *options],
-                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.process = subprocess.Popen(
+            [RACEBEAM, "serve", "--stdio", "--rom", rom, "--log-level", "warning", *options],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+        )
         self.ask(f"load {name_of(rom)} seed=1 sticky=0 max_episode_frames=0")
 
     def ask(self, request):
@@ -75,25 +115,34 @@ class Session:
 
 def ratio(own, *others):
     """The median over rounds of the ratio to the slowest of the others in the same round."""
-    return statistics.median(rates[0] / min(rates[1:]) for rates in zip(own["rates"], *(other["rates"] for other in others)))
+    return statistics.median(
+        rates[0] / min(rates[1:]) for rates in zip(own["rates"], *(other["rates"] for other in others))
+    )
 
 
 def print_speed(game, steps, ahead, placement, one_write=False):
     rom = image(game)
     apart = ["--apart"] if placement == "apart" else []
     options = apart + (["--one-write"] if one_write else [])
-    done = subprocess.run([WIRE_BENCH, *options, RACEBEAM, rom, str(steps), str(ahead)], capture_output=True, check=True)
+    done = subprocess.run(
+        [WIRE_BENCH, *options, RACEBEAM, rom, str(steps), str(ahead)], capture_output=True, check=True
+    )
     found = json.loads(done.stdout)
     alone = found["in_process"]
     how = f"{placement}, {ahead} under way" + (", sent in one write" if one_write else "")
-    print(f"\n{name_of(rom)}, {how}, {found['bytes']:.0f} bytes a reply; in process "
-          f"{alone['rate']:.0f} steps/s, {alone['microseconds']:.1f} us")
+    print(
+        f"\n{name_of(rom)}, {how}, {found['bytes']:.0f} bytes a reply; in process "
+        f"{alone['rate']:.0f} steps/s, {alone['microseconds']:.1f} us"
+    )
     print(f"{'':8}{'steps/s':>10}{'echo':>10}{'of less':>9}{'us':>8}{'echo us':>9}{'extra us':>10}")
     for transport in TRANSPORTS:
         own, echo = found[transport], found["echo_" + transport]
         extra = own["microseconds"] - alone["microseconds"] - echo["microseconds"]
-        print(f"{transport:8}{own['rate']:10.0f}{echo['rate']:10.0f}{ratio(own, alone, echo):9.2f}{own['microseconds']:8.1f}"
-              f"{echo['microseconds']:9.1f}{extra:10.1f}", flush=True)
+        print(
+            f"{transport:8}{own['rate']:10.0f}{echo['rate']:10.0f}{ratio(own, alone, echo):9.2f}{own['microseconds']:8.1f}"
+            f"{echo['microseconds']:9.1f}{extra:10.1f}",
+            flush=True,
+        )
 
 
 def print_bytes(games, frames=1000):
@@ -114,15 +163,32 @@ def print_batch(game, machines=64):
     """Compares many machines in one session with one in process, with the same fields and settings. With two requests in
     flight, a client sends the actions of a step before it reads the reply to the previous step."""
     rom = image(game)
-    print(f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} processors, steps/s and times one in process")
-    for ahead, words in itertools.product((1, 2), ("reward ends", "reward ends lives ram screen:rle",
-                                                   "reward ends frame_skip=4", "reward ends lives ram screen:rle frame_skip=4")):
-        done = subprocess.run([WIRE_BENCH, "--machines", str(machines), RACEBEAM, rom, "5000", str(ahead), *words.split()],
-                              capture_output=True, check=True)
+    print(
+        f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} processors, steps/s and times one in process"
+    )
+    for ahead, words in itertools.product(
+        (1, 2),
+        (
+            "reward ends",
+            "reward ends lives ram screen:rle",
+            "reward ends frame_skip=4",
+            "reward ends lives ram screen:rle frame_skip=4",
+        ),
+    ):
+        done = subprocess.run(
+            [WIRE_BENCH, "--machines", str(machines), RACEBEAM, rom, "5000", str(ahead), *words.split()],
+            capture_output=True,
+            check=True,
+        )
         found = json.loads(done.stdout)
         alone = found["in_process"]
-        print(f"{ahead} under way, {words:46}{alone['rate']:9.0f}" + "".join(
-            f"{transport:>8}{found[transport]['rate']:8.0f}{ratio(found[transport], alone):6.2f}" for transport in TRANSPORTS))
+        print(
+            f"{ahead} under way, {words:46}{alone['rate']:9.0f}"
+            + "".join(
+                f"{transport:>8}{found[transport]['rate']:8.0f}{ratio(found[transport], alone):6.2f}"
+                for transport in TRANSPORTS
+            )
+        )
 
 
 def main():

@@ -3,6 +3,7 @@
 Only the function `measured_act` of `racebeam bench --commands` is counted (cli/bench/bench_session.cpp): not
 power-on, resets, or earlier acts. Translated code is counted like any other.
 """
+
 import collections
 import os
 import pathlib
@@ -43,19 +44,40 @@ def count(binary, game, setting, before, frames, cpu=None, environment=PLAIN):
     """
     actions = bench_settings.draw_actions(game, range(18), (before + frames) // setting.skip)
     first = before // setting.skip
-    commands = "".join(f"{command} {' '.join(map(str, part))}\n"
-                       for command, part in (("check", actions[:first]), ("play", actions[first:])) if part)
+    commands = "".join(
+        f"{command} {' '.join(map(str, part))}\n"
+        for command, part in (("check", actions[:first]), ("play", actions[first:]))
+        if part
+    )
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "callgrind.out"
         done = subprocess.run(
-            ["valgrind", "--tool=callgrind", f"--toggle-collect={COUNTED}", f"--callgrind-out-file={out}",
-             str(binary), "bench", "--commands", "--rom", cartridges.image(game), "--frame-skip", str(setting.skip),
-             "--screen", "last" if setting.look else "none", *(["--cpu", cpu] if cpu else [])],
-            input=commands, capture_output=True, text=True, env=os.environ | environment)
+            [
+                "valgrind",
+                "--tool=callgrind",
+                f"--toggle-collect={COUNTED}",
+                f"--callgrind-out-file={out}",
+                str(binary),
+                "bench",
+                "--commands",
+                "--rom",
+                cartridges.image(game),
+                "--frame-skip",
+                str(setting.skip),
+                "--screen",
+                "last" if setting.look else "none",
+                *(["--cpu", cpu] if cpu else []),
+            ],
+            input=commands,
+            capture_output=True,
+            text=True,
+            env=os.environ | environment,
+        )
         if done.returncode:
             own = [line for line in done.stderr.splitlines() if not line.startswith("==")]  # not valgrind's
-            raise RuntimeError(f"{game}: racebeam under valgrind ended with status {done.returncode}: "
-                               + " ".join(own[-1:]))
+            raise RuntimeError(
+                f"{game}: racebeam under valgrind ended with status {done.returncode}: " + " ".join(own[-1:])
+            )
         counts = read(out)
     counts.frames = len(actions[first:]) * setting.skip
     return counts

@@ -1,4 +1,5 @@
 """Finds cartridge images: our own are built in, others are in RACEBEAM_ROMS, else in ale-py."""
+
 import importlib.util
 import os
 import pathlib
@@ -33,8 +34,10 @@ def image(game):
         return f"builtin:{game}"
     place = folder()
     if place is None:
-        raise LookupError(f"there is no image of {game}: there are none in RACEBEAM_ROMS, nor in an ale-py in .venv "
-                          f"(scripts/reference installs it); our own games are {' and '.join(OURS)}")
+        raise LookupError(
+            f"there is no image of {game}: there are none in RACEBEAM_ROMS, nor in an ale-py in .venv "
+            f"(scripts/reference installs it); our own games are {' and '.join(OURS)}"
+        )
     path = place / f"{game}.bin"
     if not path.is_file():
         raise LookupError(f"there is no image of {game} in {place}")

@@ -1,4 +1,5 @@
 """A server and a crowd of sessions on it (tests/server/wire/load_client.cpp), for scripts/load and scripts/bench scale."""
+
 import json
 import os
 import pathlib
@@ -19,13 +20,28 @@ class Server:
         self.processors = processors or os.sched_getaffinity(0)
         self.folder = tempfile.TemporaryDirectory()
         self.place = pathlib.Path(self.folder.name)
-        self.command = [build / "racebeam", "serve", "--listen", "tcp://127.0.0.1:0", "--ready-file", self.place / "ready",
-                        "--grace", "0", "--log-level", "warning", *options]
+        self.command = [
+            build / "racebeam",
+            "serve",
+            "--listen",
+            "tcp://127.0.0.1:0",
+            "--ready-file",
+            self.place / "ready",
+            "--grace",
+            "0",
+            "--log-level",
+            "warning",
+            *options,
+        ]
 
     def __enter__(self):
         with open(self.place / "log", "wb") as log:
-            self.process = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, stderr=log,
-                                            preexec_fn=lambda: os.sched_setaffinity(0, self.processors))
+            self.process = subprocess.Popen(
+                self.command,
+                stdin=subprocess.DEVNULL,
+                stderr=log,
+                preexec_fn=lambda: os.sched_setaffinity(0, self.processors),
+            )
         deadline = time.monotonic() + 60
         while not (self.place / "ready").exists():
             if time.monotonic() > deadline or self.process.poll() is not None:
@@ -59,8 +75,9 @@ class Crowd:
 
     def __init__(self, build, server, sessions, actors, seconds, pause, connects=0, rude=0, load=LOAD, observe=OBSERVE):
         words = [server.port, sessions, actors, seconds, pause, connects, rude, load, observe]
-        self.client = subprocess.Popen([build / "tests/server/load_client", *map(str, words)], stdin=subprocess.PIPE,
-                                       stdout=subprocess.PIPE)
+        self.client = subprocess.Popen(
+            [build / "tests/server/load_client", *map(str, words)], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+        )
 
     def __enter__(self):
         return self

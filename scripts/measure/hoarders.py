@@ -3,6 +3,7 @@
 Idle hoarders fill machines and states, and then wait. Stopped readers ask for long replies, and do not read them. Slow
 readers take a few bytes of them at a time. All come back as soon as the server has ended their session.
 """
+
 import select
 import socket
 import time
@@ -16,6 +17,7 @@ def hoarder(count):
     def register(function):
         COUNTS[function] = count
         return function
+
     return register
 
 

@@ -6,6 +6,7 @@ memory. A bystander with a game of its own acts every few milliseconds, and requ
 newcomers connect, load a game and act; the time counts until they have managed. At the end, the server is told to stop during
 the attack. If one of the goals is missed, the exit status is 1.
 """
+
 import itertools
 import multiprocessing
 import os
@@ -23,7 +24,13 @@ import processor
 from attacks import ATTACKS, STRANGERS, TOKEN, Session
 
 SESSIONS, THREADS, GRACE, MEMORY = 64, 2, 2, 512
-GOALS = {"bystander p99": 20, "/healthz p99": 50, "newcomer max": 1000, "memory": MEMORY, "SIGTERM": GRACE + 1}  # ms, MiB, s
+GOALS = {
+    "bystander p99": 20,
+    "/healthz p99": 50,
+    "newcomer max": 1000,
+    "memory": MEMORY,
+    "SIGTERM": GRACE + 1,
+}  # ms, MiB, s
 REQUESTS = [function for number, function in zip(range(SESSIONS), itertools.cycle(ATTACKS.values()))]
 
 
@@ -155,10 +162,32 @@ def start_server(build, folder):
     tokens.write_bytes(TOKEN + b"\n")
     tokens.chmod(0o600)
     records.mkdir()
-    command = [build / "racebeam", "serve", "--listen", "tcp://127.0.0.1:0", "--http", "127.0.0.1:0", "--threads", str(THREADS),
-               "--token-file", tokens, "--ready-file", ready, "--record-dir", records, "--record-limit", "20000000",
-               "--grace", str(GRACE), "--log-level", "error"]
-    limited = b"--max-memory" in subprocess.run([build / "racebeam", "serve", "--help"], capture_output=True, check=True).stdout
+    command = [
+        build / "racebeam",
+        "serve",
+        "--listen",
+        "tcp://127.0.0.1:0",
+        "--http",
+        "127.0.0.1:0",
+        "--threads",
+        str(THREADS),
+        "--token-file",
+        tokens,
+        "--ready-file",
+        ready,
+        "--record-dir",
+        records,
+        "--record-limit",
+        "20000000",
+        "--grace",
+        str(GRACE),
+        "--log-level",
+        "error",
+    ]
+    limited = (
+        b"--max-memory"
+        in subprocess.run([build / "racebeam", "serve", "--help"], capture_output=True, check=True).stdout
+    )
     if limited:
         command += ["--max-memory", f"{MEMORY}M"]
     server = subprocess.Popen(command, stdin=subprocess.DEVNULL)
@@ -181,7 +210,10 @@ def percentile(waits, share):
 
 
 def show_waits(name, waits):
-    print(f"{name:14}{len(waits):8}" + "".join(f"{percentile(waits, share):10.2f}" for share in (0.5, 0.99, 1)), flush=True)
+    print(
+        f"{name:14}{len(waits):8}" + "".join(f"{percentile(waits, share):10.2f}" for share in (0.5, 0.99, 1)),
+        flush=True,
+    )
 
 
 def time_to_end(server):
@@ -217,9 +249,13 @@ def measure(attack, server, port, http, records, seconds):
 def judge(found, limited):
     """Prints whether each goal has been reached. Returns whether all have."""
     units = {"memory": "MiB", "SIGTERM": "s"}
-    reached = {name: found[name] < goal or (name == "memory" and not limited) for name, goal in GOALS.items() if name in found}
+    reached = {
+        name: found[name] < goal or (name == "memory" and not limited) for name, goal in GOALS.items() if name in found
+    }
     for name, good in reached.items():
-        print(f"{name:14}{found[name]:10.2f} {units.get(name, 'ms'):4} below {GOALS[name]:4}: {'ok' if good else 'MISSED'}")
+        print(
+            f"{name:14}{found[name]:10.2f} {units.get(name, 'ms'):4} below {GOALS[name]:4}: {'ok' if good else 'MISSED'}"
+        )
     return all(reached.values())
 
 
@@ -242,6 +278,8 @@ def attack_one(name, attack, build, seconds):
 
 def run(build, seconds):
     """Returns the exit status."""
-    print(f"{THREADS} threads, {os.cpu_count()} processors ({processor.name()}), load {os.getloadavg()[0]:.1f}, {seconds:g} seconds each")
+    print(
+        f"{THREADS} threads, {os.cpu_count()} processors ({processor.name()}), load {os.getloadavg()[0]:.1f}, {seconds:g} seconds each"
+    )
     withstood = [attack_one(*attack, build, seconds) for attack in (("requests", REQUESTS), ("memory", hoarders.ALL))]
     return int(not all(withstood))

@@ -26,12 +26,31 @@ SEARCH_GOALS = {("uct", "boxing"): 95, ("uct", "asterix"): 100000, ("uct", "seaq
 SIMULATIONS = {10: "uct10", 50: "uct50", 150: "uct150", 500: "uct"}
 # Agents that have changed: the plan and the agent; whether settings are those of the agent as it is now; what it did.
 CHANGED = (
-    ("baselines", "perturb", lambda settings: settings["frame_skip"] == 1, "an action for 5 frames; now for each frame"),
-    ("hour", "disco", lambda settings: "count_instances" in settings,
-     "left out objects that hardly move, followed others for 8 pixels a decision, and had two bits for a velocity"),
-    ("full_tree", "full_tree", lambda settings: "reuse_tree" in settings, "of equal actions, could choose one that ends the episode"),
-    ("iw1", "iw1", lambda settings: "reuse_tree" in settings,
-     "built its tree anew for each decision, and opened nodes with a reward like others"))
+    (
+        "baselines",
+        "perturb",
+        lambda settings: settings["frame_skip"] == 1,
+        "an action for 5 frames; now for each frame",
+    ),
+    (
+        "hour",
+        "disco",
+        lambda settings: "count_instances" in settings,
+        "left out objects that hardly move, followed others for 8 pixels a decision, and had two bits for a velocity",
+    ),
+    (
+        "full_tree",
+        "full_tree",
+        lambda settings: "reuse_tree" in settings,
+        "of equal actions, could choose one that ends the episode",
+    ),
+    (
+        "iw1",
+        "iw1",
+        lambda settings: "reuse_tree" in settings,
+        "built its tree anew for each decision, and opened nodes with a reward like others",
+    ),
+)
 MACHINE = ("processor", "version")  # of machine.txt: what the table of plans shows
 
 
@@ -73,15 +92,22 @@ def share_of_bench(verified):
 
 def best(found, kind):
     """{game: (score, action)} of the best of the 18 agents of a kind."""
-    scores = {agent.removeprefix(kind + "_"): each for agent, each in found["scores"].items() if agent.startswith(kind + "_")}
-    return {game: max(((each[game], action) for action, each in scores.items() if game in each), key=lambda pair: pair[0])
-            for game in found["games"]}
+    scores = {
+        agent.removeprefix(kind + "_"): each for agent, each in found["scores"].items() if agent.startswith(kind + "_")
+    }
+    return {
+        game: max(((each[game], action) for action, each in scores.items() if game in each), key=lambda pair: pair[0])
+        for game in found["games"]
+    }
 
 
 class Document:
     def __init__(self, folder):
-        self.figures = {name: json.loads((folder / f"{name}.json").read_text()) for name in PLANS
-                        if (folder / f"{name}.json").exists()}
+        self.figures = {
+            name: json.loads((folder / f"{name}.json").read_text())
+            for name in PLANS
+            if (folder / f"{name}.json").exists()
+        }
         self.paper = paper()
         self.parts = []
 
@@ -127,42 +153,93 @@ class Document:
         rows = []
         for name in PLANS:
             found = self.figures.get(name)
-            rows.append([f"`{name}`", *([f"{found['units']:,}", f"{episodes(found):,}", str(found["diverged"]),
-                                         number(found["seconds"] / 3600, 2), *(found["machine"].get(key, "-") for key in MACHINE)]
-                                        if found else ["not run yet", *["-"] * (3 + len(MACHINE))])])
+            rows.append(
+                [
+                    f"`{name}`",
+                    *(
+                        [
+                            f"{found['units']:,}",
+                            f"{episodes(found):,}",
+                            str(found["diverged"]),
+                            number(found["seconds"] / 3600, 2),
+                            *(found["machine"].get(key, "-") for key in MACHINE),
+                        ]
+                        if found
+                        else ["not run yet", *["-"] * (3 + len(MACHINE))]
+                    ),
+                ]
+            )
         self.add(rows_of(["plan", "units", "episodes", "trials that diverged", "core-hours", *MACHINE], *rows))
 
     def scale(self):
         self.add("## What was scaled down")
         self.say("""The plan `paper` has the paper's whole benchmark. `racebeam experiment paper --dry-run` prints what it costs. The figures
             of this document are from smaller plans:""")
-        self.add(rows_of(
-            ["part", "paper", "here", "what that can show", "what it cannot show"],
-            ["baselines", "55 games; number of episodes not printed", "55 games, 30 episodes", "the paper's columns",
-             "differences below the spread of 30 episodes"],
-            ["learners", "55 games, 30 trials of 5,000 episodes", "5 games, 2 trials of 200,000 decisions",
-             "that each learner learns", "scores of whole training; tests between learners"],
-            ["Basic, longer", "5,000 episodes, 30 trials", "2,000,000 decisions, 1 trial", "scores of long training",
-             "the spread over trials"],
-            ["UCT, full tree", "55 games, 10 episodes", "3 games and 1 game, 1 episode", "the budget's strength and cost",
-             "means; other games"],
-            ["IW(1)", f"{sum('iw1' in scores for scores in self.paper.values())} games", "2 games, 1 episode", "the same", "the same"]))
+        self.add(
+            rows_of(
+                ["part", "paper", "here", "what that can show", "what it cannot show"],
+                [
+                    "baselines",
+                    "55 games; number of episodes not printed",
+                    "55 games, 30 episodes",
+                    "the paper's columns",
+                    "differences below the spread of 30 episodes",
+                ],
+                [
+                    "learners",
+                    "55 games, 30 trials of 5,000 episodes",
+                    "5 games, 2 trials of 200,000 decisions",
+                    "that each learner learns",
+                    "scores of whole training; tests between learners",
+                ],
+                [
+                    "Basic, longer",
+                    "5,000 episodes, 30 trials",
+                    "2,000,000 decisions, 1 trial",
+                    "scores of long training",
+                    "the spread over trials",
+                ],
+                [
+                    "UCT, full tree",
+                    "55 games, 10 episodes",
+                    "3 games and 1 game, 1 episode",
+                    "the budget's strength and cost",
+                    "means; other games",
+                ],
+                [
+                    "IW(1)",
+                    f"{sum('iw1' in scores for scores in self.paper.values())} games",
+                    "2 games, 1 episode",
+                    "the same",
+                    "the same",
+                ],
+            )
+        )
 
     def differences(self):
         self.add("## Why figures differ from the published ones")
-        self.add("\n".join(textwrap.fill("- " + " ".join(text.split()), WIDTH, subsequent_indent="  ") for text in (
-            """The emulator: the paper used ALE of 2012. racebeam is exact to ALE 0.12, whose emulator and games' rules have changed
+        self.add(
+            "\n".join(
+                textwrap.fill("- " + " ".join(text.split()), WIDTH, subsequent_indent="  ")
+                for text in (
+                    """The emulator: the paper used ALE of 2012. racebeam is exact to ALE 0.12, whose emulator and games' rules have changed
             since.""",
-            """Starts: each episode begins at power-on with a seed of its own, and without the human trajectories and NOOPs that
+                    """Starts: each episode begins at power-on with a seed of its own, and without the human trajectories and NOOPs that
             others used. Games that draw nothing from their seed give a policy without chance the same episode each time.""",
-            """Rewards: some rules differ. Skiing's rewards were near 0 then, and add up to about -17,000 for random play now.
+                    """Rewards: some rules differ. Skiing's rewards were near 0 then, and add up to about -17,000 for random play now.
             Its row cannot be compared.""",
-            """Single episodes: searches play one, so that an early death costs all that would follow.""",
-            """Choices: the paper leaves much open ([paper-notes.md](paper-notes.md)).""")))
+                    """Single episodes: searches play one, so that an early death costs all that would follow.""",
+                    """Choices: the paper leaves much open ([paper-notes.md](paper-notes.md)).""",
+                )
+            )
+        )
 
     def changes(self):
-        rows = [[f"`{plan}`", agent, then] for plan, agent, is_now, then in CHANGED
-                if (settings := self.figures.get(plan, {}).get("settings", {}).get(agent)) and not is_now(settings)]
+        rows = [
+            [f"`{plan}`", agent, then]
+            for plan, agent, is_now, then in CHANGED
+            if (settings := self.figures.get(plan, {}).get("settings", {}).get(agent)) and not is_now(settings)
+        ]
         if not rows:
             return
         self.add("## Agents that have changed since")
@@ -179,15 +256,44 @@ class Document:
         rows = []
         for game in found["games"]:
             theirs = self.paper.get(game, {})
-            rows.append([game, number(random[game]), number(theirs.get("random")),
-                         number(const[game][0]), const[game][1], number(theirs.get("const")),
-                         number(perturb[game][0]), perturb[game][1], number(theirs.get("perturb"))])
-        near = [game for game in random if game != "skiing" and game in self.paper and
-                abs(random[game] - self.paper[game]["random"]) <= abs(self.paper[game]["random"]) / 5]
-        self.say(f"""Means of {found['settings']['random']['evaluation_episodes']} episodes. Const and Perturb are the best of 18 policies, with
+            rows.append(
+                [
+                    game,
+                    number(random[game]),
+                    number(theirs.get("random")),
+                    number(const[game][0]),
+                    const[game][1],
+                    number(theirs.get("const")),
+                    number(perturb[game][0]),
+                    perturb[game][1],
+                    number(theirs.get("perturb")),
+                ]
+            )
+        near = [
+            game
+            for game in random
+            if game != "skiing"
+            and game in self.paper
+            and abs(random[game] - self.paper[game]["random"]) <= abs(self.paper[game]["random"]) / 5
+        ]
+        self.say(f"""Means of {found["settings"]["random"]["evaluation_episodes"]} episodes. Const and Perturb are the best of 18 policies, with
             its action. In {len(near)} of {len(random)} games, the score of Random is within a fifth of the paper's.""")
-        self.add(rows_of(["game", "Random", "paper", "Const", "action", "paper's Const", "Perturb", "action of Perturb", "paper's Perturb"],
-                         *rows))
+        self.add(
+            rows_of(
+                [
+                    "game",
+                    "Random",
+                    "paper",
+                    "Const",
+                    "action",
+                    "paper's Const",
+                    "Perturb",
+                    "action of Perturb",
+                    "paper's Perturb",
+                ],
+                *rows,
+            )
+        )
 
     def learners(self):
         self.add("## Learners, in an hour")
@@ -197,20 +303,43 @@ class Document:
         scores = found["scores"]
         agents = [agent for agent in scores if agent in LEARNERS]
         random, trial = scores["random"], found["settings"][agents[0]]
-        self.say(f"""{trial['trials']} trials of {trial['training_frames'] // trial['frame_skip']:,} decisions and
-            {trial['evaluation_episodes']} evaluation episodes each. All took {number(found["seconds"] / 7200, 2)} hours of processor time on
+        self.say(f"""{trial["trials"]} trials of {trial["training_frames"] // trial["frame_skip"]:,} decisions and
+            {trial["evaluation_episodes"]} evaluation episodes each. All took {number(found["seconds"] / 7200, 2)} hours of processor time on
             each of two cores (goal: 1, at most 1.5), the discovery of backgrounds and classes not included. In brackets: the paper's
             scores, after 5,000 episodes.""")
-        self.add(rows_of(["game", "Random", *agents], *(
-            [game, f"{number(random[game])} ({number(self.paper[game]['random'])})",
-             *(f"{number(scores[agent].get(game))} ({number(self.paper[game][agent])})" for agent in agents)]
-            for game in found["games"])))
-        self.say("Games in which each learner is better than Random (goal: at least three), and its speed, emulation included:")
+        self.add(
+            rows_of(
+                ["game", "Random", *agents],
+                *(
+                    [
+                        game,
+                        f"{number(random[game])} ({number(self.paper[game]['random'])})",
+                        *(f"{number(scores[agent].get(game))} ({number(self.paper[game][agent])})" for agent in agents),
+                    ]
+                    for game in found["games"]
+                ),
+            )
+        )
+        self.say(
+            "Games in which each learner is better than Random (goal: at least three), and its speed, emulation included:"
+        )
         speeds = found["speeds"]
-        self.add(rows_of(["learner", "games above Random", "decisions a second, mean of the games", "lowest", "highest", "goal"], *(
-            [agent, str(sum(scores[agent].get(game, random[game]) > random[game] for game in random)),
-             number(statistics.mean(speeds[agent].values()), 0), number(min(speeds[agent].values()), 0),
-             number(max(speeds[agent].values()), 0), number(LEARNERS[agent], 0)] for agent in agents)))
+        self.add(
+            rows_of(
+                ["learner", "games above Random", "decisions a second, mean of the games", "lowest", "highest", "goal"],
+                *(
+                    [
+                        agent,
+                        str(sum(scores[agent].get(game, random[game]) > random[game] for game in random)),
+                        number(statistics.mean(speeds[agent].values()), 0),
+                        number(min(speeds[agent].values()), 0),
+                        number(max(speeds[agent].values()), 0),
+                        number(LEARNERS[agent], 0),
+                    ]
+                    for agent in agents
+                ),
+            )
+        )
         if (ROOT / "docs/pictures/learning-curves.svg").exists():
             self.add("![Scores of training episodes by frames, a panel for each game](pictures/learning-curves.svg)")
 
@@ -220,9 +349,15 @@ class Document:
             return
         found = self.figures["basic"]
         scores, random = found["scores"]["basic"], found["scores"]["random"]
-        self.add(rows_of(["game", "Basic", "paper's Basic", "Random"], *(
-            [game, number(scores.get(game)), number(self.paper[game]["basic"]), number(random[game])]
-            for game in found["games"])))
+        self.add(
+            rows_of(
+                ["game", "Basic", "paper's Basic", "Random"],
+                *(
+                    [game, number(scores.get(game)), number(self.paper[game]["basic"]), number(random[game])]
+                    for game in found["games"]
+                ),
+            )
+        )
 
     def disco(self):
         self.add("## DISCO, whole training")
@@ -230,9 +365,15 @@ class Document:
             return
         found = self.figures["disco"]
         scores, counts = found["scores"]["disco"], found["episodes"]["disco"]
-        self.add(rows_of(["game", "DISCO", "paper's DISCO", "evaluation episodes"], *(
-            [game, number(scores.get(game)), number(self.paper[game]["disco"]), f"{counts.get(game, 0):,}"]
-            for game in found["games"])))
+        self.add(
+            rows_of(
+                ["game", "DISCO", "paper's DISCO", "evaluation episodes"],
+                *(
+                    [game, number(scores.get(game)), number(self.paper[game]["disco"]), f"{counts.get(game, 0):,}"]
+                    for game in found["games"]
+                ),
+            )
+        )
 
     def searches(self):
         self.add("## Search")
@@ -249,14 +390,38 @@ class Document:
                     seconds_of_uct.append(seconds)
                 speed = episode["searched_frames"] / episode["seconds"]
                 bench = found["bench"]["search"].get(game)
-                rows.append([name, game, number(score), number(self.paper[game].get(name)),
-                             number(SEARCH_GOALS.get((name, game)), 0), f"{episode['decisions']:,}", number(seconds, 2),
-                             number(speed, 0), number(speed / bench, 2) if bench else "-"])
+                rows.append(
+                    [
+                        name,
+                        game,
+                        number(score),
+                        number(self.paper[game].get(name)),
+                        number(SEARCH_GOALS.get((name, game)), 0),
+                        f"{episode['decisions']:,}",
+                        number(seconds, 2),
+                        number(speed, 0),
+                        number(speed / bench, 2) if bench else "-",
+                    ]
+                )
         if rows:
             self.say("""One episode each, at the full budget of a decision. The last column compares with
                 `racebeam bench --search --frame-skip 5`.""")
-            self.add(rows_of(["agent", "game", "score", "published", "goal", "decisions", "seconds a decision", "frames a second",
-                              "of the bench"], *rows))
+            self.add(
+                rows_of(
+                    [
+                        "agent",
+                        "game",
+                        "score",
+                        "published",
+                        "goal",
+                        "decisions",
+                        "seconds a decision",
+                        "frames a second",
+                        "of the bench",
+                    ],
+                    *rows,
+                )
+            )
         if seconds_of_uct:
             self.say(f"""UCT takes {number(statistics.mean(seconds_of_uct), 2)} seconds a decision in the mean (goal: at most 1; the paper's
                 took 15).""")
@@ -268,9 +433,21 @@ class Document:
         self.say("Means of the episodes, whose number is in brackets.")
         each = {count: self.figures[name] for count, name in SIMULATIONS.items()}
         games = each[10]["games"]
-        self.add(rows_of(["game", *(f"{count} simulations" for count in each)], *(
-            [game, *(f"{number(found['scores']['uct'].get(game))} ({found['episodes']['uct'].get(game, 0)})"
-                     for found in each.values())] for game in games)))
+        self.add(
+            rows_of(
+                ["game", *(f"{count} simulations" for count in each)],
+                *(
+                    [
+                        game,
+                        *(
+                            f"{number(found['scores']['uct'].get(game))} ({found['episodes']['uct'].get(game, 0)})"
+                            for found in each.values()
+                        ),
+                    ]
+                    for game in games
+                ),
+            )
+        )
 
     def verification(self):
         self.add("## Verification")
@@ -283,28 +460,56 @@ class Document:
             none.setdefault(found["machine"].get("processor", "-"), {}).update(found["bench"]["none"])
             verified, ale = found["verified"], found["ale"] or {}
             if verified:
-                rows.append([f"`{name}`", *(f"{verified[key]:,}" for key in ("confirmed", "wrong", "not_checked")),
-                             number(verified["frames"] / verified["seconds"], 0),
-                             share_of_bench(verified),
-                             number(100 * verified["seconds"] / found["seconds"], 1) + "%",
-                             *(f"{ale[key]:,}" if ale else "-" for key in ("agree", "differ"))])
+                rows.append(
+                    [
+                        f"`{name}`",
+                        *(f"{verified[key]:,}" for key in ("confirmed", "wrong", "not_checked")),
+                        number(verified["frames"] / verified["seconds"], 0),
+                        share_of_bench(verified),
+                        number(100 * verified["seconds"] / found["seconds"], 1) + "%",
+                        *(f"{ale[key]:,}" if ale else "-" for key in ("agree", "differ")),
+                    ]
+                )
         if not rows:
             self.say("Not run yet.")
             return
-        self.add(rows_of(["plan", "confirmed", "wrong", "not checked", "frames a second and core", "of the bench",
-                          "of the time of the run", "ALE agrees", "ALE does not"], *rows))
+        self.add(
+            rows_of(
+                [
+                    "plan",
+                    "confirmed",
+                    "wrong",
+                    "not checked",
+                    "frames a second and core",
+                    "of the bench",
+                    "of the time of the run",
+                    "ALE agrees",
+                    "ALE does not",
+                ],
+                *rows,
+            )
+        )
         for processor, speeds in none.items():
             if speeds:
-                self.say(f"`racebeam bench --screen none --frame-skip 5` on {processor}, frames a second: " +
-                         ", ".join(f"{game} {number(speed, 0)}" for game, speed in speeds.items()) + ".")
+                self.say(
+                    f"`racebeam bench --screen none --frame-skip 5` on {processor}, frames a second: "
+                    + ", ".join(f"{game} {number(speed, 0)}" for game, speed in speeds.items())
+                    + "."
+                )
 
     def logs(self):
         self.add("## Logs")
         rows = []
-        for name, agents, measure, goal in (("baselines", ("random",), "largest", "at most 12,288"),
-                                            ("hour", tuple(LEARNERS), "median", "under 2,048")):
+        for name, agents, measure, goal in (
+            ("baselines", ("random",), "largest", "at most 12,288"),
+            ("hour", tuple(LEARNERS), "median", "under 2,048"),
+        ):
             sizes = self.figures[name]["log_bytes"] if name in self.figures else {}
-            rows += [[f"`{name}`", agent, measure, number(sizes[agent][measure], 0), goal] for agent in agents if agent in sizes]
+            rows += [
+                [f"`{name}`", agent, measure, number(sizes[agent][measure], 0), goal]
+                for agent in agents
+                if agent in sizes
+            ]
         if rows:
             self.add(rows_of(["plan", "agent", "size of", "bytes", "goal"], *rows))
         else:

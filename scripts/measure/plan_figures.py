@@ -22,6 +22,7 @@ import pathlib
 import re
 import statistics
 import sys
+
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -45,8 +46,10 @@ class Results:
         rows = table(folder / "results.csv")
         self.rows = [row for row in rows if row["end"] != "diverged"]
         self.diverged = len(rows) - len(self.rows)
-        self.times = {row["unit"]: {name: float(value) for name, value in row.items() if name != "unit"}
-                      for row in table(folder / "times.csv")}
+        self.times = {
+            row["unit"]: {name: float(value) for name, value in row.items() if name != "unit"}
+            for row in table(folder / "times.csv")
+        }
         self.agents = list(dict.fromkeys(row["agent"] for row in self.rows))
 
     def beside(self, name):
@@ -74,18 +77,32 @@ class Results:
             for part in PARTS:
                 frames[game] += self.times[unit][part + "_frames"]
                 seconds[game] += self.times[unit][part + "_seconds"]
-        return {game: frames[game] / self.settings(agent)["frame_skip"] / seconds[game] for game in frames if seconds[game]}
+        return {
+            game: frames[game] / self.settings(agent)["frame_skip"] / seconds[game] for game in frames if seconds[game]
+        }
 
     def log_bytes(self, agent):
-        sizes = [(self.folder / "logs" / row["unit"] / f"{row['episode']}.episode").stat().st_size
-                 for row in self.rows if row["agent"] == agent]
+        sizes = [
+            (self.folder / "logs" / row["unit"] / f"{row['episode']}.episode").stat().st_size
+            for row in self.rows
+            if row["agent"] == agent
+        ]
         return {"median": statistics.median(sizes), "largest": max(sizes)}
 
     def searches(self):
         """An entry for each episode of an agent that searches."""
-        return [{"agent": row["agent"], "game": row["game"], "score": float(row["score"]), "decisions": int(row["decisions"]),
-                 "seconds": times["evaluation_seconds"], "searched_frames": times["searched_frames"]}
-                for row in self.rows if (times := self.times[row["unit"]])["searched_frames"]]
+        return [
+            {
+                "agent": row["agent"],
+                "game": row["game"],
+                "score": float(row["score"]),
+                "decisions": int(row["decisions"]),
+                "seconds": times["evaluation_seconds"],
+                "searched_frames": times["searched_frames"],
+            }
+            for row in self.rows
+            if (times := self.times[row["unit"]])["searched_frames"]
+        ]
 
     def machine(self):
         text = self.beside("machine.txt")
@@ -96,7 +113,9 @@ class Results:
         if text is None:
             return None
         names = ("confirmed", "wrong", "not_checked", "frames")
-        counts = re.search(r"(\d+) rows confirmed, (\d+) wrong, (\d+) could not be checked; (\d+) frames", text).groups()
+        counts = re.search(
+            r"(\d+) rows confirmed, (\d+) wrong, (\d+) could not be checked; (\d+) frames", text
+        ).groups()
         seconds = float(re.search(r"processor seconds: ([0-9.]+)", text)[1])
         return {**dict(zip(names, map(int, counts))), "seconds": seconds, "bench_seconds": self.bench_seconds()}
 
@@ -125,17 +144,24 @@ class Results:
             "games": self.plan["games"],
             "settings": {agent: self.settings(agent) for agent in self.plan["agents"]},
             "units": len(self.times),
-            "episodes": {agent: dict(collections.Counter(row["game"] for row in self.rows if row["agent"] == agent))
-                         for agent in self.agents},
+            "episodes": {
+                agent: dict(collections.Counter(row["game"] for row in self.rows if row["agent"] == agent))
+                for agent in self.agents
+            },
             "diverged": self.diverged,
             "seconds": sum(times[part + "_seconds"] for times in self.times.values() for part in PARTS),
             "scores": {agent: self.scores(agent) for agent in self.agents},
             "speeds": {agent: self.speeds(agent) for agent in self.agents},
             "log_bytes": {agent: self.log_bytes(agent) for agent in self.agents},
             "searches": self.searches(),
-            "bench": {name: {game: speed for game in self.plan["games"]
-                             if self.bench(game, "search") and (speed := self.bench(game, kind))}
-                      for name, kind in (("search", "search"), ("none", "none-5"))},
+            "bench": {
+                name: {
+                    game: speed
+                    for game in self.plan["games"]
+                    if self.bench(game, "search") and (speed := self.bench(game, kind))
+                }
+                for name, kind in (("search", "search"), ("none", "none-5"))
+            },
             "verified": self.verified(),
             "ale": self.ale(),
         }

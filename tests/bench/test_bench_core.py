@@ -49,11 +49,17 @@ def figures(ratio):
 
 
 def results(ratios):
-    return {"command": "scripts/bench core", "date": "2026-01-02", "seconds": 60, "frames": 500,
-            "chunk_frames": 500, "differences": [],
-            "machine": {"processor": "P", "processors": 2, "system": "S"},
-            "versions": {"racebeam": "1", "commit": "c", "compiler": "g", "ale_py": "0", "python": "3"},
-            "games": {game: figures(ratio) for game, ratio in ratios.items()}}
+    return {
+        "command": "scripts/bench core",
+        "date": "2026-01-02",
+        "seconds": 60,
+        "frames": 500,
+        "chunk_frames": 500,
+        "differences": [],
+        "machine": {"processor": "P", "processors": 2, "system": "S"},
+        "versions": {"racebeam": "1", "commit": "c", "compiler": "g", "ale_py": "0", "python": "3"},
+        "games": {game: figures(ratio) for game, ratio in ratios.items()},
+    }
 
 
 class Reports(unittest.TestCase):
@@ -101,9 +107,23 @@ class Measuring(unittest.TestCase):
     def measure(self, binary, *words):
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder) / "core.json"
-            done = subprocess.run([PYTHON, "-B", SOURCE / "scripts/measure/bench_core.py", "--games", "pong",
-                                   "--frames", "1000", "--out", out, *words], capture_output=True, text=True,
-                                  env=os.environ | {"RACEBEAM_BINARY": str(binary)})
+            done = subprocess.run(
+                [
+                    PYTHON,
+                    "-B",
+                    SOURCE / "scripts/measure/bench_core.py",
+                    "--games",
+                    "pong",
+                    "--frames",
+                    "1000",
+                    "--out",
+                    out,
+                    *words,
+                ],
+                capture_output=True,
+                text=True,
+                env=os.environ | {"RACEBEAM_BINARY": str(binary)},
+            )
             return done, json.loads(out.read_text()) if out.exists() else None
 
     def measure_liar(self, command, field, *words):
@@ -124,14 +144,19 @@ class Measuring(unittest.TestCase):
         self.assertTrue(all(value > 0 for value in game["states"].values()))
 
     def test_a_difference_makes_the_run_fail_and_is_named(self):
-        for command, field, setting in (("play", "screen", "every"), ("play", "ram", "none"),
-                                        ("check", "digest", "last"), ("play", "reward", "none"),
-                                        ("reset", "screen", "states")):
+        for command, field, setting in (
+            ("play", "screen", "every"),
+            ("play", "ram", "none"),
+            ("check", "digest", "last"),
+            ("play", "reward", "none"),
+            ("reset", "screen", "states"),
+        ):
             with self.subTest(command=command, field=field):
                 done = self.measure_liar(command, field, "--settings", setting)
                 self.assertEqual(done.returncode, 1, done.stderr)
                 self.assertRegex(
-                    done.stderr, rf"bench: pong differs from the reference in setting {setting}, .*: {field} ")
+                    done.stderr, rf"bench: pong differs from the reference in setting {setting}, .*: {field} "
+                )
 
     def test_a_game_without_an_image_is_named(self):
         done, _ = self.measure(BINARY, "--games", "pang")
@@ -141,8 +166,10 @@ class Measuring(unittest.TestCase):
 
 if __name__ == "__main__":
     if PYTHON is None:
-        print("bench: not tested beside the reference: there is no ale-py here or in .venv "
-              "(scripts/reference installs it)")
+        print(
+            "bench: not tested beside the reference: there is no ale-py here or in .venv "
+            "(scripts/reference installs it)"
+        )
         rest = unittest.main(argv=[sys.argv[0], "Reports", "Actions"], exit=False).result
         sys.exit(SKIPPED if rest.wasSuccessful() else 1)
     unittest.main()

@@ -20,9 +20,21 @@ def write(path, lines):
 
 def results(folder, agents, scores, seconds="2.0", frames="1000"):
     """Results of agents in Asterix: `scores` has a list of episodes for each trial of each agent."""
-    write(folder / "plan.toml", ['games = ["asterix"]', f"agents = {json.dumps(agents)}"] + [
-        line for agent in agents for line in (f"[agent.{agent}]", "frame_skip = 5", "trials = 1", "training_frames = 500",
-                                              "evaluation_episodes = 2")])
+    write(
+        folder / "plan.toml",
+        ['games = ["asterix"]', f"agents = {json.dumps(agents)}"]
+        + [
+            line
+            for agent in agents
+            for line in (
+                f"[agent.{agent}]",
+                "frame_skip = 5",
+                "trials = 1",
+                "training_frames = 500",
+                "evaluation_episodes = 2",
+            )
+        ],
+    )
     rows, times = [], []
     for agent, trials in scores.items():
         for trial, episodes in enumerate(trials, 1):
@@ -32,7 +44,10 @@ def results(folder, agents, scores, seconds="2.0", frames="1000"):
                 write(folder / "logs" / unit / f"{episode}.episode", ["log"])
             times.append(f"{unit},0.5,500,{seconds},{frames},30000")
     write(folder / "results.csv", ["unit,game,agent,trial,episode,score,frames,decisions,end", *rows])
-    write(folder / "times.csv", ["unit,training_seconds,training_frames,evaluation_seconds,evaluation_frames,searched_frames", *times])
+    write(
+        folder / "times.csv",
+        ["unit,training_seconds,training_frames,evaluation_seconds,evaluation_frames,searched_frames", *times],
+    )
 
 
 class PaperResults(unittest.TestCase):
@@ -62,8 +77,11 @@ class PaperResults(unittest.TestCase):
             plan_figures.Results(self.folder / "uct")
 
     def test_baselines_stand_beside_the_paper(self):
-        results(self.folder / "baselines", ["random", "const", "perturb"],
-                {"random": [[100, 400]], "const_noop": [[10]], "const_up": [[70, 72]], "perturb_up": [[33]]})
+        results(
+            self.folder / "baselines",
+            ["random", "const", "perturb"],
+            {"random": [[100, 400]], "const_noop": [[10]], "const_up": [[70, 72]], "perturb_up": [[33]]},
+        )
         text = self.text()
         self.assertIn("| asterix | 250.0 | 288.1 | 71.0 | up | 650.0 | 33.0 | up | 337.8 |", text)
         self.assertIn("In 1 of 1 games, the score of Random is within a fifth", " ".join(text.split()))
@@ -85,16 +103,21 @@ class PaperResults(unittest.TestCase):
 
     def test_verification_is_quoted(self):
         results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
-        write(self.folder / "iw1.verify", ["1 rows confirmed, 0 wrong, 0 could not be checked; 1000 frames in 9.0 s",
-                                           "processor seconds: 0.05"])
+        write(
+            self.folder / "iw1.verify",
+            ["1 rows confirmed, 0 wrong, 0 could not be checked; 1000 frames in 9.0 s", "processor seconds: 0.05"],
+        )
         write(self.folder / "iw1.ale", ["1 rows agree with ALE, 0 do not, 0 have no image"])
         self.assertIn("| `iw1` | 1 | 0 | 0 | 20,000 | - | 2.0% | 1 | 0 |", self.text())
         write(self.folder / "bench/asterix-none-5.json", ['{"frames_per_second": 25000}'])
         self.assertIn("| `iw1` | 1 | 0 | 0 | 20,000 | 0.80 | 2.0% | 1 | 0 |", self.text())
 
     def test_figures_of_agents_that_have_changed_are_named(self):
-        results(self.folder / "baselines", ["random", "const", "perturb"],
-                {"random": [[100]], "const_noop": [[10]], "perturb_up": [[33]]})
+        results(
+            self.folder / "baselines",
+            ["random", "const", "perturb"],
+            {"random": [[100]], "const_noop": [[10]], "perturb_up": [[33]]},
+        )
         results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
         text = self.text()
         self.assertIn("| `baselines` | perturb | an action for 5 frames; now for each frame |", text)

@@ -1,4 +1,5 @@
 """scripts/measure/processor.py: figures name the design of the processor, not its brand alone."""
+
 import unittest
 
 import processor
@@ -16,9 +17,12 @@ model name\t: Another brand
 
 class Processor(unittest.TestCase):
     def test_designs_that_share_a_brand_are_told_apart(self):
-        for vendor, family, model, design in [("AuthenticAMD", 25, 1, "Zen 3"), ("AuthenticAMD", 25, 17, "Zen 4"),
-                                              ("AuthenticAMD", 26, 2, "Zen 5"),
-                                              ("GenuineIntel", 6, 0x55, "Skylake-SP or Cascade Lake")]:
+        for vendor, family, model, design in [
+            ("AuthenticAMD", 25, 1, "Zen 3"),
+            ("AuthenticAMD", 25, 17, "Zen 4"),
+            ("AuthenticAMD", 26, 2, "Zen 5"),
+            ("GenuineIntel", 6, 0x55, "Skylake-SP or Cascade Lake"),
+        ]:
             with self.subTest(design):
                 text = CPUINFO.format(vendor=vendor, family=family, model=model)
                 self.assertEqual(processor.describe(text), f"A brand ({design})")

@@ -23,8 +23,11 @@ IDENTICAL, UNKNOWN = "identical", "unknown to the reference"
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="scripts/check/classic-conformance", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="scripts/check/classic-conformance",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     add = parser.add_argument
     add("--reference", required=True, metavar="PATH", help="the program `ale` of ALE 0.6.0")
     add("--games", metavar="A,B", help="only these games (default: all with an image)")
@@ -32,7 +35,13 @@ def parse_arguments():
     add("--seeds", type=int, default=3, metavar="N", help="runs of each game (default 3)")
     add("--lines", type=int, default=1000, metavar="N", help="lines of a run (default 1000)")
     add("--run", action="append", metavar="NAME", help="only this run, by its name in a report; repeatable")
-    add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs in parallel (default: one for each processor)")
+    add(
+        "--jobs",
+        type=int,
+        default=os.cpu_count(),
+        metavar="N",
+        help="runs in parallel (default: one for each processor)",
+    )
     add("--record", type=pathlib.Path, metavar="FILE", help="write digests of the reference's output")
     return parser.parse_args()
 
@@ -78,7 +87,9 @@ def main():
         return 2
     results = compare_all(options, runs)
     if options.record:
-        write_recorded(options.record, {run: expected for run, verdict, expected in results if expected and verdict != UNKNOWN})
+        write_recorded(
+            options.record, {run: expected for run, verdict, expected in results if expected and verdict != UNKNOWN}
+        )
     return report({run: verdict for run, verdict, _ in results})
 
 

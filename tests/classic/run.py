@@ -40,10 +40,16 @@ class Run(NamedRun):
 
     def options(self):
         """The server's command line, without the image."""
-        values = {"game_controller": "fifo", "random_seed": self.seed, "frame_skip": self.skip,
-                  "repeat_action_probability": self.sticky, "color_averaging": truth(self.averaging),
-                  "run_length_encoding": truth(not self.full), "max_num_frames_per_episode": self.limit,
-                  "max_num_frames": self.frames}
+        values = {
+            "game_controller": "fifo",
+            "random_seed": self.seed,
+            "frame_skip": self.skip,
+            "repeat_action_probability": self.sticky,
+            "color_averaging": truth(self.averaging),
+            "run_length_encoding": truth(not self.full),
+            "max_num_frames_per_episode": self.limit,
+            "max_num_frames": self.frames,
+        }
         return [word for key, value in values.items() for word in (f"-{key}", str(value))]
 
     def said(self):
@@ -75,8 +81,17 @@ def truth(value):
 def drawn(game, seed, lines):
     """A run of the game, with settings that are drawn from the seed."""
     generator = random.Random(f"settings {game} {seed}")
-    return Run(game, skip=generator.choice(SKIPS), sticky=generator.choice(STICKIES), averaging=generator.randrange(2),
-               full=int(generator.random() < 0.2), limit=generator.choice((0, 0, generator.randrange(60, 1200))),
-               frames=generator.choice((0, 0, 0, generator.randrange(300, 2000))), both=generator.randrange(2),
-               specials=generator.choice((0, 20, 100)), resets=generator.choice((0, 2, 10)),
-               seed=generator.randrange(1, 1 << 31), lines=lines)
+    return Run(
+        game,
+        skip=generator.choice(SKIPS),
+        sticky=generator.choice(STICKIES),
+        averaging=generator.randrange(2),
+        full=int(generator.random() < 0.2),
+        limit=generator.choice((0, 0, generator.randrange(60, 1200))),
+        frames=generator.choice((0, 0, 0, generator.randrange(300, 2000))),
+        both=generator.randrange(2),
+        specials=generator.choice((0, 20, 100)),
+        resets=generator.choice((0, 2, 10)),
+        seed=generator.randrange(1, 1 << 31),
+        lines=lines,
+    )

@@ -14,6 +14,7 @@ SHOWN = 8  # bytes of RAM that a report names
 @dataclass(frozen=True)
 class Answer:
     """All output of a server."""
+
     status: int
     output: bytes
     errors: str
@@ -63,7 +64,7 @@ def fields(wanted, had):
 
 
 def bytes_that_differ(wanted, had):
-    differing = [at for at in range(0, min(len(wanted), len(had)), 2) if wanted[at:at + 2] != had[at:at + 2]]
-    shown = [f"{0x80 + at // 2:02X}={had[at:at + 2]} not {wanted[at:at + 2]}" for at in differing[:SHOWN]]
+    differing = [at for at in range(0, min(len(wanted), len(had)), 2) if wanted[at : at + 2] != had[at : at + 2]]
+    shown = [f"{0x80 + at // 2:02X}={had[at : at + 2]} not {wanted[at : at + 2]}" for at in differing[:SHOWN]]
     more = len(differing) - len(shown)
     return " ".join(shown) + (f" and {more} bytes more" if more else "")

@@ -32,7 +32,10 @@ class Tool(unittest.TestCase):
         """Status and output of the tool, with `command` as the reference."""
         done = subprocess.run(
             [sys.executable, "-B", TOOL, "--reference", self.reference(command), "--lines", "200", *options],
-            env={**os.environ, "RACEBEAM_ROMS": str(self.folder), "RACEBEAM_BINARY": BINARY}, capture_output=True, text=True)
+            env={**os.environ, "RACEBEAM_ROMS": str(self.folder), "RACEBEAM_BINARY": BINARY},
+            capture_output=True,
+            text=True,
+        )
         return done.returncode, done.stdout + done.stderr
 
     def test_the_same_server_is_identical(self):
@@ -57,15 +60,21 @@ class Tool(unittest.TestCase):
     def test_the_record_is_the_output_of_the_reference(self):
         from recorded import digest, read
         from session import play
-        self.compare(f"exec '{BINARY}' classic \"$@\"", "--seed", "1", "--seeds", "2", "--record", str(self.folder / "recorded"))
+
+        self.compare(
+            f"exec '{BINARY}' classic \"$@\"", "--seed", "1", "--seeds", "2", "--record", str(self.folder / "recorded")
+        )
         runs = read(self.folder / "recorded")
         self.assertEqual(len(runs), 2)
         for run, wanted in runs:
             self.assertEqual(digest(play([BINARY, "classic"], run, str(IMAGE))), wanted)
 
     def test_nonsense_is_named(self):
-        for options, hint in ((("--run", "beamfall:depth=3"), "'depth'"), (("--run", "beamfall:skip=x"), "'x'"),
-                              (("--games", "unheard_of"), "'unheard_of'")):
+        for options, hint in (
+            (("--run", "beamfall:depth=3"), "'depth'"),
+            (("--run", "beamfall:skip=x"), "'x'"),
+            (("--games", "unheard_of"), "'unheard_of'"),
+        ):
             status, output = self.compare("exit 1", *options)
             self.assertEqual(status, 2, output)
             self.assertIn(hint, output.splitlines()[-1])

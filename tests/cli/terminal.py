@@ -22,7 +22,17 @@ class Terminal:
     """`graphics`: of blocks, sixel and kitty. `answers`: whether it answers at all. `keyboard`: whether it has the keyboard
     protocol of kitty. `confirms` may be set to False: it then keeps the questions whether a picture has arrived."""
 
-    def __init__(self, words, columns=80, rows=24, cell=(8, 16), graphics="blocks", answers=True, keyboard=False, environment=None):
+    def __init__(
+        self,
+        words,
+        columns=80,
+        rows=24,
+        cell=(8, 16),
+        graphics="blocks",
+        answers=True,
+        keyboard=False,
+        environment=None,
+    ):
         self.graphics, self.answers, self.keyboard, self.confirms = graphics, answers, keyboard, True
         self.rest, self.modes, self.cells, self.picture, self.pictures, self.chunks = b"", set(), {}, None, 0, []
         self.row = self.column = self.unanswered = 0
@@ -166,7 +176,7 @@ class Terminal:
             self.chunks.append(data)
             if b"m=0" in keys:
                 pixels = zlib.decompress(base64.b64decode(b"".join(self.chunks)))
-                self.picture = [tuple(pixels[at:at + 3]) for at in range(0, len(pixels), 3)]
+                self.picture = [tuple(pixels[at : at + 3]) for at in range(0, len(pixels), 3)]
                 self.chunks = []
 
     def block_picture(self, columns, rows):
@@ -178,7 +188,7 @@ def sixel_picture(text):
     """The picture of a sixel string, as 160 columns of colours in percent. The enlargement is undone."""
     _, _, width, height = map(int, re.match(r'[0-9;]*q"(\d+);(\d+);(\d+);(\d+)', text).groups())
     colours, pixels, at, band, colour = {}, {}, 0, 0, None
-    body = text[re.match(r'[0-9;]*q"[0-9;]*', text).end():]
+    body = text[re.match(r'[0-9;]*q"[0-9;]*', text).end() :]
     for number, definition, times, character in re.findall(r"#(\d+)(;[0-9;]+)?|(?:!(\d+))?([?-~$-])", body):
         if definition:
             colours[number] = tuple(map(int, definition.split(";")[2:]))

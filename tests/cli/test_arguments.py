@@ -28,14 +28,16 @@ class ControlCharacters(Case):
     SHOWN = r"red\\x1b\[31m\\x0anext\\xc2\\x9b1m"
 
     def test_in_what_was_given(self):
-        for status, words in ((1, ("trace", "--actions", "-", "--rom", self.NAME)),
-                              (1, ("trace", "--rom", GAME, "--actions", self.NAME)),
-                              (1, ("bench", "--rom", GAME, "--game-file", self.NAME)),
-                              (1, ("roms", self.NAME)),
-                              (2, ("config", "--stdio", "--config", self.NAME)),
-                              (2, ("serve", "--stdio", "--seed", self.NAME)),
-                              (2, ("serve", "--stdio", "--" + self.NAME)),
-                              (2, (self.NAME,))):
+        for status, words in (
+            (1, ("trace", "--actions", "-", "--rom", self.NAME)),
+            (1, ("trace", "--rom", GAME, "--actions", self.NAME)),
+            (1, ("bench", "--rom", GAME, "--game-file", self.NAME)),
+            (1, ("roms", self.NAME)),
+            (2, ("config", "--stdio", "--config", self.NAME)),
+            (2, ("serve", "--stdio", "--seed", self.NAME)),
+            (2, ("serve", "--stdio", "--" + self.NAME)),
+            (2, (self.NAME,)),
+        ):
             with self.subTest(words=words):
                 self.refused(status, self.SHOWN, *words)
 
@@ -83,7 +85,7 @@ class Images(Case):
 
     def test_a_gzip_file_that_is_cut(self):
         whole = gzip.compress(os.urandom(4096))
-        self.refuses(self.image(whole[:len(whole) // 2], "x.bin.gz"), r"x\.bin\.gz")
+        self.refuses(self.image(whole[: len(whole) // 2], "x.bin.gz"), r"x\.bin\.gz")
 
     def test_a_truncated_image_has_a_size_that_no_scheme_fits(self):
         self.refuses(self.image(b"\xea" * 3000), "3000")
@@ -114,8 +116,15 @@ class Options(Case):
         self.refused(2, "--frames.*many", "bench", "--rom", GAME, "--frames", "many")
 
     def test_numbers_that_are_out_of_range(self):
-        for option, value in (("--frame-skip", "0"), ("--frame-skip", "-4"), ("--frame-skip", "99999999999"),
-                              ("--sticky", "1.5"), ("--sticky", "nan"), ("--max-frames", "-1"), ("--seed", "-1")):
+        for option, value in (
+            ("--frame-skip", "0"),
+            ("--frame-skip", "-4"),
+            ("--frame-skip", "99999999999"),
+            ("--sticky", "1.5"),
+            ("--sticky", "nan"),
+            ("--max-frames", "-1"),
+            ("--seed", "-1"),
+        ):
             with self.subTest(option=option, value=value):
                 self.refused(2, option, "trace", "--rom", GAME, "--actions", "-", option + "=" + value)
 

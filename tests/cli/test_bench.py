@@ -5,8 +5,23 @@ import unittest
 
 from harness import GAME, main, run
 
-FIELDS = {"game", "md5", "frames", "acts", "frame_skip", "cpu_seconds", "frames_per_second", "resets",
-          "reset_cpu_seconds", "screen", "screens", "audio", "reward", "last_screen_crc", "last_ram_crc"}
+FIELDS = {
+    "game",
+    "md5",
+    "frames",
+    "acts",
+    "frame_skip",
+    "cpu_seconds",
+    "frames_per_second",
+    "resets",
+    "reset_cpu_seconds",
+    "screen",
+    "screens",
+    "audio",
+    "reward",
+    "last_screen_crc",
+    "last_ram_crc",
+}
 
 
 def bench(*words, data=b""):
@@ -34,8 +49,9 @@ class Bench(unittest.TestCase):
         self.assertAlmostEqual(figures["frames_per_second"], 600 / figures["cpu_seconds"], delta=1)
 
     def test_all_kinds_of_screens_come_from_the_same_play(self):
-        every, last, none = (bench("--frames", "600", "--frame-skip", "4", "--screen", screen)
-                             for screen in ("every", "last", "none"))
+        every, last, none = (
+            bench("--frames", "600", "--frame-skip", "4", "--screen", screen) for screen in ("every", "last", "none")
+        )
         self.assertEqual([every["screens"], last["screens"], none["screens"]], [600, 150, 0])
         self.assertEqual(work(every), work(last))
         self.assertEqual(work(every), work(none))
@@ -48,8 +64,10 @@ class Bench(unittest.TestCase):
         self.assertEqual([figures["last_ram_crc"], figures["last_screen_crc"]], last[-2:])
 
     def test_actions_start_over_when_they_run_out(self):
-        self.assertEqual(work(bench("--frames", "24", "--actions", "-", data=b"1 3 4")),
-                         work(bench("--frames", "24", "--actions", "-", data=b"1 3 4" + b" 1 3 4" * 7)))
+        self.assertEqual(
+            work(bench("--frames", "24", "--actions", "-", data=b"1 3 4")),
+            work(bench("--frames", "24", "--actions", "-", data=b"1 3 4" + b" 1 3 4" * 7)),
+        )
 
     def test_snapshots_are_timed_when_asked_for(self):
         figures = bench("--frames", "10", "--save-restore")
@@ -83,7 +101,9 @@ class Bench(unittest.TestCase):
             with self.subTest(line=line):
                 status, _, errors = run("bench", "--rom", GAME, "--commands", data=line.encode())
                 self.assertEqual((status, len(errors)), (1, 1), errors)
-                self.assertIn(f"unknown command '{line}'; accepted are play A..., check A..., reset N and save N", errors[0])
+                self.assertIn(
+                    f"unknown command '{line}'; accepted are play A..., check A..., reset N and save N", errors[0]
+                )
         status, _, errors = run("bench", "--rom", GAME, "--commands", "--frame-skip", "4", data=b"play 1")
         self.assertEqual(status, 1)
         self.assertIn("give --screen last or none with --frame-skip 4", errors[0])
@@ -95,11 +115,17 @@ class Bench(unittest.TestCase):
         self.assertEqual((lines["game"], lines["audio"]), ("beamfall", "yes"))
 
     def test_steps_of_very_many_frames_are_counted(self):
-        status, _, errors = run("bench", "--rom", GAME, "--batch", "4", "--threads", "1", "--frame-skip", str(2**30), "--frames", "10")
+        status, _, errors = run(
+            "bench", "--rom", GAME, "--batch", "4", "--threads", "1", "--frame-skip", str(2**30), "--frames", "10"
+        )
         self.assertEqual((status, errors), (0, []))
 
     def test_no_actions_and_wrong_ones_are_refused(self):
-        for data, complaint in ((b"", "there are no actions in '-'"), (b"x", "line 1: 'x' is not a number"), (b"99", "99")):
+        for data, complaint in (
+            (b"", "there are no actions in '-'"),
+            (b"x", "line 1: 'x' is not a number"),
+            (b"99", "99"),
+        ):
             with self.subTest(data=data):
                 status, printed, errors = run("bench", "--rom", GAME, "--actions", "-", data=data)
                 self.assertEqual((status, printed, len(errors)), (1, b"", 1), errors)

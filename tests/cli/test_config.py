@@ -22,8 +22,14 @@ class Config(unittest.TestCase):
 
     def run_racebeam(self, *words, data=b"", **variables):
         environment = {name: value for name, value in os.environ.items() if not name.startswith("RACEBEAM_")}
-        return subprocess.run([BINARY, *words], input=data, capture_output=True, env={**environment, **variables},
-                              cwd=self.folder, timeout=20)
+        return subprocess.run(
+            [BINARY, *words],
+            input=data,
+            capture_output=True,
+            env={**environment, **variables},
+            cwd=self.folder,
+            timeout=20,
+        )
 
     def settings(self, *words, **variables):
         done = self.run_racebeam("config", *words, **variables)
@@ -42,7 +48,9 @@ class Config(unittest.TestCase):
 
     def test_memory_is_given_in_bytes_or_with_a_unit(self):
         for given, bytes_of in (("123456789", 123456789), ("512M", 512 << 20), ("2G", 2 << 30), ("64 kb", 64 << 10)):
-            self.assertEqual(self.settings("--stdio", "--max-memory", given)["max_memory"], (str(bytes_of), "command line"))
+            self.assertEqual(
+                self.settings("--stdio", "--max-memory", given)["max_memory"], (str(bytes_of), "command line")
+            )
         usual = int(self.settings("--stdio")["max_memory"][0])
         physical = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
         self.assertLessEqual(usual, physical * 3 // 4)
@@ -77,10 +85,23 @@ class Config(unittest.TestCase):
             self.assertEqual(again[key][0], value, key)
 
     def test_numbers_and_texts_that_look_like_them_are_kept_as_they_are(self):
-        for option, value in (("--sticky", ".5"), ("--sticky", "1."), ("--sticky", "0.123456789012"), ("--sticky", "1e-5"),
-                              ("--rom", "1e5"), ("--rom", ".5"), ("--rom", "-0"), ("--rom", "007"), ("--rom", "nan"),
-                              ("--rom", "1" * 30), ("--rom", "1.50"), ("--rom", "two\nlines\t"), ("--rom", "\x9b1m L\u00f6we"), ("--rom", "true"),
-                              ("--record-limit", str(1 << 60))):
+        for option, value in (
+            ("--sticky", ".5"),
+            ("--sticky", "1."),
+            ("--sticky", "0.123456789012"),
+            ("--sticky", "1e-5"),
+            ("--rom", "1e5"),
+            ("--rom", ".5"),
+            ("--rom", "-0"),
+            ("--rom", "007"),
+            ("--rom", "nan"),
+            ("--rom", "1" * 30),
+            ("--rom", "1.50"),
+            ("--rom", "two\nlines\t"),
+            ("--rom", "\x9b1m L\u00f6we"),
+            ("--rom", "true"),
+            ("--record-limit", str(1 << 60)),
+        ):
             with self.subTest(option=option, value=value):
                 key = option[2:].replace("-", "_")
                 printed = self.run_racebeam("config", option, value).stdout.decode()

@@ -21,8 +21,14 @@ COLOUR = re.compile(r"\x1b\[[34]8;2;(\d+);(\d+);(\d+)m")
 
 def connect(address, text, *options, **variables):
     """A run whose input is a pipe."""
-    return subprocess.run([BINARY, "connect", *([address] if address else []), *options], input=text, capture_output=True, text=True,
-                          timeout=PATIENCE, env={**os.environ, **variables})
+    return subprocess.run(
+        [BINARY, "connect", *([address] if address else []), *options],
+        input=text,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        env={**os.environ, **variables},
+    )
 
 
 class Piped(unittest.TestCase):
@@ -33,7 +39,9 @@ class Piped(unittest.TestCase):
         cls.address = f"tcp://127.0.0.1:{cls.server.port()}"
 
     def test_it_prints_replies_and_errors(self):
-        done = connect(self.address, "load beamfall seed=7 sticky=0\n\n# a comment\nact 99\n  act FIRE*60 \nlook screen\n")
+        done = connect(
+            self.address, "load beamfall seed=7 sticky=0\n\n# a comment\nact 99\n  act FIRE*60 \nlook screen\n"
+        )
         lines = done.stdout.splitlines()
         self.assertEqual((done.returncode, done.stderr, len(lines)), (0, "", 4))
         self.assertRegex(lines[1], r"^error bad-action '99' is no action; ")
@@ -67,7 +75,11 @@ class Piped(unittest.TestCase):
         self.assertRegex(connect(self.address, ":screen\nhello\n").stdout, r"^error no-game .*\nok server=")
 
     def test_a_server_that_is_not_there_is_an_error(self):
-        for address, sentence in (("tcp://127.0.0.1:1", "refused"), ("unix:/nonexistent/s", "No such file"), ("nonsense", "it takes tcp://")):
+        for address, sentence in (
+            ("tcp://127.0.0.1:1", "refused"),
+            ("unix:/nonexistent/s", "No such file"),
+            ("nonsense", "it takes tcp://"),
+        ):
             with self.subTest(address):
                 done = connect(address, "hello\n")
                 self.assertEqual((done.returncode, done.stdout), (1, ""))
@@ -75,8 +87,13 @@ class Piped(unittest.TestCase):
 
     def test_a_server_that_goes_is_an_error(self):
         with Server("serve", "--listen", "tcp://127.0.0.1:0", "--grace", "0") as server:
-            client = subprocess.Popen([BINARY, "connect", f"tcp://127.0.0.1:{server.port()}"], stdin=subprocess.PIPE,
-                                      stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            client = subprocess.Popen(
+                [BINARY, "connect", f"tcp://127.0.0.1:{server.port()}"],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
             client.stdin.write("hello\n")
             client.stdin.flush()
             client.stdout.readline()
@@ -98,7 +115,9 @@ class Tokens(unittest.TestCase):
                 self.assertRegex(connect(address, "games\n").stdout, "^error unauthorized ")
                 (pathlib.Path(folder) / "none").write_text("# nothing\n")
                 done = connect(address, "games\n", "--token-file", f"{folder}/none")
-                self.assertEqual((done.returncode, done.stderr), (1, f"racebeam: the token file {folder}/none has no token\n"))
+                self.assertEqual(
+                    (done.returncode, done.stderr), (1, f"racebeam: the token file {folder}/none has no token\n")
+                )
 
 
 class Encrypted(unittest.TestCase):
@@ -110,7 +129,9 @@ class Encrypted(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.certificate, cls.key = cls.certified(folder.name, "own")
         cls.stranger, _ = cls.certified(folder.name, "stranger")
-        cls.server = Server("serve", "--listen", "tls://127.0.0.1:0", "--tls-cert", cls.certificate, "--tls-key", cls.key)
+        cls.server = Server(
+            "serve", "--listen", "tls://127.0.0.1:0", "--tls-cert", cls.certificate, "--tls-key", cls.key
+        )
         cls.addClassCleanup(cls.server.__exit__)
         cls.port = cls.server.wait_for(r"listening on tls://127\.0\.0\.1:(\d+)$").group(1)
 
@@ -118,9 +139,30 @@ class Encrypted(unittest.TestCase):
     def certified(folder, name):
         """A certificate for 127.0.0.1 alone, and its key."""
         paths = f"{folder}/{name}.pem", f"{folder}/{name}.key"
-        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2",
-                        "-subj", f"/CN={name}", "-addext", "subjectAltName=IP:127.0.0.1", "-out", paths[0], "-keyout", paths[1]],
-                       check=True, capture_output=True)
+        subprocess.run(
+            [
+                "openssl",
+                "req",
+                "-x509",
+                "-newkey",
+                "ec",
+                "-pkeyopt",
+                "ec_paramgen_curve:prime256v1",
+                "-nodes",
+                "-days",
+                "2",
+                "-subj",
+                f"/CN={name}",
+                "-addext",
+                "subjectAltName=IP:127.0.0.1",
+                "-out",
+                paths[0],
+                "-keyout",
+                paths[1],
+            ],
+            check=True,
+            capture_output=True,
+        )
         return paths
 
     def refused(self, host, *options, scheme="tls", port=None):

@@ -33,8 +33,12 @@ class Demo(unittest.TestCase):
         os.chmod(self.path(name), 0o755)
 
     def run_demo(self, redirection):
-        return subprocess.run(["bash", "-c", f"exec bash '{self.path('scripts/demo')}' {redirection}"],
-                              capture_output=True, timeout=6 * PATIENCE, env={**os.environ, "TMPDIR": self.scratch})
+        return subprocess.run(
+            ["bash", "-c", f"exec bash '{self.path('scripts/demo')}' {redirection}"],
+            capture_output=True,
+            timeout=6 * PATIENCE,
+            env={**os.environ, "TMPDIR": self.scratch},
+        )
 
     def test_one_that_works_ends_with_status_0_and_leaves_only_its_results(self):
         os.makedirs(self.path("build/release"))

@@ -41,8 +41,11 @@ def run(*words, **options):
 
 def files(folder):
     """The contents of all files of results by their paths, without times."""
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(folder.rglob("*"))
-            if path.is_file() and "times" not in path.name}
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file() and "times" not in path.name
+    }
 
 
 class Experiment(unittest.TestCase):
@@ -70,37 +73,56 @@ class Experiment(unittest.TestCase):
         self.assertEqual(self.experiment("whole", "--threads", "1")[0], 0)
         chance = random.Random(5)
         kills = 0
-        command = [BINARY, "experiment", str(self.plan), "--into", str(self.place / "parts"), "--threads", "2",
-                   "--checkpoint-seconds", "0"]
+        command = [
+            BINARY,
+            "experiment",
+            str(self.plan),
+            "--into",
+            str(self.place / "parts"),
+            "--threads",
+            "2",
+            "--checkpoint-seconds",
+            "0",
+        ]
         for _ in range(20):
             process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
             time.sleep(chance.uniform(0.01, 0.25))
             process.send_signal(signal.SIGKILL)
             kills += process.wait() == -signal.SIGKILL
         self.assertGreater(kills, 0)
-        self.assertEqual(self.experiment("parts", "--cpu", "interpreter", env=os.environ | {"RACEBEAM_SIMD": "plain"})[0], 0)
+        self.assertEqual(
+            self.experiment("parts", "--cpu", "interpreter", env=os.environ | {"RACEBEAM_SIMD": "plain"})[0], 0
+        )
         self.assertEqual(files(self.place / "parts"), files(self.place / "whole"))
 
     def test_a_signal_ends_it_with_a_sentence_and_all_that_is_finished_is_in_the_tables(self):
         self.plan.write_text(PLAN.replace("training_episodes = 8", "training_episodes = 800"))
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             into = self.place / number.name
-            process = subprocess.Popen([BINARY, "experiment", str(self.plan), "--into", str(into), "--threads", "1"],
-                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            process = subprocess.Popen(
+                [BINARY, "experiment", str(self.plan), "--into", str(into), "--threads", "1"],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
             for _ in range(19):  # all of the baselines
                 process.stdout.readline()
             process.send_signal(number)
             _, errors = process.communicate(timeout=PATIENCE)
-            self.assertEqual((process.returncode, errors), (
-                -number, "racebeam: a signal ended the experiment; the same command goes on with it\n"))
+            self.assertEqual(
+                (process.returncode, errors),
+                (-number, "racebeam: a signal ended the experiment; the same command goes on with it\n"),
+            )
             self.assertEqual((into / "results.csv").read_text().count("\n"), 1 + 19 * 3)
 
     def test_a_terminal_shows_progress_within_a_unit(self):
         self.plan.write_text('games = ["beamfall"]\nagents = ["uct"]\n[agent.uct]\ntrials = 1\nsimulations = 60\n')
         terminal = Terminal([BINARY, "experiment", str(self.plan), "--into", str(self.place / "results")])
         self.addCleanup(terminal.close)
-        terminal.wait_until(lambda: re.match(r"0/1 beamfall-uct-1: 0 episodes and [1-9]\d* decisions, \d+ min left",
-                                             terminal.line(0)), "progress")
+        terminal.wait_until(
+            lambda: re.match(r"0/1 beamfall-uct-1: 0 episodes and [1-9]\d* decisions, \d+ min left", terminal.line(0)),
+            "progress",
+        )
 
     def test_altered_results_are_named(self):
         self.experiment("results")
@@ -111,7 +133,9 @@ class Experiment(unittest.TestCase):
         table.write_text("".join([lines[0], ",".join(fields), *lines[2:]]))
         status, printed, _ = run("verify", str(self.place / "results"))
         self.assertEqual(status, 1)
-        self.assertRegex(printed, r"results.csv:2 \(beamfall-random-1, episode 1\): not confirmed: score is '\d+'; its log has")
+        self.assertRegex(
+            printed, r"results.csv:2 \(beamfall-random-1, episode 1\): not confirmed: score is '\d+'; its log has"
+        )
 
     def test_tables_say_what_they_were_made_from(self):
         self.experiment("results")
@@ -120,7 +144,9 @@ class Experiment(unittest.TestCase):
         status, printed, _ = run("verify", str(self.place / "results"), "--table", str(report))
         self.assertEqual(status, 1)
         self.assertIn("was not made from these results: it lacks their digest, ", printed)
-        digest = subprocess.run(["sha256sum", str(self.place / "results" / "results.csv")], capture_output=True, text=True)
+        digest = subprocess.run(
+            ["sha256sum", str(self.place / "results" / "results.csv")], capture_output=True, text=True
+        )
         report.write_text("made from results.csv sha256:" + digest.stdout.split()[0])
         status, printed, _ = run("verify", str(self.place / "results"), "--table", str(report))
         self.assertEqual(status, 0, printed)
@@ -137,6 +163,7 @@ class Experiment(unittest.TestCase):
         def few_bytes():
             signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python ignores it
             resource.setrlimit(resource.RLIMIT_FSIZE, (1200, 1200))
+
         status, _, errors = self.experiment("parts", preexec_fn=few_bytes)
         self.assertEqual(status, 1)
         self.assertRegex(errors, r"^racebeam: cannot write .*: File too large\n$")
@@ -145,12 +172,20 @@ class Experiment(unittest.TestCase):
 
     def test_bad_input_is_named_and_nothing_is_written(self):
         for words, status, sentence in (
-                (["no"], 1, "there is no plan 'no'; shipped are paper, hour, smoke, baselines, "),
-                (["./none.toml"], 1, "plan ./none.toml: there is no such file"),
-                (["paper"], 1, "no image is here of: asterix, beam_rider, freeway, seaquest, space_invaders, alien, "),
-                *((["smoke", "--shard", shard, *more], 2, f"--shard: '{shard}' is not a shard; accepted is K/N, with K from 1 to N")
-                  for shard in ("3/2", "0/2", "x", "") for more in ([], ["--dry-run"])),
-                (["smoke", "--threads", "-1"], 2, "--threads: '-1' is not a whole number from 0 to 1024")):
+            (["no"], 1, "there is no plan 'no'; shipped are paper, hour, smoke, baselines, "),
+            (["./none.toml"], 1, "plan ./none.toml: there is no such file"),
+            (["paper"], 1, "no image is here of: asterix, beam_rider, freeway, seaquest, space_invaders, alien, "),
+            *(
+                (
+                    ["smoke", "--shard", shard, *more],
+                    2,
+                    f"--shard: '{shard}' is not a shard; accepted is K/N, with K from 1 to N",
+                )
+                for shard in ("3/2", "0/2", "x", "")
+                for more in ([], ["--dry-run"])
+            ),
+            (["smoke", "--threads", "-1"], 2, "--threads: '-1' is not a whole number from 0 to 1024"),
+        ):
             found = run("experiment", *words, "--into", str(self.place / "bad"))
             self.assertEqual(found[0], status, found)
             self.assertTrue(found[2].startswith("racebeam: " + sentence), found[2])
@@ -166,8 +201,11 @@ class Experiment(unittest.TestCase):
         self.assertEqual(status, 1)
         agents = re.search(r"there is no agent 'none'; accepted are (.*)\n", errors)[1].split(", ")
         scores = (ROOT / "evaluation/racebeam_evaluation/scores.py").read_text()
-        known = [name for group in ("BASELINE_VIEWS", "_LEARNERS", "_PLANNERS")
-                 for name in re.findall(r'"(\w+)"', re.search(rf"(?m)^{group} = \((.*?)\)", scores)[1])]
+        known = [
+            name
+            for group in ("BASELINE_VIEWS", "_LEARNERS", "_PLANNERS")
+            for name in re.findall(r'"(\w+)"', re.search(rf"(?m)^{group} = \((.*?)\)", scores)[1])
+        ]
         self.assertEqual(sorted(agents), sorted(known))
 
     def test_verification_takes_no_memory_for_the_rows(self):
@@ -184,8 +222,14 @@ class Experiment(unittest.TestCase):
             resource.setrlimit(resource.RLIMIT_AS, (512 << 20, 512 << 20))
 
         with (self.place / "printed").open("w+") as printed:
-            done = subprocess.run([BINARY, "verify", str(folder), "--threads", "1"], stdout=printed, stderr=subprocess.PIPE,
-                                  preexec_fn=limit, text=True, timeout=10 * PATIENCE)
+            done = subprocess.run(
+                [BINARY, "verify", str(folder), "--threads", "1"],
+                stdout=printed,
+                stderr=subprocess.PIPE,
+                preexec_fn=limit,
+                text=True,
+                timeout=10 * PATIENCE,
+            )
             printed.seek(0)
             last = printed.readlines()[-1]
         self.assertEqual((done.returncode, done.stderr), (1, ""))
@@ -214,12 +258,20 @@ class Experiment(unittest.TestCase):
         self.assertEqual((status, printed), (1, ""))
         self.assertEqual(errors, "racebeam: episode log cut.episode: its checksum is wrong; it was cut or altered\n")
         status, _, errors = run("verify", str(logs / "1.episode"), "--table", str(self.plan))
-        self.assertEqual((status, errors), (2, "racebeam: --table needs the folder of the results, and this is one log (see racebeam verify --help)\n"))
+        self.assertEqual(
+            (status, errors),
+            (
+                2,
+                "racebeam: --table needs the folder of the results, and this is one log (see racebeam verify --help)\n",
+            ),
+        )
 
     def test_the_results_in_the_tree_are_confirmed(self):
         kept = [plan.parent for plan in sorted((ROOT / "docs/results").glob("*/plan.toml"))]
         self.assertIn(ROOT / "docs/results/own-games", kept)
-        self.assertLess(sum(path.stat().st_size for path in (ROOT / "docs/results").rglob("*") if path.is_file()), 1 << 20)
+        self.assertLess(
+            sum(path.stat().st_size for path in (ROOT / "docs/results").rglob("*") if path.is_file()), 1 << 20
+        )
         for folder in kept:
             status, printed, _ = run("verify", str(folder))
             self.assertEqual(status, 0 if folder.name == "own-games" else 2, printed)  # 2: the image is not here
@@ -230,7 +282,9 @@ class Experiment(unittest.TestCase):
         self.assertEqual(status, 0)
         self.assertIn("missing image: zaxxon\n", printed)
         self.assertRegex(printed, r"(?m)^basic +1650 units +\d+ decisions +[0-9.]+ core-hours$")
-        self.assertIn("core-hours are the most: each episode is taken to last 18000 frames, as long as it may\n", printed)
+        self.assertIn(
+            "core-hours are the most: each episode is taken to last 18000 frames, as long as it may\n", printed
+        )
         self.assertRegex(printed, r"(?m)^memory: about \d+ MB, and \d+ MB a thread; disk: about \d+ MB; ")
         units = re.findall(r"(?m)^unit (\S+)  [0-9.]+ core-hours$", printed)
         self.assertEqual((len(units), units[0], units[-1]), (11385, "asterix-random-1", "zaxxon-uct-10"))
@@ -255,22 +309,28 @@ class Experiment(unittest.TestCase):
         self.assertIn("beamfall.csv:211: there are more than 210 lines", errors)
         self.assertFalse((self.place / "bad").exists())
         status, _, errors = run("background", "asterix", "--into", str(self.place / "bad"))
-        self.assertEqual((status, errors), (1, "racebeam: no image is here of 'asterix'; --roms names the folder "
-                                               "that holds it\n"))
+        self.assertEqual(
+            (status, errors), (1, "racebeam: no image is here of 'asterix'; --roms names the folder that holds it\n")
+        )
         status, _, errors = run("background", "asterik", "--into", str(self.place / "bad"))
-        self.assertEqual((status, errors), (1, "racebeam: there is no game 'asterik'; did you mean asterix? "
-                                               "racebeam games lists them\n"))
+        self.assertEqual(
+            (status, errors),
+            (1, "racebeam: there is no game 'asterik'; did you mean asterix? racebeam games lists them\n"),
+        )
 
     def test_an_experiment_takes_a_background_from_a_csv_file_that_its_plan_names(self):
         csv = self.place / "beamfall.csv"
         csv.write_text((",".join(["0"] * 160) + "\n") * 210)
         digest = hashlib.sha256(csv.read_bytes()).hexdigest()
-        status, printed, errors = run("background", "beamfall", "--csv", str(csv),
-                                      "--into", str(self.place / "results" / "games"))
+        status, printed, errors = run(
+            "background", "beamfall", "--csv", str(csv), "--into", str(self.place / "results" / "games")
+        )
         self.assertEqual((status, errors), (0, ""))
         line = f'beamfall = "{digest}"'
         self.assertIn(f"a plan takes this background with [backgrounds] and {line}\n", printed)
-        self.plan.write_text(PLAN.replace('"random", "const", "basic", "disco", "lsh", "uct"', '"basic"').partition("[agent")[0])
+        self.plan.write_text(
+            PLAN.replace('"random", "const", "basic", "disco", "lsh", "uct"', '"basic"').partition("[agent")[0]
+        )
         status, _, errors = self.experiment("results")
         self.assertEqual(status, 1)
         self.assertRegex(errors, f"beamfall.background is of '.* csv={digest}'; wanted is '.* screens=500 ")
@@ -288,8 +348,9 @@ class Experiment(unittest.TestCase):
         for name in ("classes", "objects"):
             self.assertTrue((games / f"beamfall-{name}.png").read_bytes().startswith(b"\x89PNG"))
         written = files(games)
-        self.plan.write_text(PLAN.replace('"random", "const", "basic", "disco", "lsh", "uct"', '"disco"')
-                             .partition("[agent")[0])
+        self.plan.write_text(
+            PLAN.replace('"random", "const", "basic", "disco", "lsh", "uct"', '"disco"').partition("[agent")[0]
+        )
         self.assertEqual(self.experiment("results")[0], 0)
         self.assertEqual({name: contents for name, contents in files(games).items() if name in written}, written)
         self.plan.write_text(self.plan.read_text().replace("class_screens = 500", "class_screens = 501"))

@@ -31,8 +31,10 @@ class Games(unittest.TestCase):
     def test_what_is_known_of_a_game(self):
         skiing = self.games["skiing"]
         self.assertEqual(skiing["title"], "Skiing")
-        self.assertEqual(skiing["legal_actions"], ["NOOP", "UP", "RIGHT", "LEFT", "DOWN", "UPRIGHT", "UPLEFT",
-                                                   "DOWNRIGHT", "DOWNLEFT"])
+        self.assertEqual(
+            skiing["legal_actions"],
+            ["NOOP", "UP", "RIGHT", "LEFT", "DOWN", "UPRIGHT", "UPLEFT", "DOWNRIGHT", "DOWNLEFT"],
+        )
         berzerk = self.games["berzerk"]
         self.assertEqual((berzerk["modes"], berzerk["default_mode"]), ([*range(1, 10), 16, 17, 18], 1))
         self.assertEqual(self.games["asteroids"]["difficulties"], [0, 3])
@@ -50,7 +52,9 @@ class Games(unittest.TestCase):
         self.assertEqual(self.games["tennis"]["two_player_modes"], [1, 3])
         rows = answer("games", "--rules").splitlines()
         self.assertEqual([row.split()[0] for row in rows[1:]], list(self.games))
-        self.assertRegex(next(row for row in rows if row.startswith("seaquest ")), r"ale-0.12 +no +- +The score may wrap at 1000000")
+        self.assertRegex(
+            next(row for row in rows if row.startswith("seaquest ")), r"ale-0.12 +no +- +The score may wrap at 1000000"
+        )
         self.assertRegex(next(row for row in rows if row.startswith("warlords ")), r"racebeam +yes +1-3 5-8 10-13")
 
     def test_the_table_has_a_row_for_each(self):
@@ -94,8 +98,10 @@ class Roms(unittest.TestCase):
         self.put("notes.txt", b"no image")
         os.mkdir(os.path.join(self.folder, "folder.bin"))
         found, missing = self.findings()
-        self.assertEqual({name: image["verdict"] for name, image in found.items()},
-                         {"mystery.bin": "unknown", "PONG.A26": "by-name", "packed.bin.gz": "unknown", "empty.rom": "unusable"})
+        self.assertEqual(
+            {name: image["verdict"] for name, image in found.items()},
+            {"mystery.bin": "unknown", "PONG.A26": "by-name", "packed.bin.gz": "unknown", "empty.rom": "unusable"},
+        )
         self.assertEqual(found["PONG.A26"]["game"], "pong")
         self.assertEqual(found["mystery.bin"]["md5"], hashlib.md5(mystery).hexdigest())
         self.assertEqual(found["packed.bin.gz"]["md5"], found["mystery.bin"]["md5"])

@@ -38,8 +38,9 @@ class Refused(unittest.TestCase):
         os.mkfifo(self.pipe)
 
     def run_racebeam(self, *words):
-        done = subprocess.run([BINARY, *words], stdin=subprocess.DEVNULL, capture_output=True, timeout=PATIENCE,
-                              cwd=self.folder)
+        done = subprocess.run(
+            [BINARY, *words], stdin=subprocess.DEVNULL, capture_output=True, timeout=PATIENCE, cwd=self.folder
+        )
         return done.returncode, done.stdout, done.stderr.decode().splitlines()
 
     def check(self, path, reason):
@@ -72,8 +73,10 @@ class Refused(unittest.TestCase):
         self.check(path, "larger than ")
 
     def test_a_folder_of_images_that_is_none(self):
-        for words, expected, sentence in ((("roms", self.pipe), 1, "Not a directory"),
-                                          ((*STDIO, "--roms", self.pipe), 4, "is not a folder")):
+        for words, expected, sentence in (
+            (("roms", self.pipe), 1, "Not a directory"),
+            ((*STDIO, "--roms", self.pipe), 4, "is not a folder"),
+        ):
             with self.subTest(words=words):
                 status, output, errors = self.run_racebeam(*words)
                 self.assertEqual((status, output, len(errors)), (expected, b"", 1), errors)

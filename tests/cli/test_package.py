@@ -19,7 +19,9 @@ OURS = {"beamfall", "updraft"}  # images that may be distributed; they are insid
 
 
 def output(*command, **options):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=True, **{"env": PLAIN, **options}).stdout
+    return subprocess.run(
+        [str(word) for word in command], capture_output=True, text=True, check=True, **{"env": PLAIN, **options}
+    ).stdout
 
 
 class Package(unittest.TestCase):
@@ -34,20 +36,33 @@ class Package(unittest.TestCase):
 
     @classmethod
     def packed(cls, name):
-        output("cpack", "--config", BUILD / "CPackConfig.cmake", "-G", "DEB", "-B", cls.folder / name, cwd=BUILD,
-               env={**PLAIN, "SOURCE_DATE_EPOCH": "1700000000"})
+        output(
+            "cpack",
+            "--config",
+            BUILD / "CPackConfig.cmake",
+            "-G",
+            "DEB",
+            "-B",
+            cls.folder / name,
+            cwd=BUILD,
+            env={**PLAIN, "SOURCE_DATE_EPOCH": "1700000000"},
+        )
         return next((cls.folder / name).glob("*.deb"))
 
     def test_its_name_has_the_version(self):
         version = output(BINARY, "--version").split()[1]
         self.assertEqual(self.first.name, f"racebeam-{version}.deb")
-        self.assertEqual(output("dpkg-deb", "-f", self.first, "Package", "Version"), f"Package: racebeam\nVersion: {version}\n")
+        self.assertEqual(
+            output("dpkg-deb", "-f", self.first, "Package", "Version"), f"Package: racebeam\nVersion: {version}\n"
+        )
 
     def test_two_runs_give_the_same_bytes(self):
         self.assertEqual(self.first.read_bytes(), self.second.read_bytes())
 
     def test_its_program_plays(self):
-        told = output(self.root / "usr/bin/racebeam", "serve", "--stdio", input="load beamfall seed=7 sticky=0\nact FIRE*60\n")
+        told = output(
+            self.root / "usr/bin/racebeam", "serve", "--stdio", input="load beamfall seed=7 sticky=0\nact FIRE*60\n"
+        )
         self.assertEqual(told.splitlines()[-1], "ok reward=21 terminated=0 truncated=0 lives=4")
 
     def test_it_has_no_image_but_ours(self):
@@ -66,7 +81,12 @@ class Package(unittest.TestCase):
         service = (units / "racebeam.service").read_text()
         self.assertIn("ExecStart=/usr/bin/racebeam serve --listen systemd:line --config /etc/racebeam.toml\n", service)
         self.assertIn("FileDescriptorName=line\n", (units / "racebeam.socket").read_text())
-        for line in ("User=racebeam", "ProtectSystem=strict", "NoNewPrivileges=yes", "SystemCallFilter=@system-service"):
+        for line in (
+            "User=racebeam",
+            "ProtectSystem=strict",
+            "NoNewPrivileges=yes",
+            "SystemCallFilter=@system-service",
+        ):
             self.assertIn(line + "\n", service)
 
     def test_its_scripts_are_those_of_a_shell(self):
@@ -79,7 +99,9 @@ class Package(unittest.TestCase):
         names = {line.split()[0] for line in listed.splitlines() if line.startswith("  ") and line[2] != " "}
         self.assertIn("serve", names)
         pages = self.root / "usr/share/man/man1"
-        self.assertEqual({path.name for path in pages.iterdir()}, {"racebeam.1", *(f"racebeam-{name}.1" for name in names)})
+        self.assertEqual(
+            {path.name for path in pages.iterdir()}, {"racebeam.1", *(f"racebeam-{name}.1" for name in names)}
+        )
         self.assertIn(r"\-\-frame\-skip", (pages / "racebeam-serve.1").read_text())
         if shutil.which("groff"):
             for page in pages.iterdir():
@@ -99,7 +121,7 @@ class Completion(unittest.TestCase):
         output(sys.executable, "-B", SOURCE / "packages/program_text.py", BINARY, cls.folder)
 
     def offered(self, *words):
-        script = f"""source "$1"; shift; COMP_WORDS=(racebeam "$@"); COMP_CWORD=$#; _racebeam; printf '%s\\n' "${{COMPREPLY[@]}}" """
+        script = """source "$1"; shift; COMP_WORDS=(racebeam "$@"); COMP_CWORD=$#; _racebeam; printf '%s\\n' "${COMPREPLY[@]}" """
         environment = {**PLAIN, "PATH": f"{BUILD}:{PLAIN['PATH']}"}
         return output("bash", "-c", script, "bash", self.folder / "racebeam.bash", *words, env=environment).split()
 

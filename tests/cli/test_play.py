@@ -19,7 +19,9 @@ from web.web_socket import WebSocket
 def environment(**more):
     """Without a desktop, and without settings."""
     left_out = ("DISPLAY", "WAYLAND_DISPLAY")
-    return {key: value for key, value in os.environ.items() if key not in left_out and not key.startswith("RACEBEAM_")} | more
+    return {
+        key: value for key, value in os.environ.items() if key not in left_out and not key.startswith("RACEBEAM_")
+    } | more
 
 
 class Play(unittest.TestCase):
@@ -29,8 +31,13 @@ class Play(unittest.TestCase):
         self.folder = folder.name
 
     def start(self, *words, **more):
-        process = subprocess.Popen([BINARY, "play", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                   env=environment(TMPDIR=self.folder, **more))
+        process = subprocess.Popen(
+            [BINARY, "play", *words],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env=environment(TMPDIR=self.folder, **more),
+        )
         self.addCleanup(process.kill)
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.stderr.close)
@@ -44,7 +51,9 @@ class Play(unittest.TestCase):
 
     def test_it_serves_a_page_and_sessions_with_a_token_until_it_is_interrupted(self):
         process = self.start("beamfall")
-        found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/\?game=beamfall#token=([0-9a-f]{64})\n", process.stdout.readline())
+        found = re.fullmatch(
+            r"http://127\.0\.0\.1:(\d+)/\?game=beamfall#token=([0-9a-f]{64})\n", process.stdout.readline()
+        )
         port, token = int(found[1]), found[2]
         with urllib.request.urlopen(f"http://127.0.0.1:{port}/?game=beamfall", timeout=PATIENCE) as page:
             self.assertIn(b"<html", page.read())
@@ -78,10 +87,15 @@ class Play(unittest.TestCase):
         self.end(process)
 
     def test_what_it_cannot_do_is_refused(self):
-        for words, hint in ((["beamfal"], "did you mean beamfall?"),
-                            (["pong", "--roms", self.folder], f"there is no image of pong in these places: the program's own games, --roms {self.folder}"),
-                            (["--stdio"], "requires racebeam serve"),
-                            (["--announce", "x"], "requires racebeam serve")):
+        for words, hint in (
+            (["beamfal"], "did you mean beamfall?"),
+            (
+                ["pong", "--roms", self.folder],
+                f"there is no image of pong in these places: the program's own games, --roms {self.folder}",
+            ),
+            (["--stdio"], "requires racebeam serve"),
+            (["--announce", "x"], "requires racebeam serve"),
+        ):
             status, output, errors = run("play", *words)
             self.assertEqual((status, output, len(errors)), (2, b"", 1), errors)
             self.assertIn(hint, errors[0])
@@ -105,13 +119,25 @@ class Watch(unittest.TestCase):
         return session
 
     def watch(self, *words):
-        return subprocess.run([BINARY, "watch", *words], capture_output=True, text=True, timeout=PATIENCE, env=environment(),
-                              stdin=subprocess.DEVNULL)
+        return subprocess.run(
+            [BINARY, "watch", *words],
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE,
+            env=environment(),
+            stdin=subprocess.DEVNULL,
+        )
 
     def test_the_page_of_a_server_is_named(self):
-        for address in (f"ws://127.0.0.1:{self.port}", f"http://127.0.0.1:{self.port}", f"http://127.0.0.1:{self.port}/"):
+        for address in (
+            f"ws://127.0.0.1:{self.port}",
+            f"http://127.0.0.1:{self.port}",
+            f"http://127.0.0.1:{self.port}/",
+        ):
             done = self.watch(address)
-            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, f"http://127.0.0.1:{self.port}/#watch\n", ""))
+            self.assertEqual(
+                (done.returncode, done.stdout, done.stderr), (0, f"http://127.0.0.1:{self.port}/#watch\n", "")
+            )
         done = self.watch(self.address)
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("other addresses with --terminal", done.stderr)
@@ -127,7 +153,10 @@ class Watch(unittest.TestCase):
             self.assertEqual({line.count("\u2580") for line in lines[:-1]}, {80})
 
     def test_no_picture_is_a_failure_where_there_is_no_terminal(self):
-        for words, reason in (([], "no session is shared"), (["--session", "nosuch"], "there is no shared session 'nosuch'")):
+        for words, reason in (
+            ([], "no session is shared"),
+            (["--session", "nosuch"], "there is no shared session 'nosuch'"),
+        ):
             done = self.watch("--terminal", self.address, *words)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done)
             self.assertTrue(done.stderr.startswith(f"racebeam: {reason}"), done.stderr)

@@ -30,9 +30,9 @@ def read_png(data):
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, packed = 8, b""
     while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        assert struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0] == zlib.crc32(kind + body)
+        length, kind = struct.unpack(">I4s", data[at : at + 8])
+        body = data[at + 8 : at + 8 + length]
+        assert struct.unpack(">I", data[at + 8 + length : at + 12 + length])[0] == zlib.crc32(kind + body)
         if kind == b"IHDR":
             width, height, *kind_of_pixels = struct.unpack(">IIBBBBB", body)
             assert kind_of_pixels == [8, 2, 0, 0, 0]
@@ -44,7 +44,7 @@ def read_png(data):
 def unfilter(data, size, height):
     rows, above = [], bytes(size)
     for y in range(height):
-        kind, line = data[y * (size + 1)], bytearray(data[y * (size + 1) + 1:(y + 1) * (size + 1)])
+        kind, line = data[y * (size + 1)], bytearray(data[y * (size + 1) + 1 : (y + 1) * (size + 1)])
         for i in range(size):
             left = line[i - 3] if i >= 3 else 0
             corner = above[i - 3] if i >= 3 else 0
@@ -75,8 +75,10 @@ class Png(unittest.TestCase):
     def check(self, picture, palette):
         width, height, rows = picture
         self.assertEqual((width, height), (2 * WIDTH, HEIGHT))
-        expected = [b"".join(bytes(palette[pixel] * 2) for pixel in self.pixels[y * WIDTH:(y + 1) * WIDTH])
-                    for y in range(HEIGHT)]
+        expected = [
+            b"".join(bytes(palette[pixel] * 2) for pixel in self.pixels[y * WIDTH : (y + 1) * WIDTH])
+            for y in range(HEIGHT)
+        ]
         self.assertEqual(rows, expected)
 
     def test_every_pixel_has_its_colour_twice(self):
@@ -87,7 +89,12 @@ class Png(unittest.TestCase):
 
     def test_the_screen_is_found_in_every_kind_of_line(self):
         screen = run_lengths(self.pixels)
-        for line in (screen, screen + ":", "00" * 128 + ":" + screen + ":\r\n", "00" * 128 + ":" + screen + ":1,-20:\n"):
+        for line in (
+            screen,
+            screen + ":",
+            "00" * 128 + ":" + screen + ":\r\n",
+            "00" * 128 + ":" + screen + ":1,-20:\n",
+        ):
             with self.subTest(line=line[-20:]):
                 self.check(self.picture(line, "--rle"), NTSC)
 
@@ -138,8 +145,12 @@ class Png(unittest.TestCase):
         with open(self.path, "wb") as file:
             file.write(b"the old picture")
         limits = (resource.RLIMIT_FSIZE, (0, resource.RLIM_INFINITY))
-        done = subprocess.run([BINARY, "png", self.path], input=run_lengths(self.pixels).encode(), capture_output=True,
-                              preexec_fn=lambda: resource.setrlimit(*limits))
+        done = subprocess.run(
+            [BINARY, "png", self.path],
+            input=run_lengths(self.pixels).encode(),
+            capture_output=True,
+            preexec_fn=lambda: resource.setrlimit(*limits),
+        )
         self.assertEqual(done.returncode, 1, done.stderr)
         with open(self.path, "rb") as file:
             self.assertEqual(file.read(), b"the old picture")

@@ -1,8 +1,6 @@
 """The packages that are not made here: Dockerfile, compose file, Homebrew's formula, Arch's PKGBUILD. Where a linter or a
 packager is installed, it accepts them."""
 
-import importlib.machinery
-import importlib.util
 import os
 import pathlib
 import re
@@ -42,7 +40,9 @@ class Recipes(unittest.TestCase):
 
     def output(self, *command, **options):
         """What a command prints, which must end with status 0."""
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **{"cwd": self.folder, **options})
+        done = subprocess.run(
+            command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **{"cwd": self.folder, **options}
+        )
         self.assertEqual(done.returncode, 0, done.stdout)
         return done.stdout
 
@@ -93,7 +93,9 @@ class Recipes(unittest.TestCase):
     @needs("shellcheck")
     def test_the_pkgbuild_as_a_program(self):
         unused_or_given = "SC2034,SC2154"  # variables that makepkg reads and sets
-        self.assertEqual(self.output("shellcheck", "--shell=bash", f"--exclude={unused_or_given}", self.written("arch/PKGBUILD")), "")
+        self.assertEqual(
+            self.output("shellcheck", "--shell=bash", f"--exclude={unused_or_given}", self.written("arch/PKGBUILD")), ""
+        )
 
     @needs("makepkg")
     def test_the_pkgbuild_as_a_package(self):
@@ -109,10 +111,17 @@ class Recipes(unittest.TestCase):
         (self.folder / "build").symlink_to(BUILD)
         root = self.folder / "root"
         installed_to_usr = 'cmake() { command cmake "$@" --prefix /usr; }'  # as build() would have configured it
-        self.output("bash", "-euc", f"{installed_to_usr}; . ./PKGBUILD; package", env={**os.environ, "pkgdir": str(root)})
+        self.output(
+            "bash", "-euc", f"{installed_to_usr}; . ./PKGBUILD; package", env={**os.environ, "pkgdir": str(root)}
+        )
         self.assertEqual({path.name for path in root.iterdir()}, {"usr", "etc"})
-        for path in ("bin/racebeam", "lib/systemd/system/racebeam.service", "lib/sysusers.d/racebeam.conf",
-                     "share/zsh/site-functions/_racebeam", "share/licenses/racebeam/LICENSE"):
+        for path in (
+            "bin/racebeam",
+            "lib/systemd/system/racebeam.service",
+            "lib/sysusers.d/racebeam.conf",
+            "share/zsh/site-functions/_racebeam",
+            "share/licenses/racebeam/LICENSE",
+        ):
             self.assertTrue((root / "usr" / path).is_file(), path)
         self.assertFalse((root / "usr/share/zsh/vendor-completions").exists())
 

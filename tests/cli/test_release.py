@@ -40,7 +40,9 @@ class Release(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
         cls.release = script("release").Release("HEAD", 1)
         cls.release.build = lambda *_: None
-        cls.release.pack = lambda source, _, __, scratch, into, pack=cls.release.pack: pack(source, BUILD, BUILD, scratch, into)
+        cls.release.pack = lambda source, _, __, scratch, into, pack=cls.release.pack: pack(
+            source, BUILD, BUILD, scratch, into
+        )
         for name in ("first", "second"):
             (cls.folder / name).mkdir()
             cls.release.make(cls.folder / name)
@@ -54,7 +56,14 @@ class Release(unittest.TestCase):
         return next((self.folder / path.name).iterdir())
 
     def test_all_packages_are_there(self):
-        kinds = {f"racebeam-{self.version}.deb", f"racebeam-{self.version}-source.tar.gz", "racebeam.rb", "PKGBUILD", "sbom.json", "SHA256SUMS"}
+        kinds = {
+            f"racebeam-{self.version}.deb",
+            f"racebeam-{self.version}-source.tar.gz",
+            "racebeam.rb",
+            "PKGBUILD",
+            "sbom.json",
+            "SHA256SUMS",
+        }
         names = {path.name for path in self.made.iterdir()}
         self.assertTrue(kinds <= names, names)
         self.assertEqual(len(names - kinds), 1)  # that of the processor
@@ -71,13 +80,22 @@ class Release(unittest.TestCase):
 
     def test_the_program_plays_where_it_is_unpacked(self):
         program = self.unpacked("*-linux-*.tar.gz") / "bin/racebeam"
-        told = subprocess.run([program, "serve", "--stdio"], input="load beamfall seed=7 sticky=0\nact FIRE*60\n", capture_output=True, text=True)
+        told = subprocess.run(
+            [program, "serve", "--stdio"],
+            input="load beamfall seed=7 sticky=0\nact FIRE*60\n",
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(told.stdout.splitlines()[-1], "ok reward=21 terminated=0 truncated=0 lives=4")
 
     def test_the_source_is_that_of_the_commit(self):
         source = self.unpacked("*-source.tar.gz")
-        listed = subprocess.run(["git", "ls-tree", "-r", "--name-only", "HEAD"], cwd=SOURCE, capture_output=True, text=True, check=True).stdout
-        self.assertEqual({str(path.relative_to(source)) for path in source.rglob("*") if not path.is_dir()}, set(listed.splitlines()))
+        listed = subprocess.run(
+            ["git", "ls-tree", "-r", "--name-only", "HEAD"], cwd=SOURCE, capture_output=True, text=True, check=True
+        ).stdout
+        self.assertEqual(
+            {str(path.relative_to(source)) for path in source.rglob("*") if not path.is_dir()}, set(listed.splitlines())
+        )
 
     def test_the_texts_name_the_source(self):
         digest = hashlib.sha256(next(self.made.glob("*-source.tar.gz")).read_bytes()).hexdigest()
@@ -90,10 +108,15 @@ class Release(unittest.TestCase):
 
     def test_the_parts_have_versions(self):
         told = json.loads((self.made / "sbom.json").read_text())
-        self.assertEqual((told["bomFormat"], told["specVersion"], told["metadata"]["component"]["version"]), ("CycloneDX", "1.5", self.version))
+        self.assertEqual(
+            (told["bomFormat"], told["specVersion"], told["metadata"]["component"]["version"]),
+            ("CycloneDX", "1.5", self.version),
+        )
         names = {part["name"] for part in told["components"]}
         self.assertTrue({"libc6", "libssl3", "zlib1g", "Boost headers"} <= names, names)
-        self.assertTrue(all(part["version"] and part["purl"].startswith("pkg:deb/debian/") for part in told["components"]))
+        self.assertTrue(
+            all(part["version"] and part["purl"].startswith("pkg:deb/debian/") for part in told["components"])
+        )
 
 
 if __name__ == "__main__":

@@ -33,19 +33,40 @@ class Render(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.place = pathlib.Path(folder.name)
         (cls.place / "plan.toml").write_text(PLAN)
-        subprocess.run([BINARY, "experiment", cls.place / "plan.toml", "--into", cls.place / "results"], check=True,
-                       capture_output=True, timeout=PATIENCE)
+        subprocess.run(
+            [BINARY, "experiment", cls.place / "plan.toml", "--into", cls.place / "results"],
+            check=True,
+            capture_output=True,
+            timeout=PATIENCE,
+        )
         (cls.log,) = (cls.place / "results" / "logs").rglob("*.episode")
 
     def render(self, to, log=None, **more):
-        done = subprocess.run([BINARY, "render", log or self.log, "--to", self.place / to], capture_output=True, text=True,
-                              timeout=PATIENCE, env=os.environ | more)
+        done = subprocess.run(
+            [BINARY, "render", log or self.log, "--to", self.place / to],
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE,
+            env=os.environ | more,
+        )
         return done.returncode, done.stdout, done.stderr
 
     def test_every_frame_of_the_episode_is_there(self):
-        frames = int(re.search(rb" frames=(\d+)", subprocess.run(
-            ["python3", "-c", "import sys, zlib; sys.stdout.buffer.write(zlib.decompress(open(sys.argv[1], 'rb').read()[24:]))",
-             self.log], capture_output=True, check=True).stdout)[1])
+        frames = int(
+            re.search(
+                rb" frames=(\d+)",
+                subprocess.run(
+                    [
+                        "python3",
+                        "-c",
+                        "import sys, zlib; sys.stdout.buffer.write(zlib.decompress(open(sys.argv[1], 'rb').read()[24:]))",
+                        self.log,
+                    ],
+                    capture_output=True,
+                    check=True,
+                ).stdout,
+            )[1]
+        )
         for name in ("a.y4m", "a.gif", "a.wav", "pictures"):
             self.assertEqual(self.render(name), (0, f"{self.place / name}: {frames} frames\n", ""))
         size = (self.place / "a.y4m").read_bytes()
@@ -68,7 +89,9 @@ class Render(unittest.TestCase):
             words, stream = (self.place / name).read_bytes().split(b"\n", 1)
             self.assertRegex(words.decode(), rf" -f avi -i pipe:0 .* -c:v {codecs[0]} .* -c:a {codecs[1]} ")
             self.assertEqual(stream[:4] + stream[8:12], b"RIFFAVI ")
-        self.assertEqual(self.render("c.webm", PATH=""), (1, "", "racebeam: ffmpeg is not installed: the PATH has no such program\n"))
+        self.assertEqual(
+            self.render("c.webm", PATH=""), (1, "", "racebeam: ffmpeg is not installed: the PATH has no such program\n")
+        )
         self.assertEqual([path for path in self.place.iterdir() if path.name.startswith(".")], [])
 
     def test_a_signal_leaves_nothing_behind(self):
@@ -77,9 +100,15 @@ class Render(unittest.TestCase):
         (tools / "ffmpeg").write_text("#!/bin/sh\nexec sleep 1000\n")  # reads nothing, so the film stays unfinished
         (tools / "ffmpeg").chmod(stat.S_IRWXU)
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-            with tempfile.TemporaryDirectory() as folder, self.subTest(number=number), subprocess.Popen(
-                    [BINARY, "render", self.log, "--to", f"{folder}/film.webm"], stderr=subprocess.PIPE,
-                    env=os.environ | {"PATH": f"{tools}:{os.environ['PATH']}"}) as process:
+            with (
+                tempfile.TemporaryDirectory() as folder,
+                self.subTest(number=number),
+                subprocess.Popen(
+                    [BINARY, "render", self.log, "--to", f"{folder}/film.webm"],
+                    stderr=subprocess.PIPE,
+                    env=os.environ | {"PATH": f"{tools}:{os.environ['PATH']}"},
+                ) as process,
+            ):
                 until = time.monotonic() + PATIENCE
                 while not os.listdir(folder) and time.monotonic() < until:
                     time.sleep(0.005)
@@ -99,14 +128,21 @@ class Render(unittest.TestCase):
         data = bytearray(self.log.read_bytes())
         data[-1] ^= 1
         broken.write_bytes(data)
-        for to, log, status, hint in (("there.gif", None, 1, "exists; no file is replaced"), ("x.avi", None, 2, "accepted are .gif"),
-                                      ("x.png", None, 2, "none for a folder of PNGs"), (".gif", None, 2, ".gif' is only an ending; accepted are names such as a.gif"),
-                                      ("x.gif", broken, 1, "broken.episode"),
-                                      ("x.gif", self.place / "nothing", 1, "nothing"), ("no/x.gif", None, 1, f"cannot make {self.place}/no/x.gif: there is no folder {self.place}/no")):
+        for to, log, status, hint in (
+            ("there.gif", None, 1, "exists; no file is replaced"),
+            ("x.avi", None, 2, "accepted are .gif"),
+            ("x.png", None, 2, "none for a folder of PNGs"),
+            (".gif", None, 2, ".gif' is only an ending; accepted are names such as a.gif"),
+            ("x.gif", broken, 1, "broken.episode"),
+            ("x.gif", self.place / "nothing", 1, "nothing"),
+            ("no/x.gif", None, 1, f"cannot make {self.place}/no/x.gif: there is no folder {self.place}/no"),
+        ):
             found, output, errors = self.render(to, log)
             self.assertEqual((found, output, len(errors.splitlines())), (status, "", 1), (to, errors))
             self.assertIn(hint, errors)
-        done = subprocess.run([BINARY, "render", self.log, "--to", ""], capture_output=True, text=True, timeout=PATIENCE)
+        done = subprocess.run(
+            [BINARY, "render", self.log, "--to", ""], capture_output=True, text=True, timeout=PATIENCE
+        )
         self.assertEqual(done.returncode, 2, done)
         self.assertIn("--to: '' names no file", done.stderr)
         self.assertEqual((self.place / "there.gif").read_text(), "mine")

@@ -51,7 +51,7 @@ class Wire:
         """The pixels of a shared session, as red, green and blue."""
         seen = self.watch(name)
         palette = bytes.fromhex(seen["palette"])
-        return [tuple(palette[3 * value:3 * value + 3]) for value in bytes.fromhex(seen["screen"])]
+        return [tuple(palette[3 * value : 3 * value + 3]) for value in bytes.fromhex(seen["screen"])]
 
 
 class InTerminal(unittest.TestCase):
@@ -68,7 +68,9 @@ class InTerminal(unittest.TestCase):
     def play(self, *words, **properties):
         """A game whose server others can watch."""
         path = os.path.join(self.folder, "watch")
-        terminal = self.open("play", "--terminal", "--watch", "all", "--grace", "0", "--listen", f"unix:{path}", *words, **properties)
+        terminal = self.open(
+            "play", "--terminal", "--watch", "all", "--grace", "0", "--listen", f"unix:{path}", *words, **properties
+        )
         terminal.wait_until(lambda: "score" in terminal.line(-1), "a game")
         wire = Wire(path)
         self.addCleanup(wire.close)
@@ -81,9 +83,11 @@ class InTerminal(unittest.TestCase):
 
     def press(self, terminal, wire, name, keys, action):
         """Types keys, as a key that is held repeats itself, until they have become an action."""
+
         def acts():
             terminal.type(keys)
             return self.action(wire, name) == action
+
         terminal.wait_until(acts, action)
 
     def action(self, wire, name):
@@ -138,7 +142,12 @@ class Keys(InTerminal):
     def test_a_key_counts_as_pressed_for_a_short_time(self):
         terminal, wire, name = self.play(rows=60)
         self.action(wire, name)
-        for keys, action in ((b" ", "FIRE"), (b"\x1b[A", "UP"), (b"\x1bOC", "RIGHT"), (b"\x1b[B\x1b[D ", "DOWNLEFTFIRE")):
+        for keys, action in (
+            (b" ", "FIRE"),
+            (b"\x1b[A", "UP"),
+            (b"\x1bOC", "RIGHT"),
+            (b"\x1b[B\x1b[D ", "DOWNLEFTFIRE"),
+        ):
             self.press(terminal, wire, name, keys, action)
             terminal.wait_until(lambda: self.action(wire, name) == "NOOP", "released")
         self.press(terminal, wire, name, b"\x1b[A\x1b[B", "DOWN")  # a direction ends the opposite one
@@ -209,7 +218,14 @@ class Ends(InTerminal):
             wire = Wire(server.path("s"))
             self.addCleanup(wire.close)
             wire.ask("load beamfall")
-            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGABRT, signal.SIGSEGV):
+            for number in (
+                signal.SIGINT,
+                signal.SIGTERM,
+                signal.SIGHUP,
+                signal.SIGQUIT,
+                signal.SIGABRT,
+                signal.SIGSEGV,
+            ):
                 for graphics in ("blocks", "kitty"):
                     with self.subTest(number, graphics=graphics):
                         terminal = self.watching(server, graphics=graphics, keyboard=True)
@@ -228,7 +244,10 @@ class Ends(InTerminal):
             self.assertTrue(terminal.is_restored(), terminal.modes)
 
     def test_ctrl_c_and_a_signal_end_a_game_and_its_server(self):
-        for end, status in ((lambda terminal: terminal.type(b"\x03"), 130), (lambda terminal: os.kill(terminal.child, signal.SIGTERM), 143)):
+        for end, status in (
+            (lambda terminal: terminal.type(b"\x03"), 130),
+            (lambda terminal: os.kill(terminal.child, signal.SIGTERM), 143),
+        ):
             terminal, wire, _ = self.play()
             end(terminal)
             self.assertEqual(terminal.end(), status)
@@ -239,7 +258,9 @@ class Ends(InTerminal):
     def test_what_cannot_be_drawn_is_refused(self):
         status, output, errors = run("play", "--terminal")
         self.assertEqual((status, output), (2, b""))
-        self.assertEqual(errors, ["racebeam: --terminal: standard input and output must be a terminal (see racebeam play --help)"])
+        self.assertEqual(
+            errors, ["racebeam: --terminal: standard input and output must be a terminal (see racebeam play --help)"]
+        )
         self.assertIn("accepted are auto, blocks, kitty", run("play", "--terminal", "--graphics", "ascii")[2][0])
         terminal = self.open("play", "--terminal", "updraft", "--max-sessions", "0")
         self.assertEqual(terminal.end(), 2)

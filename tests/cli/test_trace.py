@@ -81,9 +81,18 @@ class Lines(unittest.TestCase):
 class Observations(unittest.TestCase):
     def test_counters_are_truncated_frame_and_episode_frame(self):
         lines = [line.split() for line in played("--counters", "--max-frames", "3", data=b"0 " * 5)]
-        self.assertEqual([(words[0], *map(int, words[-3:])) for words in lines],
-                         [("R", 0, 0, 0), ("A", 0, 1, 1), ("A", 0, 2, 2), ("A", 1, 3, 3), ("R", 0, 3, 0),
-                          ("A", 0, 4, 1), ("A", 0, 5, 2)])
+        self.assertEqual(
+            [(words[0], *map(int, words[-3:])) for words in lines],
+            [
+                ("R", 0, 0, 0),
+                ("A", 0, 1, 1),
+                ("A", 0, 2, 2),
+                ("A", 1, 3, 3),
+                ("R", 0, 3, 0),
+                ("A", 0, 4, 1),
+                ("A", 0, 5, 2),
+            ],
+        )
 
     def test_colors_stand_in_every_so_manieth_line(self):
         every, third = ([line.split() for line in played("--colors", count)] for count in ("1", "3"))
@@ -102,11 +111,13 @@ class Observations(unittest.TestCase):
 
     def test_a_life_that_is_lost_ends_an_episode_if_asked_for(self):
         lives = lambda line: int(line.split()[4])
-        plain, truncated = ([line for line in played(*words, data=b"0 " * 6000) if line[0] == "A"]
-                            for words in ((), ("--truncate-on-life-loss",)))
+        plain, truncated = (
+            [line for line in played(*words, data=b"0 " * 6000) if line[0] == "A"]
+            for words in ((), ("--truncate-on-life-loss",))
+        )
         first = next(number for number, line in enumerate(plain) if lives(line) < lives(plain[0]))
-        self.assertEqual([line.split()[3] for line in plain[:first + 1]], ["0"] * (first + 1))
-        self.assertEqual([line.split()[3] for line in truncated[:first + 1]], ["0"] * first + ["1"])
+        self.assertEqual([line.split()[3] for line in plain[: first + 1]], ["0"] * (first + 1))
+        self.assertEqual([line.split()[3] for line in truncated[: first + 1]], ["0"] * first + ["1"])
 
 
 class Writes(unittest.TestCase):
@@ -120,7 +131,9 @@ class Writes(unittest.TestCase):
 
     def test_writes_and_strengths_are_taken_from_a_trace(self):
         lines = played("--ram", data=b"3@0.5 4@-0.25 3@1 3@0.333 3@1e-5\nM 9 7\n0\n")
-        self.assertEqual([line.split()[1] for line in lines if line[0] == "A"], ["3@0.5", "4@-0.25", "3", "3@0.333", "3@1e-05", "0"])
+        self.assertEqual(
+            [line.split()[1] for line in lines if line[0] == "A"], ["3@0.5", "4@-0.25", "3", "3@0.333", "3@1e-05", "0"]
+        )
         self.assertEqual(played("--ram", data="\n".join(lines).encode()), lines)
 
 

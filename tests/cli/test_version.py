@@ -8,8 +8,9 @@ import re
 import shutil
 import subprocess
 import tempfile
-import tomllib
 import unittest
+
+import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BINARY = os.environ["RACEBEAM_BINARY"]
@@ -32,7 +33,9 @@ class Version(unittest.TestCase):
         self.assertEqual(told, f"racebeam {version.decided()}\n")
 
     def test_the_greeting_says_it(self):
-        told = subprocess.run([BINARY, "serve", "--stdio"], input="hello\nquit\n", capture_output=True, text=True, check=True).stdout
+        told = subprocess.run(
+            [BINARY, "serve", "--stdio"], input="hello\nquit\n", capture_output=True, text=True, check=True
+        ).stdout
         self.assertIn(f" server=racebeam/{version.decided()} ", told)
 
     def test_the_clients_have_it(self):

@@ -32,14 +32,22 @@ class With(unittest.TestCase):
         self.environment |= {"TMPDIR": str(self.place), "PYTHONDONTWRITEBYTECODE": "1"}
 
     def run_with(self, *words, **options):
-        done = subprocess.run([BINARY, "with", *words], capture_output=True, text=True, timeout=PATIENCE, env=self.environment,
-                              stdin=subprocess.DEVNULL, **options)
+        done = subprocess.run(
+            [BINARY, "with", *words],
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE,
+            env=self.environment,
+            stdin=subprocess.DEVNULL,
+            **options,
+        )
         self.nothing_is_left()
         return done.returncode, done.stdout, done.stderr
 
     def start(self, *words):
-        process = subprocess.Popen([BINARY, "with", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                   env=self.environment)
+        process = subprocess.Popen(
+            [BINARY, "with", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=self.environment
+        )
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.kill)
@@ -74,27 +82,46 @@ class With(unittest.TestCase):
         self.assertEqual(self.run_with("--", "bash", "-c", script), (0, "beamfall\n", ""))
 
     def test_options_are_those_of_serve(self):
-        status, output, errors = self.run_with("--listen", "tcp://127.0.0.1:0", "--log-level", "info", "--threads", "1", "--",
-                                               "sh", "-c", 'cat "${RACEBEAM_ADDRESS#file:}"')
+        status, output, errors = self.run_with(
+            "--listen",
+            "tcp://127.0.0.1:0",
+            "--log-level",
+            "info",
+            "--threads",
+            "1",
+            "--",
+            "sh",
+            "-c",
+            'cat "${RACEBEAM_ADDRESS#file:}"',
+        )
         self.assertEqual(status, 0)
         self.assertIn("racebeam: threads: 1, limited by --threads\n", errors)
         self.assertNotIn("unix:", output)
         self.assertIn('"tcp://127.0.0.1:', output)
 
     def test_the_status_is_that_of_the_command(self):
-        for command, expected in ((["true"], 0), (["sh", "-c", "exit 7"], 7), (["sh", "-c", "kill -9 $$"], 137),
-                                  (["sh", "-c", "kill -TERM $$"], 143)):
+        for command, expected in (
+            (["true"], 0),
+            (["sh", "-c", "exit 7"], 7),
+            (["sh", "-c", "kill -9 $$"], 137),
+            (["sh", "-c", "kill -TERM $$"], 143),
+        ):
             with self.subTest(command=command):
                 self.assertEqual(self.run_with("--", *command), (expected, "", ""))
 
     def test_a_command_that_cannot_be_executed_has_the_status_of_shells(self):
-        self.assertEqual(self.run_with("--", "no-such-program", "x"),
-                         (127, "", "racebeam: cannot execute no-such-program: No such file or directory\n"))
-        self.assertEqual(self.run_with("--", "/etc/passwd"), (126, "", "racebeam: cannot execute /etc/passwd: Permission denied\n"))
+        self.assertEqual(
+            self.run_with("--", "no-such-program", "x"),
+            (127, "", "racebeam: cannot execute no-such-program: No such file or directory\n"),
+        )
+        self.assertEqual(
+            self.run_with("--", "/etc/passwd"), (126, "", "racebeam: cannot execute /etc/passwd: Permission denied\n")
+        )
 
     def test_standard_input_is_that_of_the_command(self):
-        done = subprocess.run([BINARY, "with", "--", "cat"], input=b"hello", capture_output=True, timeout=PATIENCE,
-                              env=self.environment)
+        done = subprocess.run(
+            [BINARY, "with", "--", "cat"], input=b"hello", capture_output=True, timeout=PATIENCE, env=self.environment
+        )
         self.assertEqual((done.returncode, done.stdout), (0, b"hello"))
 
     def test_a_server_that_dies_at_its_start_is_the_end(self):
@@ -102,11 +129,14 @@ class With(unittest.TestCase):
         self.assertEqual((status, output, errors), (4, "", "racebeam: --roms /nowhere is not a folder\n"))
 
     def test_what_does_not_fit_is_a_usage_error(self):
-        for words, hint in ((["--stdio", "--", "true"], "--stdio: requires racebeam serve"),
-                            (["--announce", "a", "--", "true"], "--announce: requires racebeam serve"),
-                            (["--ready-file", "a", "--", "true"], "--ready-file: requires racebeam serve"),
-                            (["--listen", "classic+unix:s", "--rom", "builtin:beamfall", "--", "true"], "--announce: requires"),
-                            ([], "COMMAND is required"), (["--speed", "--", "true"], "unknown argument: --speed")):
+        for words, hint in (
+            (["--stdio", "--", "true"], "--stdio: requires racebeam serve"),
+            (["--announce", "a", "--", "true"], "--announce: requires racebeam serve"),
+            (["--ready-file", "a", "--", "true"], "--ready-file: requires racebeam serve"),
+            (["--listen", "classic+unix:s", "--rom", "builtin:beamfall", "--", "true"], "--announce: requires"),
+            ([], "COMMAND is required"),
+            (["--speed", "--", "true"], "unknown argument: --speed"),
+        ):
             with self.subTest(words=words):
                 status, output, errors = self.run_with(*words, cwd=self.place)
                 self.assertEqual((status, output), (2, ""), errors)
@@ -115,9 +145,14 @@ class With(unittest.TestCase):
     def test_signals_are_passed_on(self):
         for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT, signal.SIGUSR1):
             with self.subTest(signal=number.name):
-                process = self.start("--", sys.executable, "-c", "import signal, sys\n"
-                                     f"signal.signal({int(number)}, lambda *_: sys.exit(9))\n"
-                                     "print('ready', flush=True)\nwhile True: signal.pause()")
+                process = self.start(
+                    "--",
+                    sys.executable,
+                    "-c",
+                    "import signal, sys\n"
+                    f"signal.signal({int(number)}, lambda *_: sys.exit(9))\n"
+                    "print('ready', flush=True)\nwhile True: signal.pause()",
+                )
                 self.assertEqual(process.stdout.readline(), "ready\n")
                 process.send_signal(number)
                 self.assertEqual(process.wait(PATIENCE), 9)
@@ -138,8 +173,12 @@ class With(unittest.TestCase):
         self.nothing_is_left()
 
     def test_a_server_that_dies_in_the_middle_is_told(self):
-        script = "kill -9 $(sed -n 's/^ \"process\": \\([0-9]*\\),$/\\1/p' \"${RACEBEAM_ADDRESS#file:}\"); sleep 0.3; exit 3"
-        self.assertEqual(self.run_with("--", "sh", "-c", script), (3, "", "racebeam: the server has ended with status 137\n"))
+        script = (
+            'kill -9 $(sed -n \'s/^ "process": \\([0-9]*\\),$/\\1/p\' "${RACEBEAM_ADDRESS#file:}"); sleep 0.3; exit 3'
+        )
+        self.assertEqual(
+            self.run_with("--", "sh", "-c", script), (3, "", "racebeam: the server has ended with status 137\n")
+        )
 
 
 if __name__ == "__main__":

@@ -14,11 +14,21 @@ from harness import BINARY, PATIENCE, SKIPPED  # noqa: E402
 
 def main():
     lua, busted = shutil.which(sys.argv[1]), shutil.which("busted")
-    if lua is None or busted is None or subprocess.run([lua, "-e", "require 'socket'"], capture_output=True).returncode != 0:
+    if (
+        lua is None
+        or busted is None
+        or subprocess.run([lua, "-e", "require 'socket'"], capture_output=True).returncode != 0
+    ):
         print(f"SKIPPED: there is no {sys.argv[1]}, no busted or no LuaSocket")
         return SKIPPED
-    done = subprocess.run([busted, f"--lua={lua}", "--output=TAP"], cwd=SOURCE / "clients/lua", timeout=PATIENCE * 5,
-                          env=dict(os.environ, RACEBEAM_PROGRAM=BINARY), stdout=subprocess.PIPE, text=True)
+    done = subprocess.run(
+        [busted, f"--lua={lua}", "--output=TAP"],
+        cwd=SOURCE / "clients/lua",
+        timeout=PATIENCE * 5,
+        env=dict(os.environ, RACEBEAM_PROGRAM=BINARY),
+        stdout=subprocess.PIPE,
+        text=True,
+    )
     print(done.stdout)
     return 0 if done.returncode == 0 and done.stdout.count("\nok ") + done.stdout.startswith("ok ") > 20 else 1
 

@@ -15,11 +15,21 @@ import client as racebeam  # noqa: E402
 from harness import BINARY, GAME, PATIENCE, Server, main  # noqa: E402
 
 ENCODINGS = ("hex", "rle", "delta", "base64", "zlib", "raw")
-CONTENTS = {"ram": 128, "tia": 53, "screen": 33600, "rgb": 100800, "grey": 33600, "grey84x3": 3 * 84 * 84, "palette": 768, "audio": 512}
+CONTENTS = {
+    "ram": 128,
+    "tia": 53,
+    "screen": 33600,
+    "rgb": 100800,
+    "grey": 33600,
+    "grey84x3": 3 * 84 * 84,
+    "palette": 768,
+    "audio": 512,
+}
 
 
 def over_each_transport(test):
     """Runs `test(self, session)` with a client of one server over standard streams, TCP and a Unix socket."""
+
     def run(self):
         with self.subTest(transport="stdio"), racebeam.Session.start(BINARY) as session:
             test(self, session)
@@ -29,6 +39,7 @@ def over_each_transport(test):
                 test(self, session)
             with self.subTest(transport="unix"), racebeam.Session.unix(server.path("s")) as session:
                 test(self, session)
+
     return run
 
 
@@ -67,7 +78,9 @@ class PythonClient(unittest.TestCase):
         self.assertEqual(session.set(difficulty=1)["difficulty"], 1)
         self.assertEqual((session.modes(), session.difficulties()), ([0], [0, 1]))
         bytes_of_ram, registers = session.names()
-        self.assertEqual((bytes_of_ram[1], registers[6], len(registers)), ("lives", "COLUP0", len(session.look("tia")["tia"])))
+        self.assertEqual(
+            (bytes_of_ram[1], registers[6], len(registers)), ("lives", "COLUP0", len(session.look("tia")["tia"]))
+        )
         self.assertEqual(session.actions()[17], "DOWNLEFTFIRE")
         self.assertEqual(session.observe("reward", "ends", "frame"), ["reward", "terminated", "truncated", "frame"])
         self.assertEqual(session.act("UP", "FIRE*2")["frame"], 15)
@@ -145,20 +158,28 @@ class Files(unittest.TestCase):
         tail = "; file:PATH takes the --ready-file or --announce file of a server"
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "file")
-            for contents, reason in ((b"", f"is empty{tail}"), (b"dear diary\n", f"has other contents{tail}"),
-                                     (b"\xff\x80\n", f"has other contents{tail}"), (b"{\xff\x80\n", "is not a whole announce file"),
-                                     (b"{}", "is not a whole announce file"),
-                                     (b"# addresses\nhttp://a:1\n", "names no address that this client can use")):
+            for contents, reason in (
+                (b"", f"is empty{tail}"),
+                (b"dear diary\n", f"has other contents{tail}"),
+                (b"\xff\x80\n", f"has other contents{tail}"),
+                (b"{\xff\x80\n", "is not a whole announce file"),
+                (b"{}", "is not a whole announce file"),
+                (b"# addresses\nhttp://a:1\n", "names no address that this client can use"),
+            ):
                 with open(file, "wb") as written:
                     written.write(contents)
                 self.assertEqual(self.refusal(ValueError, f"file:{file}"), f"{file} {reason}")
             os.mkfifo(os.path.join(folder, "pipe"))
             for path in (folder, os.path.join(folder, "pipe"), "/dev/zero"):
                 for wait in ("", "?wait=60"):
-                    self.assertEqual(self.refusal(ValueError, f"file:{path}{wait}"), f"{path} is not a regular file{tail}")
+                    self.assertEqual(
+                        self.refusal(ValueError, f"file:{path}{wait}"), f"{path} is not a regular file{tail}"
+                    )
             for time in ("", "x", "-1", "1e3", "99999999999999999999"):
-                self.assertEqual(self.refusal(ValueError, f"file:{file}?wait={time}"),
-                                 f"the address is 'file:{file}?wait={time}'; ?wait= takes seconds, from 0 to 999999999")
+                self.assertEqual(
+                    self.refusal(ValueError, f"file:{file}?wait={time}"),
+                    f"the address is 'file:{file}?wait={time}'; ?wait= takes seconds, from 0 to 999999999",
+                )
 
     def test_a_server_that_is_gone_is_named_with_its_file(self):
         with tempfile.TemporaryDirectory() as folder, socket.socket() as taken:
@@ -167,8 +188,10 @@ class Files(unittest.TestCase):
             file = os.path.join(folder, "file")
             with open(file, "w") as written:
                 written.write(f"# addresses\n{address}\n")
-            self.assertEqual(self.refusal(ConnectionRefusedError, f"file:{file}"),
-                             f"[Errno 111] no server answers at {address}, which {file} names: Connection refused")
+            self.assertEqual(
+                self.refusal(ConnectionRefusedError, f"file:{file}"),
+                f"[Errno 111] no server answers at {address}, which {file} names: Connection refused",
+            )
 
 
 class Recordings(unittest.TestCase):
@@ -178,8 +201,13 @@ class Recordings(unittest.TestCase):
 
             def visible():
                 return sorted(name for name in os.listdir(server.folder) if name[0] != "." and name != "stderr")
+
             session.load("beamfall", seed=1)
-            for kind, name, head in (("gif", "a.gif", b"GIF89a"), ("wav", "b.wav", b"RIFF"), ("y4m", "c.y4m", b"YUV4MPEG2")):
+            for kind, name, head in (
+                ("gif", "a.gif", b"GIF89a"),
+                ("wav", "b.wav", b"RIFF"),
+                ("y4m", "c.y4m", b"YUV4MPEG2"),
+            ):
                 before = visible()
                 session.record(kind, name[0])
                 session.act("FIRE*10")
@@ -217,7 +245,9 @@ class Recordings(unittest.TestCase):
 
 class Examples(unittest.TestCase):
     def check(self, path, *words, says):
-        done = subprocess.run([os.path.join(SOURCE, "clients", path), *words], capture_output=True, timeout=PATIENCE * 5)
+        done = subprocess.run(
+            [os.path.join(SOURCE, "clients", path), *words], capture_output=True, timeout=PATIENCE * 5
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout.decode(), says)
 
@@ -228,21 +258,46 @@ class Examples(unittest.TestCase):
 
     def test_a_wrong_program_and_a_wrong_game_get_a_sentence(self):
         for path, words, says in (
-                ("best_branch.py", ("/nowhere", "beamfall"), "best_branch.py: /nowhere beamfall: .*No such file or directory"),
-                ("best_branch.py", (BINARY, "nogame"), "best_branch.py: .* nogame: unknown-game: there is no game 'nogame'"),
-                ("best_branch.py", ("/bin/true",), "best_branch.py: /bin/true beamfall: .*ended"),
-                ("random_agent.py", ("/nowhere", GAME), "random_agent.py: cannot start /nowhere: No such file or directory; it takes"),
-                ("random_agent.py", (BINARY, "/nowhere.bin"), "racebeam: .*/nowhere.bin"),
-                ("sarsa.py", ("/nowhere",), "sarsa.py: no server at /nowhere: .*No such file or directory"),
-                ("sarsa.py", (BINARY, "nogame"), "sarsa.py: unknown-game: there is no game 'nogame'"),
-                ("sarsa.py", ("tcp://127.0.0.1:1",), "sarsa.py: no server at tcp://127.0.0.1:1: .*Connection refused"),
-                ("sarsa.py", ("udp://nowhere",), "sarsa.py: no server at udp://nowhere: the address is 'udp://nowhere'; it takes "),
-                ("sarsa.py", (BINARY, "--background", "/nowhere.csv"), "sarsa.py: --background is '/nowhere.csv': .*; it takes 210 lines")):
+            (
+                "best_branch.py",
+                ("/nowhere", "beamfall"),
+                "best_branch.py: /nowhere beamfall: .*No such file or directory",
+            ),
+            (
+                "best_branch.py",
+                (BINARY, "nogame"),
+                "best_branch.py: .* nogame: unknown-game: there is no game 'nogame'",
+            ),
+            ("best_branch.py", ("/bin/true",), "best_branch.py: /bin/true beamfall: .*ended"),
+            (
+                "random_agent.py",
+                ("/nowhere", GAME),
+                "random_agent.py: cannot start /nowhere: No such file or directory; it takes",
+            ),
+            ("random_agent.py", (BINARY, "/nowhere.bin"), "racebeam: .*/nowhere.bin"),
+            ("sarsa.py", ("/nowhere",), "sarsa.py: no server at /nowhere: .*No such file or directory"),
+            ("sarsa.py", (BINARY, "nogame"), "sarsa.py: unknown-game: there is no game 'nogame'"),
+            ("sarsa.py", ("tcp://127.0.0.1:1",), "sarsa.py: no server at tcp://127.0.0.1:1: .*Connection refused"),
+            (
+                "sarsa.py",
+                ("udp://nowhere",),
+                "sarsa.py: no server at udp://nowhere: the address is 'udp://nowhere'; it takes ",
+            ),
+            (
+                "sarsa.py",
+                (BINARY, "--background", "/nowhere.csv"),
+                "sarsa.py: --background is '/nowhere.csv': .*; it takes 210 lines",
+            ),
+        ):
             if path == "sarsa.py" and importlib.util.find_spec("numpy") is None:
                 continue
             with self.subTest(path=path, words=words):
-                done = subprocess.run([sys.executable, os.path.join(SOURCE, "clients/python", path), *words], capture_output=True,
-                                      text=True, timeout=PATIENCE)
+                done = subprocess.run(
+                    [sys.executable, os.path.join(SOURCE, "clients/python", path), *words],
+                    capture_output=True,
+                    text=True,
+                    timeout=PATIENCE,
+                )
                 self.assertEqual(done.returncode, 1, done.stderr)
                 self.assertRegex(done.stderr, f"^(racebeam: the line protocol.*\n)?{says}[^\n]*\n$")
 
@@ -250,7 +305,9 @@ class Examples(unittest.TestCase):
         for path in ("python/random_agent.py", "python/best_branch.py", "shell/play-lines", "shell/play"):
             for words in ([], ["--help"]):
                 with self.subTest(path=path, words=words):
-                    done = subprocess.run([os.path.join(SOURCE, "clients", path), *words], capture_output=True, timeout=PATIENCE)
+                    done = subprocess.run(
+                        [os.path.join(SOURCE, "clients", path), *words], capture_output=True, timeout=PATIENCE
+                    )
                     said = (done.stdout + done.stderr).decode()
                     self.assertTrue(said.startswith("usage: " + os.path.basename(path)), said)
                     self.assertNotIn("Traceback", said)

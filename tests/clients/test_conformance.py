@@ -8,10 +8,11 @@ import unittest
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(SOURCE / "tests/server"), str(SOURCE / "clients/conformance")]
 
-import clients  # noqa: E402
 import comparison  # noqa: E402
 import coverage  # noqa: E402
 from harness import BINARY, main  # noqa: E402
+
+import clients  # noqa: E402
 
 FILES = ("conversation.txt", "faults.txt")
 
@@ -35,12 +36,18 @@ class Comparison(unittest.TestCase):
         self.assertEqual(self.differences(self.printed, self.printed), [])
 
     def test_each_difference_is_named(self):
-        for changed in (self.printed[:1] + ["lost"] + self.printed[2:], self.printed[:1] + self.printed[2:],
-                        self.printed[:2] + ["ok"] + self.printed[2:], self.printed[:-2]):
+        for changed in (
+            self.printed[:1] + ["lost"] + self.printed[2:],
+            self.printed[:1] + self.printed[2:],
+            self.printed[:2] + ["ok"] + self.printed[2:],
+            self.printed[:-2],
+        ):
             self.assertEqual(len(self.differences(changed, self.printed)), 1)
 
     def test_sections_that_are_alike_are_compared(self):
-        changed = [line for name in self.printed for line in ([name, "ok reward=1"] if name == "section rle" else [name])]
+        changed = [
+            line for name in self.printed for line in ([name, "ok reward=1"] if name == "section rle" else [name])
+        ]
         self.assertIn("rle, which is like hex", " ".join(self.differences(changed, changed)))
 
     def test_a_client_gets_the_sections_that_it_can_hold(self):
@@ -60,12 +67,16 @@ class Coverage(unittest.TestCase):
         self.assertIn("choice of open lives=told", coverage.missing(BINARY, [], []))
 
     def test_a_key_that_is_not_described_is_named(self):
-        self.assertEqual(coverage.undescribed(["ok reward=1 luck=2 final_grey84x4=3:4 grey40x30x2=5", "error luck=3"]), ["luck"])
+        self.assertEqual(
+            coverage.undescribed(["ok reward=1 luck=2 final_grey84x4=3:4 grey40x30x2=5", "error luck=3"]), ["luck"]
+        )
 
     def test_it_reads_the_help_of_the_server(self):
         counts = {kind: len(names) for kind, names in coverage.expected(BINARY).items()}
         document = (SOURCE / "protocol/PROTOCOL.md").read_text()
-        rows = re.findall(r"^\| `(\w+)[^|]*` \|", document.split("## Commands")[1].split("###")[0].replace("\\|", "/"), re.MULTILINE)
+        rows = re.findall(
+            r"^\| `(\w+)[^|]*` \|", document.split("## Commands")[1].split("###")[0].replace("\\|", "/"), re.MULTILINE
+        )
         codes = re.findall(r"^\| `([\w-]+)` \|", document.split("## Errors")[1], re.MULTILINE)
         self.assertEqual((counts["command"], counts["error code"], counts["encoding"]), (len(rows), len(codes), 6))
 
@@ -74,14 +85,19 @@ class Versions(unittest.TestCase):
     def test_all_packages_have_that_of_the_project(self):
         def found(path, pattern):
             return re.search(pattern, (SOURCE / path).read_text())[1]
+
         version = found("CMakeLists.txt", r"project\(racebeam VERSION ([\d.]+)")
-        self.assertEqual(found("clients/java/pom.xml", r"<artifactId>racebeam</artifactId>\s*<version>(.*?)</version>"), version)
+        self.assertEqual(
+            found("clients/java/pom.xml", r"<artifactId>racebeam</artifactId>\s*<version>(.*?)</version>"), version
+        )
         self.assertEqual(found("clients/js/package.json", r'"version": "(.*?)"'), version)
         self.assertEqual(found("clients/lua/racebeam/init.lua", r'_VERSION = "(.*?)"'), version)
         self.assertEqual(found(f"clients/lua/racebeam-{version}-1.rockspec", r'version = "(.*?)"'), f"{version}-1")
 
     def test_ctest_runs_each_client(self):
-        listed = re.findall(r"foreach\(client ([^)]*)\)", (SOURCE / "tests/clients/CMakeLists.txt").read_text())[0].split()
+        listed = re.findall(r"foreach\(client ([^)]*)\)", (SOURCE / "tests/clients/CMakeLists.txt").read_text())[
+            0
+        ].split()
         self.assertEqual(listed, [client.name for client in clients.CLIENTS])
 
 

@@ -23,8 +23,13 @@ PLAIN = {key: value for key, value in os.environ.items() if not key.startswith("
 
 def run(*command, **variables):
     """What a command prints. The test fails if the command does."""
-    done = subprocess.run([str(word) for word in command], env={**PLAIN, "RACEBEAM_PROGRAM": BINARY, **variables}, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    done = subprocess.run(
+        [str(word) for word in command],
+        env={**PLAIN, "RACEBEAM_PROGRAM": BINARY, **variables},
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
     if done.returncode != 0:
         raise AssertionError(f"{' '.join(map(str, command))}\n{done.stdout}")
     return done.stdout
@@ -63,7 +68,11 @@ class Installed(unittest.TestCase):
                 self.assertEqual(version.strip(), VERSION)
 
     def test_the_programs_of_its_page_are_built(self):
-        blocks = dict(re.findall(r"^```(cpp|cmake)\n(.*?)^```$", (SOURCE / "docs/api/README.md").read_text(), re.MULTILINE | re.DOTALL))
+        blocks = dict(
+            re.findall(
+                r"^```(cpp|cmake)\n(.*?)^```$", (SOURCE / "docs/api/README.md").read_text(), re.MULTILINE | re.DOTALL
+            )
+        )
         agent = self.prefix / "agent"
         agent.mkdir()
         (agent / "agent.cpp").write_text(blocks["cpp"])

@@ -23,9 +23,21 @@ UNREACHABLE = re.compile("Could not transfer|Unknown host|Could not resolve|coul
 
 
 def maven(folder, *words):
-    return subprocess.run(["mvn", "--batch-mode", "--no-transfer-progress", "-f", SOURCE / "clients/java/pom.xml",
-                           f"-Dracebeam.build={folder}", *words],
-                          env=dict(os.environ, RACEBEAM_PROGRAM=BINARY), capture_output=True, text=True, timeout=600)
+    return subprocess.run(
+        [
+            "mvn",
+            "--batch-mode",
+            "--no-transfer-progress",
+            "-f",
+            SOURCE / "clients/java/pom.xml",
+            f"-Dracebeam.build={folder}",
+            *words,
+        ],
+        env=dict(os.environ, RACEBEAM_PROGRAM=BINARY),
+        capture_output=True,
+        text=True,
+        timeout=600,
+    )
 
 
 def jars(folder):

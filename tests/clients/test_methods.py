@@ -15,14 +15,23 @@ from harness import BINARY, main  # noqa: E402
 # The files of a client, and what its methods look like.
 METHODS = {
     "python": (("python/racebeam/wire/commands.py",), r"^    def (\w+)\("),
-    "java": (("java/src/main/java/racebeam/Session.java", "java/src/main/java/racebeam/Commands.java"), r"^  public [\w<>\[\], ]+ (\w+)\("),
+    "java": (
+        ("java/src/main/java/racebeam/Session.java", "java/src/main/java/racebeam/Commands.java"),
+        r"^  public [\w<>\[\], ]+ (\w+)\(",
+    ),
     "lua": (("lua/racebeam/init.lua", "lua/racebeam/commands.lua"), r"^function (?:Session|methods):(\w+)\("),
     "c++": (("cpp/racebeam/client/commands.hpp", "cpp/racebeam/client/command_methods.hpp"), r"^  auto (\w+)\("),
     "javascript": (("js/src/session.js", "js/src/commands.js"), r"^  (?:async )?(\w+)\("),
     "typescript": (("js/src/index.d.ts",), r"^  (\w+)\("),
 }
-TABLES = ("python/racebeam/wire/fields.py", "java/src/main/java/racebeam/FieldTable.java", "lua/racebeam/field_table.lua",
-          "cpp/racebeam/client/field_table.hpp", "js/src/field_table.js", "shell/racebeam.bash")
+TABLES = (
+    "python/racebeam/wire/fields.py",
+    "java/src/main/java/racebeam/FieldTable.java",
+    "lua/racebeam/field_table.lua",
+    "cpp/racebeam/client/field_table.hpp",
+    "js/src/field_table.js",
+    "shell/racebeam.bash",
+)
 
 
 def text(path):
@@ -40,7 +49,9 @@ class Methods(unittest.TestCase):
         self.assertEqual([command.name for command in protocol.commands], coverage.expected(BINARY)["command"])
         for client, (paths, pattern) in METHODS.items():
             methods = {plain(name) for path in paths for name in re.findall(pattern, text(path), re.MULTILINE)}
-            self.assertEqual([command.name for command in protocol.commands if plain(command.method) not in methods], [], client)
+            self.assertEqual(
+                [command.name for command in protocol.commands if plain(command.method) not in methods], [], client
+            )
 
     def test_every_client_knows_each_field_of_bytes(self):
         for field in description.read().byte_fields:

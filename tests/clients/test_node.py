@@ -18,8 +18,14 @@ from harness import BINARY, PATIENCE, main  # noqa: E402
 
 class Node(unittest.TestCase):
     def test_its_tests_pass(self):
-        done = subprocess.run(["node", "--test", "test/"], cwd=CLIENT, timeout=PATIENCE * 5, capture_output=True, text=True,
-                              env=dict(os.environ, RACEBEAM_PROGRAM=BINARY))
+        done = subprocess.run(
+            ["node", "--test", "test/"],
+            cwd=CLIENT,
+            timeout=PATIENCE * 5,
+            capture_output=True,
+            text=True,
+            env=dict(os.environ, RACEBEAM_PROGRAM=BINARY),
+        )
         self.assertEqual(done.returncode, 0, done.stdout)
         counts = dict(re.findall(r"^\S+ (pass|fail|skipped) (\d+)$", done.stdout, re.MULTILINE))
         self.assertGreater(int(counts["pass"]), 20)
@@ -28,7 +34,12 @@ class Node(unittest.TestCase):
     def test_the_package_needs_nothing(self):
         package = json.loads((CLIENT / "package.json").read_text())
         self.assertFalse({"dependencies", "devDependencies", "peerDependencies"} & set(package))
-        for path in (package["types"], *package["files"], *package["exports"]["."].values(), *package["imports"]["#platform"].values()):
+        for path in (
+            package["types"],
+            *package["files"],
+            *package["exports"]["."].values(),
+            *package["imports"]["#platform"].values(),
+        ):
             self.assertTrue((CLIENT / path).exists(), path)
 
 

@@ -15,8 +15,9 @@ import unittest
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(SOURCE / "tests/server"), str(SOURCE / "clients/conformance")]
 
-from clients import CLIENTS  # noqa: E402
 from harness import BINARY, PATIENCE, SKIPPED, Server  # noqa: E402
+
+from clients import CLIENTS  # noqa: E402
 
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
@@ -24,12 +25,18 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 EXAMPLES = {
     "shell": (),  # tests/clients/test_shell.py
     "js": (("clients/js/examples/many.mjs", (), r"scores (\d+ ?){8}\n"),),
-    "cpp": (("clients/cpp/examples/follow.cpp", (), r"scores( \d+){8}\n"),
-            ("clients/cpp/examples/planner.cpp", ("10",), r"score \d+\n")),
-    "lua": (("clients/lua/examples/gap.lua", (), r"score \d+ in \d+ acts\n"),
-            ("clients/lua/examples/follow.lua", (), r"score \d+, \d\.\d KiB of garbage a step; a screen has 32\.8 KiB\n")),
-    "java": (("clients/java/examples/Planner.java", ("10",), r"score \d+, \d+ frames run\n"),
-             ("clients/java/examples/Sarsa.java", ("10",), r"episodes 1 to 10: mean score \d+\.\d\n")),
+    "cpp": (
+        ("clients/cpp/examples/follow.cpp", (), r"scores( \d+){8}\n"),
+        ("clients/cpp/examples/planner.cpp", ("10",), r"score \d+\n"),
+    ),
+    "lua": (
+        ("clients/lua/examples/gap.lua", (), r"score \d+ in \d+ acts\n"),
+        ("clients/lua/examples/follow.lua", (), r"score \d+, \d\.\d KiB of garbage a step; a screen has 32\.8 KiB\n"),
+    ),
+    "java": (
+        ("clients/java/examples/Planner.java", ("10",), r"score \d+, \d+ frames run\n"),
+        ("clients/java/examples/Sarsa.java", ("10",), r"episodes 1 to 10: mean score \d+\.\d\n"),
+    ),
 }
 
 # Programs whose standard streams are those of a server. They tell the frame that they reached on standard error.
@@ -75,8 +82,11 @@ STDIO = {
 def programs(text, language):
     """Pairs of a program and what it prints, if the page says so."""
     blocks = BLOCK.findall(text) + [("", "")]
-    return [(body, after if kind == "text" else None)
-            for (name, body), (kind, after) in zip(blocks, blocks[1:]) if name == language]
+    return [
+        (body, after if kind == "text" else None)
+        for (name, body), (kind, after) in zip(blocks, blocks[1:])
+        if name == language
+    ]
 
 
 class Page(unittest.TestCase):
@@ -85,7 +95,12 @@ class Page(unittest.TestCase):
     def setUp(self):
         self.server = Server("serve", "--listen", "tcp://127.0.0.1:0")
         self.addCleanup(self.server.__exit__)
-        self.environment = dict(os.environ, **dict(self.client.variables), RACEBEAM_ADDRESS=f"tcp://127.0.0.1:{self.server.port()}", RACEBEAM_PROGRAM=BINARY)
+        self.environment = dict(
+            os.environ,
+            **dict(self.client.variables),
+            RACEBEAM_ADDRESS=f"tcp://127.0.0.1:{self.server.port()}",
+            RACEBEAM_PROGRAM=BINARY,
+        )
 
     def written(self, folder, body):
         """The path of a new file with a program."""
@@ -102,8 +117,14 @@ class Page(unittest.TestCase):
             subprocess.run([*self.client.compiler, str(program)], check=True)
 
     def check(self, program, words, pattern):
-        done = subprocess.run([*self.client.runner[:-1], str(program), *words], env=self.environment, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, timeout=PATIENCE * 5)
+        done = subprocess.run(
+            [*self.client.runner[:-1], str(program), *words],
+            env=self.environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=PATIENCE * 5,
+        )
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertRegex(done.stdout, f"\\A{pattern}\\Z")
 
@@ -112,13 +133,24 @@ class Page(unittest.TestCase):
         self.assertTrue(found)
         for number, (body, expected) in enumerate(found):
             with self.subTest(program=number), tempfile.TemporaryDirectory() as folder:
-                self.check(self.written(folder, body), (), ".*" if expected is None else re.escape(expected).replace(r"\.\.\.", ".*"))
+                self.check(
+                    self.written(folder, body),
+                    (),
+                    ".*" if expected is None else re.escape(expected).replace(r"\.\.\.", ".*"),
+                )
 
     def test_its_standard_streams_can_be_those_of_a_server(self):
         with tempfile.TemporaryDirectory() as folder, Server("serve", "--stdio", streams=True) as server:
             path = self.written(folder, STDIO[self.client.language])
-            done = subprocess.run([*self.client.runner[:-1], str(path)], env=self.environment, stdin=server.process.stdout,
-                                  stdout=server.process.stdin, stderr=subprocess.PIPE, text=True, timeout=PATIENCE * 5)
+            done = subprocess.run(
+                [*self.client.runner[:-1], str(path)],
+                env=self.environment,
+                stdin=server.process.stdout,
+                stdout=server.process.stdin,
+                stderr=subprocess.PIPE,
+                text=True,
+                timeout=PATIENCE * 5,
+            )
             self.assertEqual((done.returncode, done.stderr), (0, "7\n"))
             server.process.stdin.close()
             server.process.stdin = None

@@ -6,20 +6,21 @@ import sys
 import tempfile
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(SOURCE, folder) for folder in ("tests/server", "tests/support", "clients/python/single_file")]
+sys.path[:0] = [
+    os.path.join(SOURCE, folder) for folder in ("tests/server", "tests/support", "clients/python/single_file")
+]
 
 import reference_python  # noqa: E402
 
 reference_python.require("numpy", "PIL")
 
-import numpy as np  # noqa: E402
-from PIL import Image, ImageSequence  # noqa: E402
-
 import unittest  # noqa: E402
 import wave  # noqa: E402
 
 import client as racebeam  # noqa: E402
+import numpy as np  # noqa: E402
 from harness import BINARY, main  # noqa: E402
+from PIL import Image, ImageSequence  # noqa: E402
 
 FRAMES = 60
 

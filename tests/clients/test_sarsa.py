@@ -37,8 +37,12 @@ LONG = 10 * PATIENCE  # seconds
 
 def learn(server, *options):
     """What the client prints, line by line."""
-    done = subprocess.run([sys.executable, "-B", SOURCE / "clients/python/sarsa.py", server, *map(str, options)],
-                          capture_output=True, text=True, timeout=LONG)
+    done = subprocess.run(
+        [sys.executable, "-B", SOURCE / "clients/python/sarsa.py", server, *map(str, options)],
+        capture_output=True,
+        text=True,
+        timeout=LONG,
+    )
     if done.returncode:
         raise AssertionError(done.stderr)
     return done.stdout.splitlines()
@@ -51,19 +55,21 @@ def has_experiments():
 class Parts(unittest.TestCase):
     def test_the_generator_gives_published_numbers(self):
         generator = sarsa.Random(0)
-        self.assertEqual([generator.next() for _ in range(3)], [0xE220A8397B1DCDAF, 0x6E789E6AA1B965F4, 0x06C45D188009454F])
+        self.assertEqual(
+            [generator.next() for _ in range(3)], [0xE220A8397B1DCDAF, 0x6E789E6AA1B965F4, 0x06C45D188009454F]
+        )
 
     def test_features_of_a_screen(self):
         background = np.zeros(PIXELS, np.uint8)
         background[1] = 9
         basic = sarsa.Basic(background)
         screen = np.zeros(PIXELS, np.uint8)
-        screen[0] = 2 * 5                  # colour 5 in the first tile
-        screen[1] = 2 * 9 + 1              # the background: the lowest bit means nothing
-        screen[14 * 160 + 9] = 2 * 127     # the last pixel of the first tile
-        screen[14 * 160 + 10] = 2          # the next tile
-        screen[15 * 160] = 4               # the next row of tiles
-        screen[PIXELS - 1] = 6             # the last tile
+        screen[0] = 2 * 5  # colour 5 in the first tile
+        screen[1] = 2 * 9 + 1  # the background: the lowest bit means nothing
+        screen[14 * 160 + 9] = 2 * 127  # the last pixel of the first tile
+        screen[14 * 160 + 10] = 2  # the next tile
+        screen[15 * 160] = 4  # the next row of tiles
+        screen[PIXELS - 1] = 6  # the last tile
         self.assertEqual(basic.SIZE, 28672)
         self.assertEqual(basic.active(screen.tobytes()).tolist(), [5, 127, 128 + 1, 16 * 128 + 2, 223 * 128 + 3])
         self.assertEqual(basic.active(bytes(PIXELS)).tolist(), [0])  # black, where the background is not
@@ -113,7 +119,9 @@ class Play(unittest.TestCase):
         self.assertNotEqual(learn(BINARY, *options, "--agent-seed", 2), over_tcp)
 
     def test_it_says_how_it_is_used(self):
-        done = subprocess.run([sys.executable, "-B", SOURCE / "clients/python/sarsa.py"], capture_output=True, text=True)
+        done = subprocess.run(
+            [sys.executable, "-B", SOURCE / "clients/python/sarsa.py"], capture_output=True, text=True
+        )
         self.assertEqual((done.returncode, done.stderr[:15]), (2, "usage: sarsa.py"))
 
     @unittest.skipUnless(has_experiments(), "this racebeam has no experiments")
@@ -121,20 +129,42 @@ class Play(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             (root / "plan.toml").write_text(PLAN)
-            subprocess.run([BINARY, "experiment", root / "plan.toml", "--into", root / "results"], check=True,
-                           capture_output=True, timeout=LONG)
+            subprocess.run(
+                [BINARY, "experiment", root / "plan.toml", "--into", root / "results"],
+                check=True,
+                capture_output=True,
+                timeout=LONG,
+            )
             content = zlib.decompress((root / "results/games/beamfall.background").read_bytes()[24:])
             np.savetxt(root / "background.csv", np.frombuffer(content[-PIXELS:], np.uint8).reshape(210, 160), "%d", ",")
             trained, evaluated = (rows(root / f"results/{name}.csv") for name in ("curves", "results"))
             # Without sticky actions the seed of the environment makes no difference.
-            lines = learn(BINARY, "beamfall", "--training", 20, "--evaluation", 20, "--frames", 3000, "--actions",
-                          "--agent-seed", evaluated[0]["agent_seed"], "--background", root / "background.csv")
-            played = [re.fullmatch(r"\w+ episode \d+: score (-?\d+) in (\d+) decisions ([\d ]+)", line).groups() for line in lines]
-            self.assertEqual([(score, count) for score, count, _ in played],
-                             [(row["score"], row["decisions"]) for row in trained + evaluated])
+            lines = learn(
+                BINARY,
+                "beamfall",
+                "--training",
+                20,
+                "--evaluation",
+                20,
+                "--frames",
+                3000,
+                "--actions",
+                "--agent-seed",
+                evaluated[0]["agent_seed"],
+                "--background",
+                root / "background.csv",
+            )
+            played = [
+                re.fullmatch(r"\w+ episode \d+: score (-?\d+) in (\d+) decisions ([\d ]+)", line).groups()
+                for line in lines
+            ]
+            self.assertEqual(
+                [(score, count) for score, count, _ in played],
+                [(row["score"], row["decisions"]) for row in trained + evaluated],
+            )
             for row, (_, count, actions) in zip(evaluated, played[20:]):
                 log = zlib.decompress((root / f"results/logs/{row['unit']}/{row['episode']}.episode").read_bytes()[24:])
-                self.assertEqual(list(log[-int(count):]), [int(action) for action in actions.split()])
+                self.assertEqual(list(log[-int(count) :]), [int(action) for action in actions.split()])
             self.assertGreater(len({score for score, _, _ in played}), 5)
 
 

@@ -9,9 +9,8 @@ import tempfile
 import threading
 import unittest
 
-from test_clients import SOURCE  # which finds the harness
-
 from harness import PATIENCE, Server, main
+from test_clients import SOURCE  # which finds the harness
 
 SHELL = os.path.join(SOURCE, "clients", "shell")
 TCP = ("serve", "--listen", "tcp://127.0.0.1:0")
@@ -37,7 +36,12 @@ class Agents(unittest.TestCase):
         """Runs the script of the page."""
         with open(os.path.join(SHELL, "README.md")) as page:
             script = re.search(r"```shell\n(.*?)```", page.read(), re.DOTALL)[1]
-        return run("bash", "-c", script, env=os.environ | {"PATH": f"{SHELL}:{os.environ['PATH']}", "RACEBEAM_ADDRESS": address})
+        return run(
+            "bash",
+            "-c",
+            script,
+            env=os.environ | {"PATH": f"{SHELL}:{os.environ['PATH']}", "RACEBEAM_ADDRESS": address},
+        )
 
     def test_the_script_of_the_page_ends_without_a_server(self):
         done = self.page("file:/nonexistent/announce")
@@ -61,16 +65,21 @@ class Agents(unittest.TestCase):
         tail = "; file:PATH takes the --ready-file or --announce file of a server"
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "file")
-            for text, reason in ((b"", f"{file} is empty{tail}"), (b"dear diary\n", f"{file} has other contents{tail}"),
-                                 (b"{\0\xff\x80\n", f"{file} is not a whole announce file"),
-                                 (b"# addresses\ntcp://127.0.0.1:1\n", f"no server answers at tcp://127.0.0.1:1, which {file} names")):
+            for text, reason in (
+                (b"", f"{file} is empty{tail}"),
+                (b"dear diary\n", f"{file} has other contents{tail}"),
+                (b"{\0\xff\x80\n", f"{file} is not a whole announce file"),
+                (b"# addresses\ntcp://127.0.0.1:1\n", f"no server answers at tcp://127.0.0.1:1, which {file} names"),
+            ):
                 with open(file, "wb") as written:
                     written.write(text)
                 self.assertEqual(self.page(f"file:{file}").stderr, reason + "\n")
             self.assertEqual(self.page(f"file:{folder}").stderr, f"{folder} is no regular file{tail}\n")
             for time in ("", "x", "-1", "1e3", "99999999999999999999"):
-                self.assertEqual(self.page(f"file:{file}?wait={time}").stderr,
-                                 f"the address is 'file:{file}?wait={time}'; ?wait= takes seconds, from 0 to 999999999\n")
+                self.assertEqual(
+                    self.page(f"file:{file}?wait={time}").stderr,
+                    f"the address is 'file:{file}?wait={time}'; ?wait= takes seconds, from 0 to 999999999\n",
+                )
 
     @unittest.skipUnless(shutil.which("mawk"), "there is no mawk")
     def test_awk_plays_over_pipes_as_bash_does_over_tcp(self):

@@ -5,20 +5,21 @@ import os
 import sys
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(SOURCE, folder) for folder in ("tests/server", "tests/support", "clients/python/single_file")]
+sys.path[:0] = [
+    os.path.join(SOURCE, folder) for folder in ("tests/server", "tests/support", "clients/python/single_file")
+]
 
 import reference_python  # noqa: E402
 
 reference_python.require("cv2", "numpy", "ale_py", "gymnasium")
 
+import unittest  # noqa: E402
+
+import client as racebeam  # noqa: E402
 import cv2  # noqa: E402
 import numpy as np  # noqa: E402
 from ale_py import roms  # noqa: E402
 from ale_py.vector_env import AtariVectorEnv  # noqa: E402
-
-import unittest  # noqa: E402
-
-import client as racebeam  # noqa: E402
 from harness import BINARY, main  # noqa: E402
 
 ROMS = str(roms.get_rom_path("pong").parent)
@@ -49,16 +50,25 @@ class VectorEnvironment(unittest.TestCase):
         reference = AtariVectorEnv(game, num_envs=1, use_fire_reset=False, reward_clipping=False, **options)
         shown, info = reference.reset(seed=seed)
         with racebeam.Session.start(BINARY, "--roms", ROMS) as session:
-            session.load(game, seed=seed, frame_skip=options["frameskip"], noop_max=options["noop_max"], action_set="minimal",
-                         sticky=options["repeat_action_probability"])
+            session.load(
+                game,
+                seed=seed,
+                frame_skip=options["frameskip"],
+                noop_max=options["noop_max"],
+                action_set="minimal",
+                sticky=options["repeat_action_probability"],
+            )
             session.observe("reward", "ends", "lives", "episode_frame", "grey84x4")
             ours = session.look()
             actions = list(session.actions())
             rewards = 0
             for step in range(STEPS):
                 self.assertEqual(plane(ours["grey84x4"], 4, 84, 84).tobytes(), shown[0].tobytes(), f"step {step}")
-                self.assertEqual((ours["lives"], ours["episode_frame"]),
-                                 (info["lives"][0], info["episode_frame_number"][0]), f"step {step}")
+                self.assertEqual(
+                    (ours["lives"], ours["episode_frame"]),
+                    (info["lives"][0], info["episode_frame_number"][0]),
+                    f"step {step}",
+                )
                 choice = (step * 7 + step // 11) % len(actions)
                 shown, reward, terminated, truncated, info = reference.step(np.array([choice]))
                 ours = session.act(actions[choice])
@@ -74,7 +84,9 @@ class VectorEnvironment(unittest.TestCase):
         for game in ("pong", "ms_pacman", "breakout"):
             for seed, skip, sticky, noops in ((1, 4, 0.25, 30), (2, 4, 0.0, 30), (3, 1, 0.25, 5), (4, 3, 0.0, 0)):
                 with self.subTest(game=game, seed=seed, frame_skip=skip):
-                    rewards += self.compare(game, seed, frameskip=skip, repeat_action_probability=sticky, noop_max=noops)
+                    rewards += self.compare(
+                        game, seed, frameskip=skip, repeat_action_probability=sticky, noop_max=noops
+                    )
         self.assertGreater(rewards, 0)
 
 

@@ -24,8 +24,14 @@ class Viewer(unittest.TestCase):
     option = "--check"
 
     def test_it_passes(self):
-        done = subprocess.run([SOURCE / "scripts/viewer", self.option], timeout=PATIENCE * 15, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, env=dict(os.environ, RACEBEAM_BINARY=BINARY))
+        done = subprocess.run(
+            [SOURCE / "scripts/viewer", self.option],
+            timeout=PATIENCE * 15,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            env=dict(os.environ, RACEBEAM_BINARY=BINARY),
+        )
         self.assertEqual(done.returncode, 0, done.stdout)
         if least := LEAST_TESTS.get(self.option):
             counts = dict(re.findall(r"^\S+ (pass|fail|skipped) (\d+)$", done.stdout, re.MULTILINE))
@@ -35,9 +41,16 @@ class Viewer(unittest.TestCase):
 
 if __name__ == "__main__":
     Viewer.option = sys.argv.pop()
-    needs = [("the npm packages of viewer/, which scripts/viewer --install installs", (SOURCE / "viewer/node_modules/esbuild").exists()),
-             ("node", shutil.which("node"))]
+    needs = [
+        (
+            "the npm packages of viewer/, which scripts/viewer --install installs",
+            (SOURCE / "viewer/node_modules/esbuild").exists(),
+        ),
+        ("node", shutil.which("node")),
+    ]
     if browser := BROWSERS.get(Viewer.option):
-        needs += [(f"{browser}, which scripts/setup --viewer installs", shutil.which(browser)),
-                  ("a program without sanitizers", not sanitized())]
+        needs += [
+            (f"{browser}, which scripts/setup --viewer installs", shutil.which(browser)),
+            ("a program without sanitizers", not sanitized()),
+        ]
     main(*needs)

@@ -30,7 +30,9 @@ def play(game, number, middle=lambda: None):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--pause", type=float, default=0)
-    parser.add_argument("--reached", type=pathlib.Path, help="a folder, for a file that says that the middle is reached")
+    parser.add_argument(
+        "--reached", type=pathlib.Path, help="a folder, for a file that says that the middle is reached"
+    )
     parser.add_argument("--into", type=pathlib.Path, help="a folder for the result")
     options = parser.parse_args()
     number = int(os.environ.get("SLURM_ARRAY_TASK_ID") or os.environ.get("SLURM_PROCID") or 0)
@@ -39,6 +41,7 @@ def main():
         if options.reached and "SLURM_RESTART_COUNT" not in os.environ:
             (options.reached / f"reached-{number}").write_text("")
             time.sleep(options.pause)
+
     with client.connect() as game:
         digest = play(game, number, middle)
     if options.into:

@@ -1,7 +1,6 @@
 """An agent on servers of racebeam.cluster. It compares them with games in this process, and goes on when one is cancelled."""
 
 import numpy as np
-
 from racebeam import AtariVectorEnv
 from racebeam.cluster import SlurmServers
 

@@ -42,7 +42,9 @@ def processes(*marks):
     found = {}
     for entry in pathlib.Path("/proc").iterdir():
         try:
-            if entry.name.isdecimal() and {mark.encode() for mark in marks} <= set((entry / "environ").read_bytes().split(b"\0")):
+            if entry.name.isdecimal() and {mark.encode() for mark in marks} <= set(
+                (entry / "environ").read_bytes().split(b"\0")
+            ):
                 found[int(entry.name)] = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode()
         except OSError:
             continue
@@ -115,7 +117,9 @@ class Cluster:
         self.processors = processors
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="racebeam-cluster-", dir="/tmp"))
         self.daemons = {}
-        self.environment = {name: value for name, value in os.environ.items() if not name.startswith(("SLURM_", "RACEBEAM_"))}
+        self.environment = {
+            name: value for name, value in os.environ.items() if not name.startswith(("SLURM_", "RACEBEAM_"))
+        }
         self.environment["SLURM_CONF"] = str(self.folder / "slurm.conf")
 
     def __enter__(self):
@@ -141,21 +145,35 @@ class Cluster:
     def configure(self):
         control_port, *ports = free_ports(1 + len(self.nodes))
         host = socket.gethostname().partition(".")[0]
-        nodes = "\n".join(f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs={self.processors} "
-                          "RealMemory=1000 State=UNKNOWN" for name, port in zip(self.nodes, ports))
+        nodes = "\n".join(
+            f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs={self.processors} "
+            "RealMemory=1000 State=UNKNOWN"
+            for name, port in zip(self.nodes, ports)
+        )
         for name in ("state", "jobs", "munge"):
             (self.folder / name).mkdir(mode=0o755)
         self.folder.chmod(0o755)
         (self.folder / "munge/key").write_bytes(os.urandom(128))
         (self.folder / "munge/key").chmod(0o400)
-        text = CONFIGURATION.format(folder=self.folder, host=host, control_port=control_port, nodes=nodes,
-                                    slurmd_timeout=SLURMD_TIMEOUT)
+        text = CONFIGURATION.format(
+            folder=self.folder, host=host, control_port=control_port, nodes=nodes, slurmd_timeout=SLURMD_TIMEOUT
+        )
         (self.folder / "slurm.conf").write_text(text)
 
     def start(self):
         munge = self.folder / "munge"
-        self.daemon("munged", "munged", "--foreground", "--force", f"--key-file={munge}/key", f"--socket={munge}/socket",
-                    f"--pid-file={munge}/pid", f"--log-file={munge}/log", f"--seed-file={munge}/seed", "--num-threads=4")
+        self.daemon(
+            "munged",
+            "munged",
+            "--foreground",
+            "--force",
+            f"--key-file={munge}/key",
+            f"--socket={munge}/socket",
+            f"--pid-file={munge}/pid",
+            f"--log-file={munge}/log",
+            f"--seed-file={munge}/seed",
+            "--num-threads=4",
+        )
         self.wait("munged", lambda: (munge / "socket").exists())
         self.daemon("slurmctld", "slurmctld", "-D", "-c")
         for name in self.nodes:
@@ -167,7 +185,9 @@ class Cluster:
 
     def restart_node(self, name):
         self.start_node(name)
-        self.wait(f"the node {name}", lambda: not re.search(r"down|\*", self.run("sinfo", "-h", "-n", name, "-o", "%T")))
+        self.wait(
+            f"the node {name}", lambda: not re.search(r"down|\*", self.run("sinfo", "-h", "-n", name, "-o", "%T"))
+        )
 
     def kill_node(self, name):
         """Kills the slurmd of a node, and the processes of its jobs, as a power failure does."""
@@ -186,26 +206,37 @@ class Cluster:
 
     def daemon(self, name, *command):
         with open(self.folder / f"{name}.out", "ab") as log:
-            self.daemons[name] = subprocess.Popen(command, env=self.environment, stdin=subprocess.DEVNULL, stdout=log,
-                                                  stderr=log, start_new_session=True)
+            self.daemons[name] = subprocess.Popen(
+                command, env=self.environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True
+            )
 
     def wait(self, what, found, patience=PATIENCE):
         """Waits until `found` returns something true, and returns it."""
         until = time.monotonic() + patience
         while not (value := found()):
             if time.monotonic() > until:
-                raise AssertionError(f"{what}: not in {patience} seconds\n{self.run('squeue', check=False)}\n{self.logs()}")
+                raise AssertionError(
+                    f"{what}: not in {patience} seconds\n{self.run('squeue', check=False)}\n{self.logs()}"
+                )
             time.sleep(0.1)
         return value
 
     def logs(self):
-        return "\n".join(f"== {path.name}\n" + path.read_text(errors="replace")[-1500:] for path in sorted(self.folder.glob("*.log"))
-                         + sorted(self.folder.glob("*.out")))
+        return "\n".join(
+            f"== {path.name}\n" + path.read_text(errors="replace")[-1500:]
+            for path in sorted(self.folder.glob("*.log")) + sorted(self.folder.glob("*.out"))
+        )
 
     def run(self, *command, check=True, **environment):
         """Runs a command of Slurm in the folder of the jobs. Returns what it prints."""
-        done = subprocess.run(command, env=self.environment | environment, cwd=self.folder / "jobs", capture_output=True,
-                              text=True, timeout=PATIENCE)
+        done = subprocess.run(
+            command,
+            env=self.environment | environment,
+            cwd=self.folder / "jobs",
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE,
+        )
         if check and done.returncode != 0:
             raise AssertionError(f"{' '.join(map(str, command))}: status {done.returncode}, {done.stdout}{done.stderr}")
         return done.stdout
@@ -244,6 +275,7 @@ class Cluster:
             self.hurry()
             states = self.state(job)
             return states and not states & waiting
+
         self.wait(f"the end of job {job}", has_ended, patience)
         return self.state(job)
 

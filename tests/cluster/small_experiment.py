@@ -12,5 +12,8 @@ environment = "max_episode_frames=1000"
 
 def files(folder):
     """The contents of all files of results by their paths, without times."""
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(folder.rglob("*"))
-            if path.is_file() and "times" not in path.name}
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file() and "times" not in path.name
+    }

@@ -38,7 +38,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program")
     options = parser.parse_args()
-    with (client.Session.start(options.program, "--log-level", "warning") if options.program else client.connect()) as game:
+    with (
+        client.Session.start(options.program, "--log-level", "warning") if options.program else client.connect()
+    ) as game:
         print(json.dumps(measure(game)))
 
 

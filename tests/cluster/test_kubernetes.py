@@ -28,7 +28,9 @@ FOLDER = TOP / "cluster/kubernetes"
 BINARY = os.environ.get("RACEBEAM_BINARY", str(TOP / "build/release/racebeam"))
 PATIENCE = float(os.environ.get("RACEBEAM_PATIENCE", 20))
 # That of scripts/cluster-test, which is beside its Python, else one in the PATH.
-KUBECTL = shutil.which("kubectl", path=os.pathsep.join([str(pathlib.Path(sys.executable).parent), os.environ.get("PATH", "")]))
+KUBECTL = shutil.which(
+    "kubectl", path=os.pathsep.join([str(pathlib.Path(sys.executable).parent), os.environ.get("PATH", "")])
+)
 LABELS = {"app.kubernetes.io/name": "racebeam"}
 METRIC = re.compile(r"racebeam_\w+")
 
@@ -53,8 +55,21 @@ class Server:
     def __enter__(self):
         self.folder = tempfile.TemporaryDirectory()
         ready = pathlib.Path(self.folder.name, "ready")
-        self.process = subprocess.Popen([BINARY, "serve", "--listen", "unix:s", "--http", "127.0.0.1:0", "--ready-file", ready,
-                                         "--log-level", "error"], cwd=self.folder.name)
+        self.process = subprocess.Popen(
+            [
+                BINARY,
+                "serve",
+                "--listen",
+                "unix:s",
+                "--http",
+                "127.0.0.1:0",
+                "--ready-file",
+                ready,
+                "--log-level",
+                "error",
+            ],
+            cwd=self.folder.name,
+        )
         self.port = int(wait_for(lambda: re.search(r"http://127\.0\.0\.1:(\d+)", ready.read_text()))[1])
         return self
 
@@ -72,11 +87,15 @@ def get(port, path):
 @functools.cache
 def built(name):
     """The objects that kustomize makes of a folder, and what it complains of."""
-    done = subprocess.run([KUBECTL, "kustomize", FOLDER / name], capture_output=True, text=True, timeout=PATIENCE, check=True)
+    done = subprocess.run(
+        [KUBECTL, "kustomize", FOLDER / name], capture_output=True, text=True, timeout=PATIENCE, check=True
+    )
     return {each["kind"]: each for each in yaml.safe_load_all(done.stdout)}, done.stderr
 
 
-@unittest.skipUnless(yaml and KUBECTL, "there is no kubectl, or no kubernetes-validate; scripts/cluster-test installs both")
+@unittest.skipUnless(
+    yaml and KUBECTL, "there is no kubectl, or no kubernetes-validate; scripts/cluster-test installs both"
+)
 class Manifests(unittest.TestCase):
     def objects(self, name):
         found, complaints = built(name)
@@ -106,33 +125,47 @@ class Manifests(unittest.TestCase):
         self.assertEqual(found["Service"]["spec"]["selector"], LABELS)
         self.assertEqual(found["NetworkPolicy"]["spec"]["podSelector"]["matchLabels"], LABELS)
         self.assertEqual(found["PodDisruptionBudget"]["spec"]["selector"]["matchLabels"], LABELS)
-        self.assertEqual(found["HorizontalPodAutoscaler"]["spec"]["scaleTargetRef"],
-                         {"apiVersion": "apps/v1", "kind": "Deployment", "name": found["Deployment"]["metadata"]["name"]})
+        self.assertEqual(
+            found["HorizontalPodAutoscaler"]["spec"]["scaleTargetRef"],
+            {"apiVersion": "apps/v1", "kind": "Deployment", "name": found["Deployment"]["metadata"]["name"]},
+        )
 
     def test_agents_need_one_label_and_may_reach_the_protocol_alone(self):
         agents, monitoring = self.objects("server")["NetworkPolicy"]["spec"]["ingress"]
-        self.assertEqual(agents, {"from": [{"podSelector": {"matchLabels": {"racebeam-client": "true"}}}],
-                                  "ports": [{"protocol": "TCP", "port": 7800}]})
+        self.assertEqual(
+            agents,
+            {
+                "from": [{"podSelector": {"matchLabels": {"racebeam-client": "true"}}}],
+                "ports": [{"protocol": "TCP", "port": 7800}],
+            },
+        )
         self.assertEqual(monitoring["ports"], [{"protocol": "TCP", "port": 7801}])
 
     def test_a_pod_has_no_privileges(self):
         for pod in (self.pod("server", "Deployment"), self.pod("benchmark", "Job")):
             self.assertFalse(pod["automountServiceAccountToken"])
             self.assertTrue(pod["securityContext"]["runAsNonRoot"])
-            self.assertEqual(pod["containers"][0]["securityContext"], {
-                "allowPrivilegeEscalation": False, "readOnlyRootFilesystem": True, "capabilities": {"drop": ["ALL"]}})
+            self.assertEqual(
+                pod["containers"][0]["securityContext"],
+                {"allowPrivilegeEscalation": False, "readOnlyRootFilesystem": True, "capabilities": {"drop": ["ALL"]}},
+            )
 
     def test_the_server_takes_its_options(self):
         container = self.pod("server", "Deployment")["containers"][0]
         done = subprocess.run([BINARY, "config", *container["args"]], capture_output=True, text=True, timeout=PATIENCE)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        settings = dict(line.split(" = ") for line in (line.split("  #")[0].strip() for line in done.stdout.splitlines())
-                        if " = " in line)
+        settings = dict(
+            line.split(" = ")
+            for line in (line.split("  #")[0].strip() for line in done.stdout.splitlines())
+            if " = " in line
+        )
         ports = {each["name"]: each["containerPort"] for each in container["ports"]}
         self.assertEqual(settings["listen"], f'["tcp://0.0.0.0:{ports["line"]}"]')
         self.assertEqual(settings["http"], f'"0.0.0.0:{ports["http"]}"')
         grace = int(settings["grace"])
-        self.assertGreater(self.pod("server", "Deployment")["terminationGracePeriodSeconds"], grace + 5 + 1)  # preStop, farewell
+        self.assertGreater(
+            self.pod("server", "Deployment")["terminationGracePeriodSeconds"], grace + 5 + 1
+        )  # preStop, farewell
 
     def test_the_server_has_the_pages_of_the_probes(self):
         container = self.pod("server", "Deployment")["containers"][0]
@@ -143,9 +176,16 @@ class Manifests(unittest.TestCase):
     def test_every_shard_of_the_benchmark_is_run_once(self):
         job = self.objects("benchmark")["Job"]["spec"]
         command = job["template"]["spec"]["containers"][0]["command"][-1]
-        shards = [subprocess.run(["sh", "-c", command.replace("exec racebeam", "echo")], capture_output=True, text=True, check=True,
-                                 env=os.environ | {"JOB_COMPLETION_INDEX": str(index)}).stdout.split()[-1]
-                  for index in range(job["completions"])]
+        shards = [
+            subprocess.run(
+                ["sh", "-c", command.replace("exec racebeam", "echo")],
+                capture_output=True,
+                text=True,
+                check=True,
+                env=os.environ | {"JOB_COMPLETION_INDEX": str(index)},
+            ).stdout.split()[-1]
+            for index in range(job["completions"])
+        ]
         self.assertEqual(shards, [f"{number}/{len(shards)}" for number in range(1, len(shards) + 1)])
 
 
@@ -168,25 +208,44 @@ class Monitoring(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("promtool"), "there is no promtool")
     def test_promtool_accepts_the_rules_and_their_tests_pass(self):
-        for words in (("check", "config", "prometheus.yaml"), ("check", "rules", "racebeam.rules.yaml"),
-                      ("test", "rules", "racebeam.test.yaml")):
-            done = subprocess.run(["promtool", *words], cwd=FOLDER / "monitoring", capture_output=True, text=True, timeout=PATIENCE)
+        for words in (
+            ("check", "config", "prometheus.yaml"),
+            ("check", "rules", "racebeam.rules.yaml"),
+            ("test", "rules", "racebeam.test.yaml"),
+        ):
+            done = subprocess.run(
+                ["promtool", *words], cwd=FOLDER / "monitoring", capture_output=True, text=True, timeout=PATIENCE
+            )
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     @unittest.skipUnless(shutil.which("prometheus"), "there is no prometheus")
     def test_prometheus_scrapes_a_server_and_knows_the_panels(self):
         with Server() as server, tempfile.TemporaryDirectory() as folder:
-            text = (FOLDER / "monitoring/prometheus.yaml").read_text().replace("127.0.0.1:7801", f"127.0.0.1:{server.port}")
+            text = (
+                (FOLDER / "monitoring/prometheus.yaml")
+                .read_text()
+                .replace("127.0.0.1:7801", f"127.0.0.1:{server.port}")
+            )
             pathlib.Path(folder, "prometheus.yaml").write_text(text.replace("15s", "1s"))
             shutil.copy(FOLDER / "monitoring/racebeam.rules.yaml", folder)
             with socket.create_server(("127.0.0.1", 0)) as free:
                 port = free.getsockname()[1]
-            prometheus = subprocess.Popen(["prometheus", f"--config.file={folder}/prometheus.yaml", f"--storage.tsdb.path={folder}/data",
-                                           f"--web.listen-address=127.0.0.1:{port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            prometheus = subprocess.Popen(
+                [
+                    "prometheus",
+                    f"--config.file={folder}/prometheus.yaml",
+                    f"--storage.tsdb.path={folder}/data",
+                    f"--web.listen-address=127.0.0.1:{port}",
+                ],
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
             try:
+
                 def values(expression):
                     reply = get(port, "/api/v1/query?query=" + urllib.parse.quote(expression))
                     return json.loads(reply)["data"]["result"]
+
                 wait_for(lambda: values('up{job="racebeam"} == 1'))
                 self.assertEqual(values("racebeam_sessions_open")[0]["value"][1], "0")
                 for panel in json.loads((FOLDER / "monitoring/dashboard.json").read_text())["panels"]:

@@ -19,11 +19,11 @@ FOLDER = slurm.TOP / "cluster/ray"
 sys.path.insert(0, str(FOLDER))
 try:
     import experiment
+    import racebeam.program
     import ray
     import rollouts
     from ray.cluster_utils import Cluster
 
-    import racebeam.program
     MISSING = None
 except ImportError as error:
     MISSING = f"racebeam and Ray are not both installed: {error}"
@@ -52,7 +52,9 @@ class Nodes(unittest.TestCase):
     def nodes(self, count):
         """Starts a cluster. Its first node is this process's, and has no processor for actors and tasks. Returns the cluster and
         its other nodes, which play."""
-        os.environ["PYTHONPATH"] = os.pathsep.join([str(FOLDER), *filter(None, [os.environ.get("PYTHONPATH")])])  # of the workers
+        os.environ["PYTHONPATH"] = os.pathsep.join(
+            [str(FOLDER), *filter(None, [os.environ.get("PYTHONPATH")])]
+        )  # of the workers
         head = {"num_cpus": 0, "object_store_memory": STORE, "include_dashboard": False}
         cluster = patiently(lambda: Cluster(initialize_head=True, head_node_args=head))
         self.addCleanup(cluster.shutdown)
@@ -64,10 +66,12 @@ class Nodes(unittest.TestCase):
 
     def after(self, found, act):
         """Calls `act` once `found()` is true."""
+
         def wait():
             while not found():
                 time.sleep(0.02)
             act()
+
         thread = threading.Thread(target=wait, daemon=True)
         thread.start()
         return thread
@@ -109,6 +113,7 @@ class Rollouts(Nodes):
             if seen == 5:
                 cluster.remove_node(nodes[0], allow_graceful=False)
                 killed.append(seen)
+
         self.assertEqual((self.total(3, kill), killed), (expected, [5]))
 
     def test_a_rollout_is_read_where_it_lies(self):
@@ -120,7 +125,9 @@ class Rollouts(Nodes):
 
     def test_a_policy_plays_and_errors_end_it(self):
         self.nodes(1)
-        (one,) = rollouts.rollouts("beamfall", actors=1, count=1, num_envs=2, steps=5, policy=lambda seen, _: [len(seen), 0])
+        (one,) = rollouts.rollouts(
+            "beamfall", actors=1, count=1, num_envs=2, steps=5, policy=lambda seen, _: [len(seen), 0]
+        )
         self.assertEqual(one["actions"].tolist(), [[2, 0]] * 5)
         with self.assertRaisesRegex(ray.exceptions.RayActorError, "there is no game 'pongg'"):
             list(rollouts.rollouts("pongg", actors=1, count=1))
@@ -133,22 +140,36 @@ class Words(unittest.TestCase):
 
     def check(self, status, says, script, *words):
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([sys.executable, FOLDER / script, *words], cwd=folder, capture_output=True, text=True, timeout=300)
+            done = subprocess.run(
+                [sys.executable, FOLDER / script, *words], cwd=folder, capture_output=True, text=True, timeout=300
+            )
         self.assertEqual(done.returncode, status, done.stderr)
         self.assertRegex(done.stderr.splitlines()[-1], f"^{script}: {says}")
         self.assertNotIn("Traceback", done.stderr)
 
     def test_a_number_that_cannot_be(self):
-        for script, words, option in (("rollouts.py", ("beamfall",), "--actors"), ("rollouts.py", ("beamfall",), "--rollouts"),
-                                      ("rollouts.py", ("beamfall",), "--envs"), ("rollouts.py", ("beamfall",), "--steps"),
-                                      ("experiment.py", ("smoke", "results"), "--shards")):
+        for script, words, option in (
+            ("rollouts.py", ("beamfall",), "--actors"),
+            ("rollouts.py", ("beamfall",), "--rollouts"),
+            ("rollouts.py", ("beamfall",), "--envs"),
+            ("rollouts.py", ("beamfall",), "--steps"),
+            ("experiment.py", ("smoke", "results"), "--shards"),
+        ):
             for number in ("0", "-2", "many"):
                 with self.subTest(script=script, option=option, number=number):
-                    self.check(2, f"error: argument {option}: it is '{number}'; it takes a whole number from 1 on", script, *words, f"{option}={number}")
+                    self.check(
+                        2,
+                        f"error: argument {option}: it is '{number}'; it takes a whole number from 1 on",
+                        script,
+                        *words,
+                        f"{option}={number}",
+                    )
 
     def test_a_game_and_a_plan_that_are_not_there(self):
         self.check(1, ".*there is no game 'nosuch'", "rollouts.py", "nosuch", "--actors", "1", "--rollouts", "1")
-        self.check(1, "shard 1/1: racebeam: there is no plan 'nosuch'", "experiment.py", "nosuch", "results", "--shards", "1")
+        self.check(
+            1, "shard 1/1: racebeam: there is no plan 'nosuch'", "experiment.py", "nosuch", "results", "--shards", "1"
+        )
 
 
 class Rllib(Nodes):
@@ -160,13 +181,18 @@ class Rllib(Nodes):
             self.skipTest(f"RLlib and PyTorch are not both installed: {error}")
         Words.check(self, 1, ".*`Nosuch` doesn't exist", "rllib_ppo.py", "Nosuch")
         self.nodes(1)
-        for vector, made in ((True, "racebeam.vector_env.AtariVectorEnv"), (False, "gymnasium.vector.sync_vector_env.SyncVectorEnv")):
+        for vector, made in (
+            (True, "racebeam.vector_env.AtariVectorEnv"),
+            (False, "gymnasium.vector.sync_vector_env.SyncVectorEnv"),
+        ):
             with self.subTest(vector=vector):
                 algorithm = rllib_ppo.config("Beamfall", runners=1, envs=4, vector=vector).build_algo()
                 result = algorithm.train()
                 self.assertGreaterEqual(result["env_runners"]["num_env_steps_sampled"], 1024)
                 envs = algorithm.env_runner_group.foreach_env_runner(
-                    lambda runner: f"{type(runner.env.unwrapped).__module__}.{type(runner.env.unwrapped).__name__}", local_env_runner=False)
+                    lambda runner: f"{type(runner.env.unwrapped).__module__}.{type(runner.env.unwrapped).__name__}",
+                    local_env_runner=False,
+                )
                 self.assertEqual(envs, [made])
                 algorithm.stop()
 
@@ -177,9 +203,16 @@ class Experiment(Nodes):
             folder = pathlib.Path(name)
             plan = folder / "plan.toml"
             plan.write_text(PLAN)
-            subprocess.run([racebeam.program.path(), "experiment", plan, "--into", folder / "whole"], capture_output=True, check=True)
+            subprocess.run(
+                [racebeam.program.path(), "experiment", plan, "--into", folder / "whole"],
+                capture_output=True,
+                check=True,
+            )
             cluster, nodes = self.nodes(3)
-            killer = self.after(lambda: any((folder / "parts").rglob("*.csv")), lambda: cluster.remove_node(nodes[0], allow_graceful=False))
+            killer = self.after(
+                lambda: any((folder / "parts").rglob("*.csv")),
+                lambda: cluster.remove_node(nodes[0], allow_graceful=False),
+            )
             experiment.run(str(plan), str(folder / "parts"), 8, [])
             killer.join()
             self.assertEqual(files(folder / "parts"), files(folder / "whole"))

@@ -103,8 +103,9 @@ class Units(unittest.TestCase):
         (self.place / "plan.toml").write_text(PLAN)
 
     def experiment(self, *words):
-        return subprocess.run([BINARY, "experiment", str(self.place / "plan.toml"), *words], capture_output=True, text=True,
-                              check=True).stdout
+        return subprocess.run(
+            [BINARY, "experiment", str(self.place / "plan.toml"), *words], capture_output=True, text=True, check=True
+        ).stdout
 
     def test_they_are_as_many_and_as_long_as_the_program_says(self):
         agents = simulate.agents_of(self.experiment("--dry-run"))
@@ -124,38 +125,77 @@ class Units(unittest.TestCase):
             self.assertTrue(0 < part <= 1 and 0 < seconds < 1, (part, seconds))
         # The plan of the pilot takes as long as the pilot took, but for the draws.
         agents = simulate.agents_of(self.experiment("--dry-run"))
-        took = sum(float(row["training_seconds"]) + float(row["evaluation_seconds"]) for row in simulate.rows_of(results / "times.csv"))
-        means = {agent: [tuple(sum(values) / len(values) for values in zip(*units))] for agent, units in measured.items()}
+        took = sum(
+            float(row["training_seconds"]) + float(row["evaluation_seconds"])
+            for row in simulate.rows_of(results / "times.csv")
+        )
+        means = {
+            agent: [tuple(sum(values) / len(values) for values in zip(*units))] for agent, units in measured.items()
+        }
         self.assertAlmostEqual(sum(simulate.lengths_of(agents, means, random.Random(1))) / took, 1, delta=0.25)
 
     def test_the_command_prints_a_row_for_each_number_of_nodes(self):
-        command = [sys.executable, slurm.TOP / "cluster/simulate.py", "smoke", "--program", BINARY, "--cores", "2", "--runs", "3"]
-        done = subprocess.run([*command, "--nodes", "1", "2", "--within", "1000"], capture_output=True, text=True, check=True)
-        self.assertRegex(done.stdout, r"^\d+ units, [\d.]+ core-hours, longest unit [\d.]+ hours\n +nodes .*\n +1 +2 .*\n +2 +4 .*\n +1 +2 .*\n$")
+        command = [
+            sys.executable,
+            slurm.TOP / "cluster/simulate.py",
+            "smoke",
+            "--program",
+            BINARY,
+            "--cores",
+            "2",
+            "--runs",
+            "3",
+        ]
+        done = subprocess.run(
+            [*command, "--nodes", "1", "2", "--within", "1000"], capture_output=True, text=True, check=True
+        )
+        self.assertRegex(
+            done.stdout,
+            r"^\d+ units, [\d.]+ core-hours, longest unit [\d.]+ hours\n +nodes .*\n +1 +2 .*\n +2 +4 .*\n +1 +2 .*\n$",
+        )
         done = subprocess.run([*command, "--within", "0.00001"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (1, "no number of nodes is enough for 1e-05 hours\n"))
         done = subprocess.run([*command, "--nodes", "1", "--pilot", "/nowhere"], capture_output=True, text=True)
-        self.assertEqual((done.returncode, done.stderr), (1, "cannot read /nowhere/plan.toml: No such file or directory\n"))
+        self.assertEqual(
+            (done.returncode, done.stderr), (1, "cannot read /nowhere/plan.toml: No such file or directory\n")
+        )
         done = subprocess.run([*command[:2], "nothing", "--program", BINARY], capture_output=True, text=True)
         self.assertEqual(done.returncode, 1)
         self.assertIn("there is no plan 'nothing'", done.stderr)
 
     def test_numbers_that_cannot_be_are_refused(self):
         command = [sys.executable, slurm.TOP / "cluster/simulate.py", "smoke", "--program", BINARY, "--within", "1000"]
-        for option, given, takes in (("--cores", "0", "a whole number from 1 on"), ("--cores", "-3", "a whole number from 1 on"),
-                                     ("--nodes", "0", "a whole number from 1 on"), ("--runs", "0", "a whole number from 1 on"),
-                                     ("--shards", "-1", "a whole number from 0 on"), ("--checkpoint", "0", "a number from 1 on"),
-                                     ("--within", "nan", "a number from 0 on"), ("--failures", "inf", "a number from 0 on"),
-                                     ("--slow", "1.5", "a number from 0 to 1"), ("--slowness", "many", "a number from 1 on")):
+        for option, given, takes in (
+            ("--cores", "0", "a whole number from 1 on"),
+            ("--cores", "-3", "a whole number from 1 on"),
+            ("--nodes", "0", "a whole number from 1 on"),
+            ("--runs", "0", "a whole number from 1 on"),
+            ("--shards", "-1", "a whole number from 0 on"),
+            ("--checkpoint", "0", "a number from 1 on"),
+            ("--within", "nan", "a number from 0 on"),
+            ("--failures", "inf", "a number from 0 on"),
+            ("--slow", "1.5", "a number from 0 to 1"),
+            ("--slowness", "many", "a number from 1 on"),
+        ):
             with self.subTest(option=option, given=given):
                 done = subprocess.run([*command, f"{option}={given}"], capture_output=True, text=True, timeout=60)
                 self.assertEqual(done.returncode, 2)
-                self.assertTrue(done.stderr.endswith(f"error: argument {option}: it is '{given}'; it takes {takes}\n"), done.stderr)
+                self.assertTrue(
+                    done.stderr.endswith(f"error: argument {option}: it is '{given}'; it takes {takes}\n"), done.stderr
+                )
 
     def test_a_program_that_is_not_there_is_named(self):
         command = [sys.executable, slurm.TOP / "cluster/simulate.py", "smoke", "--nodes", "1"]
-        for words, said in (((), "racebeam, looked for in the PATH"),
-                            (("--program", "/nowhere/racebeam"), "/nowhere/racebeam")):
+        for words, said in (
+            ((), "racebeam, looked for in the PATH"),
+            (("--program", "/nowhere/racebeam"), "/nowhere/racebeam"),
+        ):
             done = subprocess.run([*command, *words], capture_output=True, text=True, env={"PATH": "/nowhere"})
-            self.assertEqual((done.returncode, done.stderr), (1, "simulate.py needs the program racebeam; it cannot start "
-                                                                 f"{said}: No such file or directory; --program takes its path\n"))
+            self.assertEqual(
+                (done.returncode, done.stderr),
+                (
+                    1,
+                    "simulate.py needs the program racebeam; it cannot start "
+                    f"{said}: No such file or directory; --program takes its path\n",
+                ),
+            )

@@ -26,7 +26,9 @@ BINARY = os.environ.get("RACEBEAM_BINARY", str(slurm.TOP / "build/release/racebe
 SCRIPTS = slurm.TOP / "cluster/slurm"
 AGENT = str(pathlib.Path(agent.__file__).resolve())
 
-PYTHON = os.environ.get("RACEBEAM_PYTHON", str(slurm.TOP / "build/python/venv/bin/python"))  # with racebeam and submitit
+PYTHON = os.environ.get(
+    "RACEBEAM_PYTHON", str(slurm.TOP / "build/python/venv/bin/python")
+)  # with racebeam and submitit
 SHARDS = 24  # for 21 units: some have none
 READY_WITHIN = 60  # seconds, for 200 servers
 
@@ -43,8 +45,12 @@ class Slurm(unittest.TestCase):
         cls.jobs = cls.cluster.folder / "jobs"
         cls.temporary = cls.cluster.folder / "tmp"
         cls.temporary.mkdir()
-        cls.cluster.environment |= {"PATH": f"{pathlib.Path(BINARY).parent}:{os.environ['PATH']}", "TMPDIR": str(cls.temporary),
-                                    "RACEBEAM_TEST": str(cls.cluster.folder), "PYTHONDONTWRITEBYTECODE": "1"}
+        cls.cluster.environment |= {
+            "PATH": f"{pathlib.Path(BINARY).parent}:{os.environ['PATH']}",
+            "TMPDIR": str(cls.temporary),
+            "RACEBEAM_TEST": str(cls.cluster.folder),
+            "PYTHONDONTWRITEBYTECODE": "1",
+        }
         with client.Session.start(BINARY, "--log-level", "warning") as game:
             cls.expected = {number: agent.play(game, number) for number in range(16)}
 
@@ -56,13 +62,18 @@ class Slurm(unittest.TestCase):
 
     def job_processes(self):
         """Those of jobs: all that have the tests' variable, but not the daemons, which do not."""
-        return {number: words for number, words in slurm.processes(f"RACEBEAM_TEST={self.cluster.folder}").items()
-                if words and not re.search("slurm|sbatch|munged", words)}
+        return {
+            number: words
+            for number, words in slurm.processes(f"RACEBEAM_TEST={self.cluster.folder}").items()
+            if words and not re.search("slurm|sbatch|munged", words)
+        }
 
     def nothing_is_left(self):
         """No process of a job, no socket, no announce file, no folder of a job."""
+
         def left():
             return [*self.job_processes().values(), *self.temporary.iterdir(), *self.jobs.glob("racebeam-*")]
+
         try:
             self.cluster.wait("the end of what jobs have left", lambda: not left())
         except AssertionError as error:
@@ -102,16 +113,26 @@ class Slice(Slurm):
         needed = ("-c", "import racebeam.vector_env, submitit")
         if not pathlib.Path(PYTHON).exists() or subprocess.run([PYTHON, *needed], capture_output=True).returncode != 0:
             self.skipTest(f"there is no {PYTHON} with racebeam and submitit (scripts/wheel --venv)")
-        done = subprocess.run([PYTHON, slurm.TOP / "tests/cluster/python_agent.py"], cwd=self.results, capture_output=True, text=True,
-                              env=self.cluster.environment | {"RACEBEAM_PROGRAM": BINARY}, timeout=slurm.PATIENCE)
-        self.assertEqual((done.returncode, done.stdout), (0, "the same; 2 environments were lost, and played on\n"), done.stderr)
+        done = subprocess.run(
+            [PYTHON, slurm.TOP / "tests/cluster/python_agent.py"],
+            cwd=self.results,
+            capture_output=True,
+            text=True,
+            env=self.cluster.environment | {"RACEBEAM_PROGRAM": BINARY},
+            timeout=slurm.PATIENCE,
+        )
+        self.assertEqual(
+            (done.returncode, done.stdout), (0, "the same; 2 environments were lost, and played on\n"), done.stderr
+        )
         self.nothing_is_left()
         self.assertEqual(list(self.results.iterdir()), [])
 
 
 class Whole(Slurm):
     def test_a_server_that_is_killed_ends_its_element_and_no_other(self):
-        job = self.cluster.submit("--array=0-3", SCRIPTS / "array.sbatch", *self.agent("--reached", self.results, "--pause", "8"))
+        job = self.cluster.submit(
+            "--array=0-3", SCRIPTS / "array.sbatch", *self.agent("--reached", self.results, "--pause", "8")
+        )
         self.wait_for_files("reached-*", 4)
         with_one = [number for number, words in self.job_processes().items() if "racebeam with" in words]
         children = [number for number in with_one if slurm.parent(number) in with_one]
@@ -121,9 +142,14 @@ class Whole(Slurm):
         self.nothing_is_left()
 
     def test_scancel_leaves_nothing(self):
-        for script, words in (("array.sbatch", ("--array=0-3",)), ("nodes.sbatch", ("--nodes=2", "--ntasks-per-node=2"))):
+        for script, words in (
+            ("array.sbatch", ("--array=0-3",)),
+            ("nodes.sbatch", ("--nodes=2", "--ntasks-per-node=2")),
+        ):
             with self.subTest(script=script):
-                job = self.cluster.submit(*words, SCRIPTS / script, *self.agent("--reached", self.results, "--pause", "60"))
+                job = self.cluster.submit(
+                    *words, SCRIPTS / script, *self.agent("--reached", self.results, "--pause", "60")
+                )
                 self.wait_for_files("reached-*", 4)
                 self.cluster.run("scancel", job)
                 self.assertEqual(self.cluster.wait_for_end(job), {"CANCELLED"})
@@ -132,14 +158,23 @@ class Whole(Slurm):
                     path.unlink()
 
     def test_the_time_limit_leaves_nothing(self):
-        job = self.cluster.submit("--time=0:01", "--nodes=2", "--ntasks-per-node=1", SCRIPTS / "nodes.sbatch",
-                                  *self.agent("--reached", self.results, "--pause", "300"))
+        job = self.cluster.submit(
+            "--time=0:01",
+            "--nodes=2",
+            "--ntasks-per-node=1",
+            SCRIPTS / "nodes.sbatch",
+            *self.agent("--reached", self.results, "--pause", "300"),
+        )
         self.assertEqual(self.cluster.wait_for_end(job, 240), {"TIMEOUT"})
         self.nothing_is_left()
 
     def test_a_requeued_job_gives_the_same(self):
-        job = self.cluster.submit("--nodes=2", "--ntasks-per-node=2", SCRIPTS / "nodes.sbatch",
-                                  *self.agent("--reached", self.results, "--pause", "60"))
+        job = self.cluster.submit(
+            "--nodes=2",
+            "--ntasks-per-node=2",
+            SCRIPTS / "nodes.sbatch",
+            *self.agent("--reached", self.results, "--pause", "60"),
+        )
         self.wait_for_files("reached-*", 4)
         self.cluster.run("scontrol", "requeue", job)
         self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
@@ -147,8 +182,9 @@ class Whole(Slurm):
         self.nothing_is_left()
 
     def test_a_node_that_fails_is_replaced(self):
-        job = self.cluster.submit("--array=5", SCRIPTS / "array.sbatch",
-                                  *self.agent("--reached", self.results, "--pause", "60"))
+        job = self.cluster.submit(
+            "--array=5", SCRIPTS / "array.sbatch", *self.agent("--reached", self.results, "--pause", "60")
+        )
         self.wait_for_files("reached-*", 1)
         node = self.cluster.run("squeue", "-h", "-j", job, "-o", "%N").strip()
         self.cluster.set_slurmd_timeout(15)
@@ -165,8 +201,16 @@ class Whole(Slurm):
         self.nothing_is_left()
 
     def test_a_heterogeneous_job_has_servers_and_a_learner_apart(self):
-        learner = ("bash", "-c", 'for RACEBEAM_ADDRESS in $RACEBEAM_SERVERS; do export RACEBEAM_ADDRESS; '
-                                 'SLURM_PROCID=$((number++)) python3 "$@"; done', "learner", AGENT, "--into", self.results)
+        learner = (
+            "bash",
+            "-c",
+            "for RACEBEAM_ADDRESS in $RACEBEAM_SERVERS; do export RACEBEAM_ADDRESS; "
+            'SLURM_PROCID=$((number++)) python3 "$@"; done',
+            "learner",
+            AGENT,
+            "--into",
+            self.results,
+        )
         job = self.cluster.submit(SCRIPTS / "learner.sbatch", *learner)
         self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"}, self.cluster.logs())
         self.check_results(range(2))
@@ -185,12 +229,15 @@ class Whole(Slurm):
             self.cluster.run("scontrol", "requeue", element)
         self.cluster.run("scontrol", "update", "nodename=n2", "state=down", "reason=test")
         self.addCleanup(self.cluster.run, "scontrol", "update", "nodename=n2", "state=resume", check=False)
-        gathered = self.cluster.submit(f"--dependency=afterany:{job}", "--output", self.results / "gathered",
-                                       SCRIPTS / "gather.sbatch", *words)
+        gathered = self.cluster.submit(
+            f"--dependency=afterany:{job}", "--output", self.results / "gathered", SCRIPTS / "gather.sbatch", *words
+        )
         self.assertEqual(self.cluster.wait_for_end(gathered, 400), {"COMPLETED"}, self.cluster.logs())
         self.assertTrue(all(self.cluster.restarts(element) > 0 for element in stopped))
         self.assertEqual(files(shared), files(alone))
-        self.assertRegex((self.results / "gathered").read_text(), r"\d+ rows confirmed, 0 wrong, 0 could not be checked")
+        self.assertRegex(
+            (self.results / "gathered").read_text(), r"\d+ rows confirmed, 0 wrong, 0 could not be checked"
+        )
         self.nothing_is_left()
 
     def stop_elements(self, job, count):
@@ -200,13 +247,17 @@ class Whole(Slurm):
         def stop():
             for number in slurm.processes(f"SLURM_ARRAY_JOB_ID={job}", f"RACEBEAM_TEST={self.cluster.folder}"):
                 try:
-                    variables = dict(word.partition("=")[::2] for word in pathlib.Path(f"/proc/{number}/environ").read_text().split("\0"))
+                    variables = dict(
+                        word.partition("=")[::2]
+                        for word in pathlib.Path(f"/proc/{number}/environ").read_text().split("\0")
+                    )
                     if slurm.name_of(number) == "racebeam" and len(stopped) < count:
                         os.kill(number, signal.SIGSTOP)
                         stopped[f"{job}_{variables['SLURM_ARRAY_TASK_ID']}"] = variables["SLURMD_NODENAME"]
                 except OSError:
                     continue
             return len(stopped) == count
+
         self.cluster.wait(f"{count} elements that run", stop)
         return stopped
 
@@ -221,7 +272,9 @@ class Whole(Slurm):
         urgent = self.cluster.submit("--partition=urgent", "--exclusive", f"--nodelist={node}", "--wrap", "hostname")
         self.assertEqual(self.cluster.wait_for_end(urgent), {"COMPLETED"})
         self.assertGreater(self.cluster.restarts(element), 0)
-        self.assertRegex((self.cluster.folder / "slurmctld.log").read_text(), f"preempted JobId={element}.* has been requeued")
+        self.assertRegex(
+            (self.cluster.folder / "slurmctld.log").read_text(), f"preempted JobId={element}.* has been requeued"
+        )
         self.assertEqual(self.cluster.wait_for_end(gathered, 400), {"COMPLETED"}, self.cluster.logs())
         self.assertEqual(files(shared), files(alone))
         self.nothing_is_left()
@@ -231,23 +284,42 @@ class Whole(Slurm):
         plan.write_text(PLAN)
         subprocess.run([BINARY, "experiment", plan, "--into", alone, "--threads", "1"], check=True, capture_output=True)
         shared.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=32k", "racebeam-test", shared], capture_output=True).returncode != 0:
+        if (
+            subprocess.run(
+                ["mount", "-t", "tmpfs", "-o", "size=32k", "racebeam-test", shared], capture_output=True
+            ).returncode
+            != 0
+        ):
             self.skipTest("a file system cannot be mounted here")
         self.addCleanup(subprocess.run, ["umount", "--lazy", shared], check=True)
-        job = self.cluster.submit("--array=1-2", "--output", self.results / "said-%a", SCRIPTS / "experiment.sbatch", plan, shared)
+        job = self.cluster.submit(
+            "--array=1-2", "--output", self.results / "said-%a", SCRIPTS / "experiment.sbatch", plan, shared
+        )
         self.assertEqual(self.cluster.wait_for_end(job), {"FAILED"})
         for number in (1, 2):
-            self.assertRegex((self.results / f"said-{number}").read_text(), r"(?m)^racebeam: cannot write .*: No space left on device$")
+            self.assertRegex(
+                (self.results / f"said-{number}").read_text(),
+                r"(?m)^racebeam: cannot write .*: No space left on device$",
+            )
         subprocess.run(["mount", "-o", "remount,size=64m", shared], check=True)
         job = self.cluster.submit(SCRIPTS / "gather.sbatch", plan, shared)
         self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"}, self.cluster.logs())
         self.assertEqual(files(shared), files(alone))
 
     def test_a_shard_number_beyond_the_plan_is_named(self):
-        job = self.cluster.submit("--array=0", "--output", self.results / "said", SCRIPTS / "experiment.sbatch", "smoke",
-                                  self.results / "shared")
+        job = self.cluster.submit(
+            "--array=0",
+            "--output",
+            self.results / "said",
+            SCRIPTS / "experiment.sbatch",
+            "smoke",
+            self.results / "shared",
+        )
         self.assertEqual(self.cluster.wait_for_end(job), {"FAILED"})
-        self.assertEqual((self.results / "said").read_text(), "racebeam: --shard: '0/0' is not a shard; accepted is K/N, with K from 1 to N\n")
+        self.assertEqual(
+            (self.results / "said").read_text(),
+            "racebeam: --shard: '0/0' is not a shard; accepted is K/N, with K from 1 to N\n",
+        )
         self.assertFalse((self.results / "shared").exists())
 
     def test_two_hundred_servers_of_one_array(self):
@@ -262,9 +334,15 @@ class Whole(Slurm):
         for path in self.results.glob("found-*"):
             path.unlink()
         began = time.time()
-        job = self.cluster.submit("--array=0-199", "--oversubscribe", SCRIPTS / "array.sbatch", "bash", "-c",
-                                  f'source {slurm.TOP}/clients/shell/racebeam.bash; racebeam_connect && racebeam_ask load beamfall '
-                                  f'&& racebeam_value game >{self.results}/found-$SLURM_ARRAY_TASK_ID')
+        job = self.cluster.submit(
+            "--array=0-199",
+            "--oversubscribe",
+            SCRIPTS / "array.sbatch",
+            "bash",
+            "-c",
+            f"source {slurm.TOP}/clients/shell/racebeam.bash; racebeam_connect && racebeam_ask load beamfall "
+            f"&& racebeam_value game >{self.results}/found-$SLURM_ARRAY_TASK_ID",
+        )
         self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
         seconds = max(path.stat().st_mtime for path in self.results.glob("found-*")) - began
         self.assertEqual({path.read_text() for path in self.results.glob("found-*")}, {"beamfall\n"})
@@ -279,19 +357,40 @@ class Whole(Slurm):
         environment = self.cluster.environment
 
         def streams(program):
-            done = subprocess.run([sys.executable, script, "--program", program], capture_output=True, text=True, check=True,
-                                  env=environment, timeout=slurm.PATIENCE)
+            done = subprocess.run(
+                [sys.executable, script, "--program", program],
+                capture_output=True,
+                text=True,
+                check=True,
+                env=environment,
+                timeout=slurm.PATIENCE,
+            )
             return json.loads(done.stdout)
 
         def between_steps():
-            job = self.cluster.submit("--nodes=2", "--ntasks-per-node=1", SCRIPTS / "nodes.sbatch",
-                                      "bash", "-c", f"((SLURM_PROCID)) || exec python3 {script} >{self.results}/found")
+            job = self.cluster.submit(
+                "--nodes=2",
+                "--ntasks-per-node=1",
+                SCRIPTS / "nodes.sbatch",
+                "bash",
+                "-c",
+                f"((SLURM_PROCID)) || exec python3 {script} >{self.results}/found",
+            )
             self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"}, self.cluster.logs())
             return json.loads((self.results / "found").read_text())
-        found = {"pipes": streams(BINARY), "pipes, srun": streams(str(SCRIPTS / "racebeam-srun")), "TCP, two steps": between_steps()}
+
+        found = {
+            "pipes": streams(BINARY),
+            "pipes, srun": streams(str(SCRIPTS / "racebeam-srun")),
+            "TCP, two steps": between_steps(),
+        }
         lengths = [{shown: one["length"] for shown, one in way.items()} for way in found.values()]
         self.assertEqual(lengths, lengths[:1] * 3)
         self.nothing_is_left()
-        print(f"\nsteps/s, load {os.getloadavg()[0]:.1f}\n{'':16}" + "".join(f"{name:>16}" for name in found) + f"{'bytes':>8}")
+        print(
+            f"\nsteps/s, load {os.getloadavg()[0]:.1f}\n{'':16}"
+            + "".join(f"{name:>16}" for name in found)
+            + f"{'bytes':>8}"
+        )
         for shown, length in lengths[0].items():
             print(f"{shown:16}" + "".join(f"{way[shown]['steps']:16.0f}" for way in found.values()) + f"{length:8}")

@@ -43,30 +43,58 @@ INTERRUPTED = 130  # the exit status
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="scripts/conformance", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="scripts/conformance", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     add = parser.add_argument
-    add("--frames", type=int, default=20000, metavar="N", help="frames of a run in the default settings (default 20000)")
-    add("--other-frames", type=int, metavar="N",
-        help="frames of a run in another setting (default 2000, or --frames if fewer)")
+    add(
+        "--frames", type=int, default=20000, metavar="N", help="frames of a run in the default settings (default 20000)"
+    )
+    add(
+        "--other-frames",
+        type=int,
+        metavar="N",
+        help="frames of a run in another setting (default 2000, or --frames if fewer)",
+    )
     add("--seed", help="seed of the first series of runs; 'date': today's date (default: random, and printed)")
     add("--seeds", type=int, default=2, metavar="N", help="series in the default settings (default 2)")
     add("--games", metavar="A,B", help="only these games (default: all with an image)")
-    add("--settings", choices=["default", "sample", "all"], default="all",
-        help="default: the default settings; sample: these, and a random one for each game; all (the default)")
-    add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="processes in parallel (default: one for each processor)")
-    add("--programs", action="store_true",
-        help="play random programs instead of games, for --minutes; --seed is the first")
+    add(
+        "--settings",
+        choices=["default", "sample", "all"],
+        default="all",
+        help="default: the default settings; sample: these, and a random one for each game; all (the default)",
+    )
+    add(
+        "--jobs",
+        type=int,
+        default=os.cpu_count(),
+        metavar="N",
+        help="processes in parallel (default: one for each processor)",
+    )
+    add(
+        "--programs",
+        action="store_true",
+        help="play random programs instead of games, for --minutes; --seed is the first",
+    )
     add("--minutes", type=float, default=10, metavar="N", help="how long to play random programs (default 10)")
     add("--run", action="append", metavar="NAME", help="only this run, by its name in a report; repeatable")
     add("--resume", action="store_true", help="continue from the stored results")
-    add("--out", type=pathlib.Path, default=ours.SOURCE / "build/conformance", metavar="FOLDER",
-        help="folder for results, pictures and the report (default build/conformance)")
+    add(
+        "--out",
+        type=pathlib.Path,
+        default=ours.SOURCE / "build/conformance",
+        metavar="FOLDER",
+        help="folder for results, pictures and the report (default build/conformance)",
+    )
     add("--publish", action="store_true", help="also write docs/conformance.md")
-    add("--racebeam-options", default="", metavar="WORDS",
-        help="options for racebeam only, such as --racebeam-options='--system-seed 1'")
-    add("--forms", action="store_true",
-        help=f"also play each run in all variants of racebeam: {', '.join(ours.FORMS)}")
+    add(
+        "--racebeam-options",
+        default="",
+        metavar="WORDS",
+        help="options for racebeam only, such as --racebeam-options='--system-seed 1'",
+    )
+    add("--forms", action="store_true", help=f"also play each run in all variants of racebeam: {', '.join(ours.FORMS)}")
     return parser, parser.parse_args()
 
 
@@ -139,8 +167,10 @@ def conclude(runs, options, kept, gaps):
     if options.publish and len(done) == len(runs):
         (ours.SOURCE / "docs/conformance.md").write_text(text)
     frames = sum(result["frames"] for result in done)
-    print(f"{identical} of {len(runs)} runs identical, {frames:,} frames, {len(gaps)} not comparable in part; "
-          f"ale-py {kept.identity['reference']}, seeds {', '.join(map(str, kept.identity['seeds']))}")
+    print(
+        f"{identical} of {len(runs)} runs identical, {frames:,} frames, {len(gaps)} not comparable in part; "
+        f"ale-py {kept.identity['reference']}, seeds {', '.join(map(str, kept.identity['seeds']))}"
+    )
     return 0 if identical == len(runs) else 1
 
 
@@ -153,8 +183,14 @@ def prepare(options):
     """What is kept in the folder, the runs to compare, and what is left out of them."""
     check_numbers(options)
     first = base_seed(options.seed)
-    identity = {"version": ours.version(), "program": ours.digest(), "reference": REFERENCE_VERSION,
-                "options": options.racebeam_options, "forms": options.forms, "seeds": [first + i for i in range(options.seeds)]}
+    identity = {
+        "version": ours.version(),
+        "program": ours.digest(),
+        "reference": REFERENCE_VERSION,
+        "options": options.racebeam_options,
+        "forms": options.forms,
+        "seeds": [first + i for i in range(options.seeds)],
+    }
     path = options.out / ("run.jsonl" if options.run else "results.jsonl")
     kept = Results(path, identity, options.resume)
     return kept, *chosen_runs(options, kept.identity["seeds"])

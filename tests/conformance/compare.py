@@ -36,8 +36,11 @@ def differing_lists(game, reference):
     """(list, reference, racebeam) of the lists that the game offers."""
     listed = ours.catalogue().get(rule_of(game), {})
     sort = lambda key, values: sorted(values) if key in ("modes", "difficulties") else values
-    return [(key, theirs, listed.get(key)) for key, theirs in reference.lists().items()
-            if theirs != sort(key, listed.get(key, []))]
+    return [
+        (key, theirs, listed.get(key))
+        for key, theirs in reference.lists().items()
+        if theirs != sort(key, listed.get(key, []))
+    ]
 
 
 class Comparison:
@@ -58,11 +61,11 @@ class Comparison:
         if lists:
             return self.verdict(DIFFERENT, 0, "what the game offers differs\n" + table(lists))
         printed = ours.play(self.run, self.image, self.steps, self.extra)
-        for number, (theirs, line) in enumerate(
-                itertools.zip_longest(reference.lines(self.counted()), printed.lines)):
+        for number, (theirs, line) in enumerate(itertools.zip_longest(reference.lines(self.counted()), printed.lines)):
             if theirs != line:
-                return self.verdict(DIFFERENT, reference.frames,
-                                    self.explain(reference, number, theirs, line, printed.end))
+                return self.verdict(
+                    DIFFERENT, reference.frames, self.explain(reference, number, theirs, line, printed.end)
+                )
         if printed.end:
             return self.verdict(DIFFERENT, reference.frames, f"racebeam ended with {printed.end}")
         for form in self.forms:
@@ -84,12 +87,14 @@ class Comparison:
         return {"run": self.run.name, "verdict": verdict, "frames": frames, "report": report}
 
     def explain(self, reference, number, theirs, line, end):
-        where = (f"line {number}, frame {reference.ale.getFrameNumber()}, "
-                 f"act {reference.act_of_episode} of episode {reference.episode}")
+        where = (
+            f"line {number}, frame {reference.ale.getFrameNumber()}, "
+            f"act {reference.act_of_episode} of episode {reference.episode}"
+        )
         if line is None:
             return f"{where}: racebeam ended with {end or 'fewer lines'}"
         differences = differing_fields(theirs or "nothing", line)
-        sight = ours.look(self.run, self.image, self.steps[:self.played], number, self.extra)
+        sight = ours.look(self.run, self.image, self.steps[: self.played], number, self.extra)
         evidence = self.evidence(reference, number, sight)
         return "\n".join([f"first difference in {where}", table(differences), *evidence])
 
@@ -98,7 +103,7 @@ class Comparison:
         stem = self.folder / self.run.name.replace(":", "-").replace(",", "-").replace("=", "")
         self.folder.mkdir(parents=True, exist_ok=True)
         script = stem.with_name(stem.name + ".actions")
-        script.write_text("\n".join(map(step_word, self.steps[:self.played])) + "\n")
+        script.write_text("\n".join(map(step_word, self.steps[: self.played])) + "\n")
         options = [*self.extra, "--screen-of", str(number)]
         command = ours.trace_command(self.run, self.image.path, script, options)
         if sight:

@@ -6,7 +6,6 @@ import pathlib
 import tempfile
 
 import ale_py
-
 import programs
 
 # The reference can run an image without a rule if the file has the name of a known game. It then uses that

@@ -15,10 +15,17 @@ class Gap:
 
 
 NOT_COMPARABLE = (
-    Gap(("video_cube",), "limit", "its mode program acts until the cube is turned; once the limit of frames is "
-               "reached, acts are refused and the reference never comes back"),
-    Gap(("atlantis2",), "lifeloss", "the lives that the reference compares with are uninitialised: it ends "
-               "episodes differently from run to run"),
+    Gap(
+        ("video_cube",),
+        "limit",
+        "its mode program acts until the cube is turned; once the limit of frames is "
+        "reached, acts are refused and the reference never comes back",
+    ),
+    Gap(
+        ("atlantis2",),
+        "lifeloss",
+        "the lives that the reference compares with are uninitialised: it ends episodes differently from run to run",
+    ),
 )
 
 

@@ -38,9 +38,26 @@ def catalogue():
 
 
 def trace_command(run, image_path, script, extra=()):
-    words = [BINARY, "trace", "--rom", str(image_path), "--actions", script, "--audio", "--counters",
-             "--colors", str(run.colors_every), "--seed", str(run.generator_seed), "--frame-skip", str(run.skip),
-             "--sticky", str(run.sticky), "--max-frames", str(run.limit)]
+    words = [
+        BINARY,
+        "trace",
+        "--rom",
+        str(image_path),
+        "--actions",
+        script,
+        "--audio",
+        "--counters",
+        "--colors",
+        str(run.colors_every),
+        "--seed",
+        str(run.generator_seed),
+        "--frame-skip",
+        str(run.skip),
+        "--sticky",
+        str(run.sticky),
+        "--max-frames",
+        str(run.limit),
+    ]
     if rule_of(run.game) != run.game:
         words += ["--game", rule_of(run.game)]
     for option, value in (("--mode", run.mode), ("--difficulty", run.difficulty)):
@@ -57,8 +74,14 @@ class Printed:
 
 def play(run, image, steps, extra=(), variables={}):
     script = "\n".join(map(step_word, steps)) + "\n"
-    done = subprocess.run(trace_command(run, image.path, "-", extra), input=script, capture_output=True, text=True,
-                          timeout=PATIENCE, env={**os.environ, **variables})
+    done = subprocess.run(
+        trace_command(run, image.path, "-", extra),
+        input=script,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        env={**os.environ, **variables},
+    )
     complaints = done.stderr.splitlines()
     end = "" if done.returncode == 0 else f"status {done.returncode}: {complaints[-1] if complaints else ''}"
     return Printed(done.stdout.splitlines(), end)
@@ -67,6 +90,7 @@ def play(run, image, steps, extra=(), variables={}):
 @dataclass
 class Sight:
     """All output for one line of a run."""
+
     screen: bytes
     rgb: bytes
     ram: bytes

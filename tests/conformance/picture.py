@@ -18,7 +18,7 @@ def png(pixels):
     height, width, _ = pixels.shape
     rows = b"".join(b"\0" + row.tobytes() for row in pixels)
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
 
 
 def write_comparison(path, screen, rgb, other_screen, other_rgb):
@@ -30,9 +30,9 @@ def write_comparison(path, screen, rgb, other_screen, other_rgb):
     differs[:rows] = screen[:rows] != numpy.frombuffer(other_screen, numpy.uint8).reshape(shape)[:rows]
     differs[:rows] |= (rgb[:rows] != other[:rows]).any(axis=2)
     panels = []
-    for panel in (rgb, other, numpy.where(differs[:len(rgb), :, None], LIGHT, rgb // DARK)):
+    for panel in (rgb, other, numpy.where(differs[: len(rgb), :, None], LIGHT, rgb // DARK)):
         full = numpy.zeros((len(differs), 160, 3), numpy.uint8)
-        full[:len(panel)] = panel
+        full[: len(panel)] = panel
         panels += [full.repeat(2, axis=1), numpy.full((len(differs), GAP, 3), 128, numpy.uint8)]
     path.write_bytes(png(numpy.concatenate(panels[:-1], axis=1)))
     return int(differs.sum())

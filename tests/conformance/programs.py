@@ -7,22 +7,54 @@ Without MC, whose block numbers the reference leaves to chance, and without AR, 
 import random
 
 # Size, ports of RAM at the start of each bank, signature (docs/spec/cartridges.md, 2).
-SCHEMES = [(2048, 0, ""), (4096, 0, ""), (8192, 0, ""), (8192, 256, ""), (8192, 0, "8DE01F"), (8192, 0, "853EA900"),
-           (8192, 0, "853F00853F"), (8192, 0, "8D4002"), (8192, 0, "2000D0C6C5"), (10240, 0, ""), (12288, 0, ""),
-           (16384, 0, ""), (16384, 256, ""), (32768, 0, ""), (32768, 256, ""), (65536, 0, ""), (4096, 0, "9900F4")]
+SCHEMES = [
+    (2048, 0, ""),
+    (4096, 0, ""),
+    (8192, 0, ""),
+    (8192, 256, ""),
+    (8192, 0, "8DE01F"),
+    (8192, 0, "853EA900"),
+    (8192, 0, "853F00853F"),
+    (8192, 0, "8D4002"),
+    (8192, 0, "2000D0C6C5"),
+    (10240, 0, ""),
+    (12288, 0, ""),
+    (16384, 0, ""),
+    (16384, 256, ""),
+    (32768, 0, ""),
+    (32768, 256, ""),
+    (65536, 0, ""),
+    (4096, 0, "9900F4"),
+]
 SIGNATURE_AT = 0x140
 VECTORS_EVERY = 1024  # any slice of a bank may hold the vectors
 
 TIM1T, INTIM = 0x0294, 0x0284
 LDA_ABSOLUTE, STA_ABSOLUTE, JMP, BNE, NOP = 0xAD, 0x8D, 0x4C, 0xD0, 0xEA
 FREQUENT = bytes.fromhex("A9A2A0A5B5BDB9B185868495999D918D69C9E6C6CA882060")
-IDIOMS = [bytes.fromhex(text) for text in (
-    "AD8402D0FB", "AE840210FB", "2C850210FB",  # wait for the timer
-    "A9208D9602", "A9908D9502", "A9308D9702", "A9538D9702",  # TIM64T, TIM8T, T1024T
-    "A90285008502A9008500", "A9028500850285028502A90085008501",  # a frame ends
-    "A2088502CAD0FB", "A01484028409841B8810F7",  # lines
-    "A2FF9AD8", "A21F9A68684848",  # the stack in RAM, and in the TIA
-    "F8", "F86937E919", "D8", "A9A58590A9608592209000", "A9E685A0A9B085A1A94C85A24CA000")]
+IDIOMS = [
+    bytes.fromhex(text)
+    for text in (
+        "AD8402D0FB",
+        "AE840210FB",
+        "2C850210FB",  # wait for the timer
+        "A9208D9602",
+        "A9908D9502",
+        "A9308D9702",
+        "A9538D9702",  # TIM64T, TIM8T, T1024T
+        "A90285008502A9008500",
+        "A9028500850285028502A90085008501",  # a frame ends
+        "A2088502CAD0FB",
+        "A01484028409841B8810F7",  # lines
+        "A2FF9AD8",
+        "A21F9A68684848",  # the stack in RAM, and in the TIA
+        "F8",
+        "F86937E919",
+        "D8",
+        "A9A58590A9608592209000",
+        "A9E685A0A9B085A1A94C85A24CA000",
+    )
+]
 
 
 def length_of(opcode):
@@ -64,8 +96,8 @@ def instruction(rng):
 
 
 def plant(image, at, data):
-    room = image[at:at + len(data)]
-    image[at:at + len(data)] = data[:len(room)]
+    room = image[at : at + len(data)]
+    image[at : at + len(data)] = data[: len(room)]
 
 
 def random_program(rng, size):
@@ -102,8 +134,18 @@ def ram_program(rng, size):
 def row_program(rng, size):
     """Waits for the timer, then runs a row of code without a jump, and counts the turns. No frame closes, so
     each ends after 25,000 instructions."""
-    bank = [0xA9, rng.randrange(1, 256), STA_ABSOLUTE, TIM1T & 255 | rng.randrange(4), TIM1T >> 8,
-            LDA_ABSOLUTE, INTIM & 255, INTIM >> 8, BNE, 0xFB]
+    bank = [
+        0xA9,
+        rng.randrange(1, 256),
+        STA_ABSOLUTE,
+        TIM1T & 255 | rng.randrange(4),
+        TIM1T >> 8,
+        LDA_ABSOLUTE,
+        INTIM & 255,
+        INTIM >> 8,
+        BNE,
+        0xFB,
+    ]
     bank += [NOP] * rng.randrange(size - 128)
     bank += [0xE6, 0xA0, BNE, 0x02, 0xE6, 0xA1, JMP, 0x00, 0xF0]  # counts at $A0
     return bytearray(bank).ljust(size - 6, bytes([NOP])) + bytes([0x00, 0xF0] * 3)
@@ -124,6 +166,6 @@ def image_of(kind, seed):
             plant(image, at, [start & 255, start >> 8])
     if ports:
         for bank in range(0, size, 4096):
-            image[bank:bank + ports] = bytes([image[bank]]) * ports
+            image[bank : bank + ports] = bytes([image[bank]]) * ports
     plant(image, SIGNATURE_AT, bytes.fromhex(signature))
     return bytes(image)

@@ -22,8 +22,10 @@ class Progress:
 
     def show(self, now):
         seconds = max(now - self.start, 1e-3)
-        text = (f"{self.done}/{self.total} runs, {self.frames:,} frames, {self.frames / seconds:,.0f}/s, "
-                f"{self.bad} not identical, {seconds:.0f} s")
+        text = (
+            f"{self.done}/{self.total} runs, {self.frames:,} frames, {self.frames / seconds:,.0f}/s, "
+            f"{self.bad} not identical, {seconds:.0f} s"
+        )
         if not self.terminal:
             print(text, flush=True)
             return

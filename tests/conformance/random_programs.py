@@ -29,8 +29,9 @@ def compare_programs(options, first_seed):
     begin = told = time.monotonic()
     done = different = frames = 0
     compare = lambda run: Comparison(run, options.out, extra, forms).result()
-    for run, returned in pool_results(compare, runs_until(begin + 60 * options.minutes, first_seed), options.jobs,
-                                      PATIENCE):
+    for run, returned in pool_results(
+        compare, runs_until(begin + 60 * options.minutes, first_seed), options.jobs, PATIENCE
+    ):
         result = result_of(run, returned)
         done, frames = done + 1, frames + result["frames"]
         if result["verdict"] != IDENTICAL:
@@ -44,5 +45,7 @@ def compare_programs(options, first_seed):
 
 
 def sentence(done, different, frames, first_seed, seconds):
-    return (f"{done} random programs from seed {first_seed}, {frames:,} frames, {seconds / 60:.1f} minutes: "
-            f"{different} differ")
+    return (
+        f"{done} random programs from seed {first_seed}, {frames:,} frames, {seconds / 60:.1f} minutes: "
+        f"{different} differ"
+    )

@@ -4,7 +4,6 @@ import zlib
 
 import ale_py
 import numpy
-
 from run import action_word
 
 VERSION = ale_py.__version__
@@ -24,7 +23,8 @@ class Reference:
             self.ale.reset_game()
         height, width = self.ale.getScreenDims()
         self.screen, self.grey, self.rgb = (
-            numpy.zeros(shape, numpy.uint8) for shape in ((height, width), (height, width), (height, width, 3)))
+            numpy.zeros(shape, numpy.uint8) for shape in ((height, width), (height, width), (height, width, 3))
+        )
         self.ram, self.audio = numpy.zeros(128, numpy.uint8), numpy.zeros(512, numpy.uint8)
         self.line = self.frames = 0
         self.episode, self.act_of_episode = 1, 0
@@ -42,10 +42,12 @@ class Reference:
     def lists(self):
         """The lists of the game, as `racebeam games --json` prints them."""
         names = lambda actions: [action.name for action in actions]
-        return {"modes": sorted(self.ale.getAvailableModes()),
-                "difficulties": sorted(self.ale.getAvailableDifficulties()),
-                "legal_actions": names(self.ale.getLegalActionSet()),
-                "minimal_actions": names(self.ale.getMinimalActionSet())}
+        return {
+            "modes": sorted(self.ale.getAvailableModes()),
+            "difficulties": sorted(self.ale.getAvailableDifficulties()),
+            "legal_actions": names(self.ale.getLegalActionSet()),
+            "minimal_actions": names(self.ale.getMinimalActionSet()),
+        }
 
     def lines(self, steps):
         """Yields the lines, and where each step is. A step is played when its line is requested."""
@@ -76,8 +78,10 @@ class Reference:
         ale.getAudio(self.audio)
         colors = "- -" if self.line % self.run.colors_every else self.colors()
         self.line += 1
-        return (f" {ale.lives()} {crc(self.ram):08x} {crc(self.screen):08x} {crc(self.audio):08x} "
-                f"{ale.game_truncated():d} {ale.getFrameNumber()} {ale.getEpisodeFrameNumber()} {colors}")
+        return (
+            f" {ale.lives()} {crc(self.ram):08x} {crc(self.screen):08x} {crc(self.audio):08x} "
+            f"{ale.game_truncated():d} {ale.getFrameNumber()} {ale.getEpisodeFrameNumber()} {colors}"
+        )
 
     def colors(self):
         self.ale.getScreenRGB(self.rgb)

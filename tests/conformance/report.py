@@ -59,8 +59,10 @@ def row(game, results):
     other = [result["frames"] for run, result in zip(runs, results) if not is_default(run)]
     bad = sum(result["verdict"] != IDENTICAL for result in results)
     verdict = "identical" if not bad else f"**{bad} of {len(results)} runs are not identical**"
-    return (f"| {game} | {' + '.join(f'{frames:,}' for frames in default) or '-'} | "
-            f"{len({run.setting for run in runs} - {(None, None, 1, 0, 0)})} | {sum(other):,} | {verdict} |")
+    return (
+        f"| {game} | {' + '.join(f'{frames:,}' for frames in default) or '-'} | "
+        f"{len({run.setting for run in runs} - {(None, None, 1, 0, 0)})} | {sum(other):,} | {verdict} |"
+    )
 
 
 def totals(results):
@@ -70,17 +72,21 @@ def totals(results):
     games = {run.game for run in runs}
     good_games = games - {Run.parse(result["run"]).game for result in bad}
     frames = sum(result["frames"] for result in results)
-    return wrapped(f"{len(good_games)} of {len(games)} games are identical in all their runs; "
-                   f"{len(results) - len(bad):,} of {len(results):,} runs, {frames:,} frames. Among them "
-                   f"{count('writes'):,} runs with writes to RAM, {count('limit'):,} with a limit of frames, "
-                   f"{count('lifeloss'):,} truncated at the loss of a life, "
-                   f"{count('strengths'):,} with random strengths.")
+    return wrapped(
+        f"{len(good_games)} of {len(games)} games are identical in all their runs; "
+        f"{len(results) - len(bad):,} of {len(results):,} runs, {frames:,} frames. Among them "
+        f"{count('writes'):,} runs with writes to RAM, {count('limit'):,} with a limit of frames, "
+        f"{count('lifeloss'):,} truncated at the loss of a life, "
+        f"{count('strengths'):,} with random strengths."
+    )
 
 
 def gap_table(gaps):
     counts = collections.Counter(gap for _, gap in gaps)
-    lines = [f"| {', '.join(gap.games)} | {gap.key} | {counts[gap]} run{'s' * (counts[gap] != 1)} | {gap.reason} |"
-             for gap in NOT_COMPARABLE]
+    lines = [
+        f"| {', '.join(gap.games)} | {gap.key} | {counts[gap]} run{'s' * (counts[gap] != 1)} | {gap.reason} |"
+        for gap in NOT_COMPARABLE
+    ]
     return "\n".join(["| game | what | left out of | why |", "|---|---|---|---|", *lines])
 
 
@@ -96,15 +102,40 @@ def markdown(results, identity, command, gaps):
     by_game = collections.defaultdict(list)
     for result in results:
         by_game[Run.parse(result["run"]).game].append(result)
-    head = HEAD.format(every=COLORS_EVERY, write=WRITE, command=command, date=datetime.date.today().isoformat(),
-                       version=identity["version"], reference=identity["reference"],
-                       seeds=", ".join(map(str, identity["seeds"])),
-                       forms=", ".join(["as this processor gets it", *(FORMS if identity["forms"] else ())]))
+    head = HEAD.format(
+        every=COLORS_EVERY,
+        write=WRITE,
+        command=command,
+        date=datetime.date.today().isoformat(),
+        version=identity["version"],
+        reference=identity["reference"],
+        seeds=", ".join(map(str, identity["seeds"])),
+        forms=", ".join(["as this processor gets it", *(FORMS if identity["forms"] else ())]),
+    )
     hosted = ", ".join(game for game in WITHOUT_RULE if game in by_game)
-    parts = [head, "## Verdict", "", totals(results), "", mismatches(results), "## Not comparable", "", gap_table(gaps),
-             "", "## Games", "", "| game | frames, default settings | other settings | frames in them | verdict |",
-             "|---|---|---|---|---|", *(row(game, by_game[game]) for game in sorted(by_game))]
+    parts = [
+        head,
+        "## Verdict",
+        "",
+        totals(results),
+        "",
+        mismatches(results),
+        "## Not comparable",
+        "",
+        gap_table(gaps),
+        "",
+        "## Games",
+        "",
+        "| game | frames, default settings | other settings | frames in them | verdict |",
+        "|---|---|---|---|---|",
+        *(row(game, by_game[game]) for game in sorted(by_game)),
+    ]
     if hosted:
-        parts += ["", wrapped(f"The reference has no rule for {hosted}. Their machines are compared with the "
-                              f"actions, rule and difficulties of {HOST} on both sides.")]
+        parts += [
+            "",
+            wrapped(
+                f"The reference has no rule for {hosted}. Their machines are compared with the "
+                f"actions, rule and difficulties of {HOST} on both sides."
+            ),
+        ]
     return "\n".join(parts).replace("\n\n\n", "\n\n") + "\n"

@@ -50,8 +50,9 @@ class Suite(unittest.TestCase):
         return done.returncode, done.stdout + done.stderr
 
     def short(self, *words, **more):
-        return self.suite("--games", GAME, "--settings", "default", "--seeds", "1", "--frames", "60", "--seed", "3",
-                          *words, **more)
+        return self.suite(
+            "--games", GAME, "--settings", "default", "--seeds", "1", "--frames", "60", "--seed", "3", *words, **more
+        )
 
     def kept(self):
         """The complete lines of the results."""
@@ -98,12 +99,12 @@ class Verdicts(Suite):
     def test_pictures_that_differ_are_drawn_beside_each_other(self):
         status, printed = self.short("--racebeam-options=--color-averaging")
         self.assertEqual(status, 1, printed)
-        picture, = self.out.glob("*.png")
+        (picture,) = self.out.glob("*.png")
         width, height, pixels = read_png(picture)
         self.assertEqual((width, height), (3 * 320 + 2 * 8, 210))
-        columns = [[row[3 * x:3 * x + 3] for x in range(0, 320, 2)] for row in pixels]
-        other = [[row[3 * x:3 * x + 3] for x in range(328, 648, 2)] for row in pixels]
-        marked = [[row[3 * x:3 * x + 3] == b"\xff\0\xff" for x in range(656, 976, 2)] for row in pixels]
+        columns = [[row[3 * x : 3 * x + 3] for x in range(0, 320, 2)] for row in pixels]
+        other = [[row[3 * x : 3 * x + 3] for x in range(328, 648, 2)] for row in pixels]
+        marked = [[row[3 * x : 3 * x + 3] == b"\xff\0\xff" for x in range(656, 976, 2)] for row in pixels]
         self.assertTrue(any(map(any, marked)))
         for left, right, marks in zip(columns, other, marked):
             for a, b, mark in zip(left, right, marks):
@@ -115,10 +116,14 @@ class Verdicts(Suite):
         self.assertIn("interpreter, translator, plain |", (self.out / "conformance.md").read_text())
 
     def test_a_form_that_differs_is_found(self):
-        for form, condition in (("interpreter", "case $* in *interpreter*)"), ("plain", "case $RACEBEAM_SIMD in plain)")):
+        for form, condition in (
+            ("interpreter", "case $* in *interpreter*)"),
+            ("plain", "case $RACEBEAM_SIMD in plain)"),
+        ):
             other = self.out / "racebeam"
-            other.write_text(f"#!/bin/sh\n{condition} {ours.BINARY} \"$@\" | sed '9s/.$/x/';; "
-                             f"*) exec {ours.BINARY} \"$@\";; esac\n")
+            other.write_text(
+                f'#!/bin/sh\n{condition} {ours.BINARY} "$@" | sed \'9s/.$/x/\';; *) exec {ours.BINARY} "$@";; esac\n'
+            )
             other.chmod(0o755)
             status, printed = self.short("--forms", binary=other)
             self.assertEqual(status, 1, printed)
@@ -127,8 +132,9 @@ class Verdicts(Suite):
 
     def test_a_racebeam_that_does_not_run_is_a_difference(self):
         broken = self.out / "racebeam"
-        broken.write_text('#!/bin/sh\ncase $1 in trace) echo "racebeam: no" >&2; exit 1;; esac\n'
-                          f'exec {ours.BINARY} "$@"\n')
+        broken.write_text(
+            f'#!/bin/sh\ncase $1 in trace) echo "racebeam: no" >&2; exit 1;; esac\nexec {ours.BINARY} "$@"\n'
+        )
         broken.chmod(0o755)
         status, printed = self.short(binary=broken)
         self.assertEqual(status, 1, printed)
@@ -136,8 +142,9 @@ class Verdicts(Suite):
 
     def test_lines_that_are_missing_are_a_difference(self):
         short = self.out / "racebeam"
-        short.write_text(f'#!/bin/bash\n[[ $1 == trace ]] || exec {ours.BINARY} "$@"\n'
-                         f'{ours.BINARY} "$@" | head -n 20\n')
+        short.write_text(
+            f'#!/bin/bash\n[[ $1 == trace ]] || exec {ours.BINARY} "$@"\n{ours.BINARY} "$@" | head -n 20\n'
+        )
         short.chmod(0o755)
         status, printed = self.short(binary=short)
         self.assertEqual(status, 1, printed)
@@ -178,8 +185,9 @@ class Keeping(Suite):
         self.short("--seeds", "2")
         path = self.out / "results.jsonl"
         path.write_text(path.read_text()[:-30])  # interrupted while it wrote
-        status, printed = self.suite("--games", GAME, "--settings", "default", "--seeds", "2", "--frames", "60",
-                                     "--resume")
+        status, printed = self.suite(
+            "--games", GAME, "--settings", "default", "--seeds", "2", "--frames", "60", "--resume"
+        )
         self.assertEqual(status, 0, printed)
         self.assertIn("1 runs are done already", printed)
         self.assertIn("2 of 2 runs identical", printed)
@@ -198,8 +206,13 @@ class Keeping(Suite):
 
     def interrupt(self, number):
         (self.out / "results.jsonl").unlink(missing_ok=True)
-        suite = subprocess.Popen(self.command("--frames", "300", "--settings", "all", "--games", GAME, "--jobs", "1"),
-                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+        suite = subprocess.Popen(
+            self.command("--frames", "300", "--settings", "all", "--games", GAME, "--jobs", "1"),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline and not ((self.out / "results.jsonl").exists() and len(self.kept()) > 2):
             time.sleep(0.05)
@@ -211,13 +224,15 @@ class Keeping(Suite):
         self.assertNotIn("Traceback", printed)
 
     def test_bad_options_are_refused_with_a_sentence(self):
-        for words, sentence in ((["--games", "pongg"], "there is no image of 'pongg'"),
-                                (["--run", "pong:skipp=2"], "'skipp' of the run"),
-                                (["--run", "pong:skip=x"], "'x' is not a value for skip"),
-                                (["--run", "pongg:seed=2"], "there is no image of 'pongg'"),
-                                (["--seed", "x"], "'x' is not a seed"),
-                                (["--frames", "0"], "--frames is 0"),
-                                (["--programs", "--minutes", "0"], "--minutes is 0.0; it must be more than 0")):
+        for words, sentence in (
+            (["--games", "pongg"], "there is no image of 'pongg'"),
+            (["--run", "pong:skipp=2"], "'skipp' of the run"),
+            (["--run", "pong:skip=x"], "'x' is not a value for skip"),
+            (["--run", "pongg:seed=2"], "there is no image of 'pongg'"),
+            (["--seed", "x"], "'x' is not a seed"),
+            (["--frames", "0"], "--frames is 0"),
+            (["--programs", "--minutes", "0"], "--minutes is 0.0; it must be more than 0"),
+        ):
             status, printed = self.suite(*words)
             self.assertEqual(status, 2, printed)
             self.assertIn(sentence, printed)
@@ -271,12 +286,12 @@ def read_png(path):
     chunks = {}
     while data:
         length, kind = struct.unpack(">I4s", data[:8])
-        chunks[kind] = data[8:8 + length]
-        assert zlib.crc32(kind + chunks[kind]) == struct.unpack(">I", data[8 + length:12 + length])[0]
-        data = data[12 + length:]
+        chunks[kind] = data[8 : 8 + length]
+        assert zlib.crc32(kind + chunks[kind]) == struct.unpack(">I", data[8 + length : 12 + length])[0]
+        data = data[12 + length :]
     width, height = struct.unpack(">II", chunks[b"IHDR"][:8])
     raw = zlib.decompress(chunks[b"IDAT"])
-    return width, height, [raw[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)] for y in range(height)]
+    return width, height, [raw[y * (3 * width + 1) + 1 : (y + 1) * (3 * width + 1)] for y in range(height)]
 
 
 if __name__ == "__main__":

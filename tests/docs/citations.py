@@ -30,8 +30,11 @@ def slash_comments(text):
 
 def python_comments(text):
     """Comments and docstrings."""
-    comments = {token.start[0]: token.string.lstrip("# ") for token in
-                tokenize.generate_tokens(io.StringIO(text).readline) if token.type == tokenize.COMMENT}
+    comments = {
+        token.start[0]: token.string.lstrip("# ")
+        for token in tokenize.generate_tokens(io.StringIO(text).readline)
+        if token.type == tokenize.COMMENT
+    }
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node, clean=False):
             comments.update(enumerate(ast.get_docstring(node, clean=False).splitlines(), node.body[0].lineno))
@@ -63,7 +66,7 @@ def numbers(text):
 def fault(root, citation):
     """The error in a citation, or None."""
     name, wanted, heading, cases = citation.groups()
-    if re.match(r",? sections?\b", citation.string[citation.end():]):
+    if re.match(r",? sections?\b", citation.string[citation.end() :]):
         return "a section is cited by its number alone, after a comma"
     if not (root / name).is_file():
         return f"there is no {name}"

@@ -14,8 +14,11 @@ def hidden(path):
         kinds = ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
         plain = [node for node in scope.body if isinstance(node, kinds) and not node.decorator_list]
         counts = collections.Counter(node.name for node in plain)
-        yield from (f"{path}: {name} is defined {count} times, and the last hides the others"
-                    for name, count in counts.items() if count > 1)
+        yield from (
+            f"{path}: {name} is defined {count} times, and the last hides the others"
+            for name, count in counts.items()
+            if count > 1
+        )
 
 
 def main():

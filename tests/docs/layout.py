@@ -57,7 +57,11 @@ def faults(root=ROOT):
     wrong = []
     for path in documents(root):
         text = (root / path).read_text()
-        for number, problem in [*link_faults(root, path, text), *path_faults(root, path, text), *width_faults(text),
-                                *table_faults(text)]:
+        for number, problem in [
+            *link_faults(root, path, text),
+            *path_faults(root, path, text),
+            *width_faults(text),
+            *table_faults(text),
+        ]:
             wrong.append(f"{path}:{number}: {problem}")
     return len(documents(root)), wrong

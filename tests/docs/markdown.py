@@ -7,8 +7,8 @@ import re
 
 @dataclasses.dataclass
 class Section:
-    heading: str     # without its marks, as in "4. Register access procedure"
-    lines: list      # what stands below it, up to the next heading of any level
+    heading: str  # without its marks, as in "4. Register access procedure"
+    lines: list  # what stands below it, up to the next heading of any level
 
     def number(self):
         """The number that the heading begins with, or None."""

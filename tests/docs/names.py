@@ -8,8 +8,17 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FOLDERS = ("system", "emulator", "games", "environment", "recording", "protocol", "server", "agents",
-           "cli")  # one program
+FOLDERS = (
+    "system",
+    "emulator",
+    "games",
+    "environment",
+    "recording",
+    "protocol",
+    "server",
+    "agents",
+    "cli",
+)  # one program
 
 OPENS = re.compile(r"(?:inline )?namespace ?([\w:]*) ?\{$")
 CLOSES = re.compile(r"\}  // namespace")

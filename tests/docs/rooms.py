@@ -38,10 +38,17 @@ def crowded(root):
 
 def leaving_links(root):
     """Symbolic links that are absolute, or lead out of `root`."""
-    links = [root / path / name for path, inside, files in folders(root) for name in inside + files
-             if (root / path / name).is_symlink()]
-    return [link.relative_to(root).as_posix() for link in links
-            if os.path.isabs(os.readlink(link)) or not link.resolve().is_relative_to(root.resolve())]
+    links = [
+        root / path / name
+        for path, inside, files in folders(root)
+        for name in inside + files
+        if (root / path / name).is_symlink()
+    ]
+    return [
+        link.relative_to(root).as_posix()
+        for link in links
+        if os.path.isabs(os.readlink(link)) or not link.resolve().is_relative_to(root.resolve())
+    ]
 
 
 # A room, and a room above it that it must not use.
@@ -50,8 +57,12 @@ ONE_WAY = {"protocol/line": "protocol/line/commands"}
 
 def arrows_back(root):
     """Files that include a file of a room above their own."""
-    return [path.relative_to(root).as_posix() for room, user in ONE_WAY.items()
-            for path in sorted((root / room).glob("*.[hc]pp")) if f'#include "{user}/' in path.read_text()]
+    return [
+        path.relative_to(root).as_posix()
+        for room, user in ONE_WAY.items()
+        for path in sorted((root / room).glob("*.[hc]pp"))
+        if f'#include "{user}/' in path.read_text()
+    ]
 
 
 class Tree(unittest.TestCase):
@@ -100,8 +111,11 @@ class Checks(unittest.TestCase):
 
     def test_a_link_that_leaves_is_named(self):
         self.fill("room", 1)
-        for name, target in (("inside", "subject0.hpp"), ("absolute", str(self.root / "room/subject0.hpp")),
-                             ("outside", "../../elsewhere")):
+        for name, target in (
+            ("inside", "subject0.hpp"),
+            ("absolute", str(self.root / "room/subject0.hpp")),
+            ("outside", "../../elsewhere"),
+        ):
             (self.root / "room" / name).symlink_to(target)
         self.assertEqual(sorted(leaving_links(self.root)), ["room/absolute", "room/outside"])
 

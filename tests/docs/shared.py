@@ -20,7 +20,9 @@ OWN = re.compile(r"^racebeam::(?:\(anonymous namespace\)::)?(?P<name>[\w:]+)")
 def writable(libraries):
     """Pairs of a source file's name and an object of ours in writable memory."""
     file = None
-    listing = subprocess.run(["objdump", "--syms", "--demangle", *libraries], check=True, capture_output=True, text=True)
+    listing = subprocess.run(
+        ["objdump", "--syms", "--demangle", *libraries], check=True, capture_output=True, text=True
+    )
     for line in listing.stdout.splitlines():
         if found := MEMBER.match(line):
             file = found["file"]
@@ -32,7 +34,9 @@ class Shared(unittest.TestCase):
     libraries = []
 
     def test_what_is_shared_is_listed(self):
-        shared = {pathlib.Path(file).stem for file, name in writable(self.libraries) if name.split("(")[0] not in CONSTANTS}
+        shared = {
+            pathlib.Path(file).stem for file, name in writable(self.libraries) if name.split("(")[0] not in CONSTANTS
+        }
         section = LISTED.read_text().split("## What is shared")[1].split("\n## ")[0]
         listed = {pathlib.Path(path).stem for path in re.findall(r"`(\w+/[\w/]+\.[hc]pp)`", section)}
         self.assertEqual(shared, listed)

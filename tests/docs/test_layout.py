@@ -28,8 +28,10 @@ class TheCheck(unittest.TestCase):
         self.assertIn(sentence, wrong[0])
 
     def test_it_accepts_links_that_lead_somewhere(self):
-        for text in ("# One\n\n[a](other.md) [b](other.md#1-one-thing-and-more) [c](#one) [d](../docs)\n",
-                     "[a page](https://example.org/x) and `[no](link.md)`\n\n```\n[no](code.md)\n```\n"):
+        for text in (
+            "# One\n\n[a](other.md) [b](other.md#1-one-thing-and-more) [c](#one) [d](../docs)\n",
+            "[a page](https://example.org/x) and `[no](link.md)`\n\n```\n[no](code.md)\n```\n",
+        ):
             self.assertEqual(problems(text), [])
 
     def test_it_refuses_links_that_do_not(self):

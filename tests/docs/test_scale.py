@@ -20,8 +20,11 @@ def number(text):
 
 def simulated(*words):
     """The last row that cluster/simulate.py prints, as words. None: no number of nodes is enough."""
-    done = subprocess.run([sys.executable, ROOT / "cluster/simulate.py", "paper", "--program", BINARY, *words],
-                          capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, ROOT / "cluster/simulate.py", "paper", "--program", BINARY, *words],
+        capture_output=True,
+        text=True,
+    )
     if done.stderr.startswith("no number of nodes is enough"):
         return None
     assert done.returncode == 0, done.stderr
@@ -35,9 +38,13 @@ class Paper(unittest.TestCase):
         return found
 
     def test_the_units_and_their_hours_are_those_of_the_dry_run(self):
-        asked = subprocess.run([BINARY, "experiment", "paper", "--dry-run"], check=True, capture_output=True, text=True).stdout
-        found = {name: (int(units), float(hours)) for name, units, hours in
-                 re.findall(r"^(\w+) +(\d+) units .* ([\d.]+) core-hours$", asked, re.MULTILINE)}
+        asked = subprocess.run(
+            [BINARY, "experiment", "paper", "--dry-run"], check=True, capture_output=True, text=True
+        ).stdout
+        found = {
+            name: (int(units), float(hours))
+            for name, units, hours in re.findall(r"^(\w+) +(\d+) units .* ([\d.]+) core-hours$", asked, re.MULTILINE)
+        }
         units, hours = found["all"]
         said = self.said(r"counts ([\d,]+) units and ([\d,]+) core-hours")
         self.assertEqual((number(said[1]), number(said[2])), (units, round(hours)))
@@ -56,11 +63,15 @@ class Paper(unittest.TestCase):
                 if found is None:
                     self.assertEqual((nodes, cores), ("not possible", "-"))
                 else:
-                    self.assertEqual((number(nodes), number(cores), f"{busy}%"), (int(found[0]), int(found[1]), found[4]))
+                    self.assertEqual(
+                        (number(nodes), number(cores), f"{busy}%"), (int(found[0]), int(found[1]), found[4])
+                    )
 
     def test_what_failures_cost_is_what_the_simulation_says(self):
-        said = self.said(r"With `--failures 365`, a failure of each node a day, (\d+) nodes take ([\d.]+) hours, and do (\d+) core-hours twice. "
-                         r"With a checkpoint an hour \(`--checkpoint 3600`\) these are ([\d.]+) hours and (\d+) core-hours")
+        said = self.said(
+            r"With `--failures 365`, a failure of each node a day, (\d+) nodes take ([\d.]+) hours, and do (\d+) core-hours twice. "
+            r"With a checkpoint an hour \(`--checkpoint 3600`\) these are ([\d.]+) hours and (\d+) core-hours"
+        )
         for words, hours, lost in (((), said[2], said[3]), (("--checkpoint", "3600"), said[4], said[5])):
             found = simulated("--longest-first", "--failures", "365", "--nodes", said[1], *words)
             self.assertEqual((hours, int(lost)), (found[2], round(float(found[5]))))

@@ -12,8 +12,11 @@ def files(root=ROOT):
     git."""
     found = []
     for folder, folders, names in os.walk(root):
-        folders[:] = [name for name in folders
-                      if name not in NOT_OURS and (not name.startswith(".") or name in (".github", ".ci"))]
+        folders[:] = [
+            name
+            for name in folders
+            if name not in NOT_OURS and (not name.startswith(".") or name in (".github", ".ci"))
+        ]
         found += [(pathlib.Path(folder) / name).relative_to(root) for name in names]
     return sorted(found)
 

@@ -5,15 +5,19 @@ import io
 import pathlib
 import types
 
-RESULTS = ("unit,game,image_md5,agent,trial,episode,environment_seed,agent_seed,score,frames,decisions,end,lives,state_hash,"
-           "log_digest,version")
+RESULTS = (
+    "unit,game,image_md5,agent,trial,episode,environment_seed,agent_seed,score,frames,decisions,end,lives,state_hash,"
+    "log_digest,version"
+)
 CURVES = "unit,game,agent,trial,episode,score,frames,decisions"
 
 
 def result(game, agent, trial, episode, score, end="over", md5=None):
     """A line of results.csv."""
-    return (f"{game}/{agent}/{trial},{game},{md5 or 'md5-of-' + game},{agent},{trial},{episode},1,2,{score},1000,200,{end},0,"
-            f"00ff,11ee,0.1.0")
+    return (
+        f"{game}/{agent}/{trial},{game},{md5 or 'md5-of-' + game},{agent},{trial},{episode},1,2,{score},1000,200,{end},0,"
+        f"00ff,11ee,0.1.0"
+    )
 
 
 def curve(game, agent, trial, episode, score, frames):
@@ -23,8 +27,12 @@ def curve(game, agent, trial, episode, score, frames):
 
 def results_of(scores):
     """Lines of results.csv of {(agent, game): [scores of the episodes of each trial]}."""
-    return [result(game, agent, trial, episode, score) for (agent, game), trials in scores.items()
-            for trial, episodes in enumerate(trials) for episode, score in enumerate(episodes)]
+    return [
+        result(game, agent, trial, episode, score)
+        for (agent, game), trials in scores.items()
+        for trial, episodes in enumerate(trials)
+        for episode, score in enumerate(episodes)
+    ]
 
 
 def write(folder, lines, curves=(), header=RESULTS):

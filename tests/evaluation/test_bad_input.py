@@ -33,8 +33,10 @@ class BadInput(unittest.TestCase):
 
     def test_columns_are_missing(self):
         self.lines("1,pong,2", header="unit,game,score")
-        self.refused("results.csv lacks the columns image_md5, agent, trial, episode, end; expected at least "
-                     "game,image_md5,agent,trial,episode,score,end")
+        self.refused(
+            "results.csv lacks the columns image_md5, agent, trial, episode, end; expected at least "
+            "game,image_md5,agent,trial,episode,score,end"
+        )
 
     def test_text_for_a_number(self):
         self.lines(result("pong", "basic", 0, 0, 1), result("pong", "basic", 0, 1, "high"))
@@ -47,7 +49,9 @@ class BadInput(unittest.TestCase):
     def test_a_score_whose_square_is_not_finite(self):
         for value in ("1e308", "-1e16"):
             self.lines(result("pong", "basic", 0, 0, value))
-            self.refused(f"results.csv, line 2: score is '{value}'; expected a decimal number from -1e15 to 1e15, or nothing")
+            self.refused(
+                f"results.csv, line 2: score is '{value}'; expected a decimal number from -1e15 to 1e15, or nothing"
+            )
 
     def test_a_game_or_an_agent_without_a_name(self):
         self.lines(result("pong", "basic", 0, 0, 1), result("pong", "", 0, 0, 1))
@@ -89,10 +93,15 @@ class BadInput(unittest.TestCase):
         self.assertIn("frames", CURVES)
 
     def test_a_game_that_there_is_not(self):
-        for name, sentence in (("space_invader", "line 3: there is no game 'space_invader'; did you mean space_invaders?"),
-                               ("Pong", "line 3: there is no game 'Pong'; did you mean pong?"),
-                               ("xyz", "line 3: there is no game 'xyz'; expected a name that racebeam games lists, or that the "
-                                       "folder's plan.toml has under [images]")):
+        for name, sentence in (
+            ("space_invader", "line 3: there is no game 'space_invader'; did you mean space_invaders?"),
+            ("Pong", "line 3: there is no game 'Pong'; did you mean pong?"),
+            (
+                "xyz",
+                "line 3: there is no game 'xyz'; expected a name that racebeam games lists, or that the "
+                "folder's plan.toml has under [images]",
+            ),
+        ):
             self.lines(result("pong", "basic", 0, 0, 1), result(name, "basic", 0, 0, 1))
             self.refused(f"results.csv, {sentence}")
 
@@ -125,13 +134,17 @@ class BadInput(unittest.TestCase):
     def test_a_folder_that_cannot_be(self):
         self.lines(*results_of(GOOD))
         done = evaluate(self.root / "a", "--into", self.root / "none/out")
-        self.assertEqual((done.returncode, done.stderr.splitlines()),
-                         (1, [f"racebeam-evaluate: {self.root}/none is no folder; expected one, in which out is made"]))
+        self.assertEqual(
+            (done.returncode, done.stderr.splitlines()),
+            (1, [f"racebeam-evaluate: {self.root}/none is no folder; expected one, in which out is made"]),
+        )
 
     def test_reports_of_what_is_not_there(self):
         folder = self.lines(*results_of({("basic", "beamfall"): [[1], [2]]}))
         self.refused("no curves.csv of RESULTS has one; expected learners", folder, "--report", "machado2018")
-        self.refused("no game of RESULTS is one of Atari 100k; expected some of alien, amidar", folder, "--report", "atari100k")
+        self.refused(
+            "no game of RESULTS is one of Atari 100k; expected some of alien, amidar", folder, "--report", "atari100k"
+        )
 
     def test_every_trial_diverged(self):
         self.lines(result("pong", "basic", 0, 0, "", end="diverged"))
@@ -148,17 +161,23 @@ class BadInput(unittest.TestCase):
 class Plans(unittest.TestCase):
     """Results of different settings are evaluated together only with a sentence that says so."""
 
-    PLAN = ('name = "{name}"\nenvironment = "sticky={sticky}"\ngames = ["pong"]\n\n[images]\npong = "aa"\n\n'
-            '[agent.{agent}]\ntrials = {trials}\nalpha = {alpha}\n')
+    PLAN = (
+        'name = "{name}"\nenvironment = "sticky={sticky}"\ngames = ["pong"]\n\n[images]\npong = "aa"\n\n'
+        "[agent.{agent}]\ntrials = {trials}\nalpha = {alpha}\n"
+    )
 
     def report(self, *plans):
         with tempfile.TemporaryDirectory() as root:
             folders = []
             for number, plan in enumerate(plans):
                 agent = plan.setdefault("agent", "basic")
-                folders.append(write(pathlib.Path(root) / f"r{number}",
-                                     [result("pong", agent, 10 * number + trial, 0, trial) for trial in (0, 1)],
-                                     [curve("pong", agent, 10 * number, 0, 1, 100)]))
+                folders.append(
+                    write(
+                        pathlib.Path(root) / f"r{number}",
+                        [result("pong", agent, 10 * number + trial, 0, trial) for trial in (0, 1)],
+                        [curve("pong", agent, 10 * number, 0, 1, 100)],
+                    )
+                )
                 defaults = {"name": f"n{number}", "sticky": 0, "trials": 2 + number, "alpha": 0.5}
                 (folders[-1] / "plan.toml").write_text(self.PLAN.format(**defaults | plan))
             texts = []
@@ -175,7 +194,9 @@ class Plans(unittest.TestCase):
 
     def test_other_settings_of_the_environment_and_of_an_agent(self):
         for text in self.report({}, {"sticky": 0.25, "alpha": 0.1}):
-            self.assertIn('The plans differ: environment is "sticky=0" in r0, and "sticky=0.25" in r1; scores are of both.', text)
+            self.assertIn(
+                'The plans differ: environment is "sticky=0" in r0, and "sticky=0.25" in r1; scores are of both.', text
+            )
             self.assertIn("The plans differ: agent.basic.alpha is 0.5 in r0, and 0.1 in r1; scores are of both.", text)
 
     def test_settings_of_agents_that_only_one_has(self):
@@ -195,14 +216,21 @@ class Untested(unittest.TestCase):
     def test_fewer_than_two_trials(self):
         status, said, report = self.evaluated(GOOD | {("bass", "pong"): [[3, 5]]})
         self.assertEqual(status, 3)
-        self.assertEqual(said, ["racebeam-evaluate: Not tested: bass on pong has fewer than 2 trials; a test takes 2 or more."])
+        self.assertEqual(
+            said, ["racebeam-evaluate: Not tested: bass on pong has fewer than 2 trials; a test takes 2 or more."]
+        )
         self.assertIn("Not tested: bass on pong has fewer than 2 trials", report)
 
     def test_no_variance(self):
         status, said, report = self.evaluated({("basic", "pong"): [[0], [0]], ("bass", "pong"): [[2], [2]]})
         self.assertEqual(status, 3)
-        self.assertEqual(said, ["racebeam-evaluate: Not tested: basic and bass on pong have no variance; a test takes trials that "
-                                "differ."])
+        self.assertEqual(
+            said,
+            [
+                "racebeam-evaluate: Not tested: basic and bass on pong have no variance; a test takes trials that "
+                "differ."
+            ],
+        )
         self.assertIn("Not tested: basic and bass on pong have no variance", report)
 
     def test_a_game_that_one_lacks(self):

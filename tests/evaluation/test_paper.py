@@ -47,7 +47,9 @@ class Metrics(unittest.TestCase):
 
     def test_planners_above_both(self):
         printed = published("paper2013/planners")
-        above, equal, _ = paired.group_against(printed[["full_tree", "uct"]], printed[["best_learner", "best_baseline"]])
+        above, equal, _ = paired.group_against(
+            printed[["full_tree", "uct"]], printed[["best_learner", "best_baseline"]]
+        )
         self.assertEqual((len(above), equal), (48, ["skiing"]))
 
     def test_inter_algorithm_scores(self):
@@ -63,8 +65,9 @@ class Metrics(unittest.TestCase):
         games = list(PAPER.index)
         self.assertEqual(self.ranges["random"].without(games), ["freeway", "enduro", "skiing", "venture", "zaxxon"])
         self.assertEqual(self.ranges["baseline"].without(games), ["skiing", "venture"])
-        self.assertEqual(self.ranges["human"].without(games),
-                         ["carnival", "elevator_action", "journey_escape", "pooyan", "skiing"])
+        self.assertEqual(
+            self.ranges["human"].without(games), ["carnival", "elevator_action", "journey_escape", "pooyan", "skiing"]
+        )
 
     def test_printed_paired_tests_have_room_in_the_counts_of_means(self):
         counted = {(pair.first, pair.second): pair for pair in paired.pairs(self.scores, self.learning)}
@@ -95,8 +98,10 @@ class Data(unittest.TestCase):
                     self.assertTrue((package.SOURCE / f"games/catalogue/{game}.toml").exists(), f"{file.name}: {game}")
 
     def test_the_sets(self):
-        self.assertEqual(list(PAPER.index[PAPER["set"] == "training"]),
-                         ["asterix", "beam_rider", "freeway", "seaquest", "space_invaders"])
+        self.assertEqual(
+            list(PAPER.index[PAPER["set"] == "training"]),
+            ["asterix", "beam_rider", "freeway", "seaquest", "space_invaders"],
+        )
         self.assertEqual((PAPER["set"] == "testing").sum(), 50)
         self.assertEqual(len(published("human")), 57)
 
@@ -106,8 +111,10 @@ class Data(unittest.TestCase):
         self.assertEqual(successors.count().to_list(), [54, 52])
 
     def test_a_beginner(self):
-        self.assertEqual(published("paper2013/human")["human"].to_dict(),
-                         {"asterix": 620, "seaquest": 156, "boxing": -2, "hero": 6087, "zaxxon": 820})
+        self.assertEqual(
+            published("paper2013/human")["human"].to_dict(),
+            {"asterix": 620, "seaquest": 156, "boxing": -2, "hero": 6087, "zaxxon": 820},
+        )
 
     @unittest.skipUnless(TEXT.exists(), "the paper's source text is not here")
     def test_the_files_are_the_papers_tables(self):
@@ -121,12 +128,16 @@ class Data(unittest.TestCase):
             self.assertEqual([row[0] for row in ours], list(PAPER.index))
             self.assertEqual([row[1:] for row in ours], [cells for _, cells in printed])
         beginner = {title: float(cells[-1]) for title, cells in printed_table(text, "selectedRLResults")}
-        self.assertEqual(beginner, {PAPER["title"][game]: score for game, score in published("paper2013/human")["human"].items()})
+        self.assertEqual(
+            beginner, {PAPER["title"][game]: score for game, score in published("paper2013/human")["human"].items()}
+        )
 
     @unittest.skipUnless(TEXT.exists(), "the paper's source text is not here")
     def test_the_file_is_the_papers_table_of_paired_tests(self):
         text = TEXT.read_text().split("% Left = first")[1].split("% Top = first")[0]
-        rows = {name.lower(): re.findall(r"(\d+)--(\d+)|---", cells) for name, cells in re.findall(r"(\w+) &(.*)\\\\", text)}
+        rows = {
+            name.lower(): re.findall(r"(\d+)--(\d+)|---", cells) for name, cells in re.findall(r"(\w+) &(.*)\\\\", text)
+        }
         self.assertEqual(list(rows), LEARNERS)
         for row in published("paper2013/paired").reset_index().itertuples():
             there, back = rows[row.first][LEARNERS.index(row.second)], rows[row.second][LEARNERS.index(row.first)]
@@ -137,8 +148,10 @@ class Data(unittest.TestCase):
 def printed_table(text, name):
     """The rows of games of a table in the paper's source: title, and cells without the marks of bold type."""
     body = text.split(f"%% file: tables/{name}.tex")[1].split(r"\end{tabular}")[0]
-    return [(title, [re.sub(r"\\textbf\s*\{|\}", "", cell).strip() for cell in cells.split("&")])
-            for title, cells in re.findall(r"\\gamename\{(.*?)\} &(.*)\\\\", body)]
+    return [
+        (title, [re.sub(r"\\textbf\s*\{|\}", "", cell).strip() for cell in cells.split("&")])
+        for title, cells in re.findall(r"\\gamename\{(.*?)\} &(.*)\\\\", body)
+    ]
 
 
 if __name__ == "__main__":

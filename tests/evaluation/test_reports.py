@@ -21,8 +21,11 @@ OF_TRIALS = ("tests", "means", "improvement")
 def made_up():
     """Scores of two learners, a planner and all baselines, in four games."""
     policies = ["random", *(f"{kind}_{action}" for kind in ("const", "perturb") for action in range(18))]
-    scores = {(policy, game): [[(7 * number + 3 * column) % 11, number]] for number, policy in enumerate(policies)
-              for column, game in enumerate(GAMES)}
+    scores = {
+        (policy, game): [[(7 * number + 3 * column) % 11, number]]
+        for number, policy in enumerate(policies)
+        for column, game in enumerate(GAMES)
+    }
     for number, agent in enumerate(("basic", "bass", "full_tree", "uct")):
         for column, game in enumerate(GAMES):
             scores[agent, game] = [[10 * number + column + trial, 5 + trial] for trial in range(3)]
@@ -30,8 +33,13 @@ def made_up():
 
 
 def curves_of(agents, frames=10_000, episodes=1001):
-    return [curve(game, agent, trial, episode, (episode + trial) % 7, frames) for game in GAMES[:2] for agent in agents
-            for trial in range(2) for episode in range(episodes)]
+    return [
+        curve(game, agent, trial, episode, (episode + trial) % 7, frames)
+        for game in GAMES[:2]
+        for agent in agents
+        for trial in range(2)
+        for episode in range(episodes)
+    ]
 
 
 def read(folder):
@@ -62,8 +70,11 @@ class Reports(unittest.TestCase):
                 self.assertIn(f"tables/{name}.{form}", self.files)
 
     def test_every_figure_is_there_in_two_forms_and_is_one(self):
-        names = [f"{group}-{figure}" for group in ("learning", "planning")
-                 for figure in ("normalised", "aggregates", "distribution", "profiles")]
+        names = [
+            f"{group}-{figure}"
+            for group in ("learning", "planning")
+            for figure in ("normalised", "aggregates", "distribution", "profiles")
+        ]
         for name in [*names, "learning-curves"]:
             self.assertEqual(self.files[f"figures/{name}.png"][:8], b"\x89PNG\r\n\x1a\n")
             self.assertTrue(xml.etree.ElementTree.fromstring(self.files[f"figures/{name}.svg"]).tag.endswith("svg"))
@@ -106,38 +117,63 @@ class Reports(unittest.TestCase):
             self.assertEqual(text.replace(other, self.digest), self.files[f"tables/{name}"].decode(), name)
 
     def test_scores_stand_beside_published_ones(self):
-        scores = {("basic", "asterix"): [[1]], ("iw1", "freeway"): [[2]], ("blob_prost", "skiing"): [[3]], ("mine", "pong"): [[4]]}
+        scores = {
+            ("basic", "asterix"): [[1]],
+            ("iw1", "freeway"): [[2]],
+            ("blob_prost", "skiing"): [[3]],
+            ("mine", "pong"): [[4]],
+        }
         found = tables(write(self.root / "published", results_of(scores)))["beside-published.csv"]
-        self.assertEqual(found.splitlines()[1:], ["game,agent,score,published", "asterix,basic,1,862.3", "freeway,iw1,2,31",
-                                                  "skiing,blob_prost,3,-29842.6"])
+        self.assertEqual(
+            found.splitlines()[1:],
+            ["game,agent,score,published", "asterix,basic,1,862.3", "freeway,iw1,2,31", "skiing,blob_prost,3,-29842.6"],
+        )
 
     def test_two_folders_are_evaluated_together(self):
-        halves = [{key: value for key, value in made_up().items() if (key[0] == "bass") == wanted} for wanted in (True, False)]
-        scores = tables(*(write(self.root / f"half{number}", results_of(half))
-                          for number, half in enumerate(halves)))["learning-scores.csv"]
+        halves = [
+            {key: value for key, value in made_up().items() if (key[0] == "bass") == wanted} for wanted in (True, False)
+        ]
+        scores = tables(*(write(self.root / f"half{number}", results_of(half)) for number, half in enumerate(halves)))[
+            "learning-scores.csv"
+        ]
         self.assertEqual(scores.count("made from results.csv sha256:"), 2)
         self.assertEqual(scores.split("set,")[1], self.files["tables/learning-scores.csv"].decode().split("set,")[1])
 
     def test_baselines_alone(self):
-        lines = results_of({key: value for key, value in made_up().items() if key[0].split("_")[0] in ("random", "const")})
+        lines = results_of(
+            {key: value for key, value in made_up().items() if key[0].split("_")[0] in ("random", "const")}
+        )
         found = tables(write(self.root / "alone", lines))
         self.assertIn("set,game,random,const\n", found["baselines-scores.csv"])
         self.assertNotIn("baselines-tests.csv", found)
 
     def test_experiments_without_learners(self):
         for kinds, groups, sentences in (
-                (("random", "const"), {"baselines"}, ("There are no learners: the tables learning-... are left out.",
-                                                      "There are no planners: the tables planning-... are left out.",
-                                                      "There are only baselines: the tables groups, -tests,")),
-                (("full", "uct"), {"planning"}, ("There are no learners: the tables learning-... are left out.",)),
-                (("random", "full", "uct"), {"planning"}, ("There are no learners: the tables learning-... are left out.",))):
+            (
+                ("random", "const"),
+                {"baselines"},
+                (
+                    "There are no learners: the tables learning-... are left out.",
+                    "There are no planners: the tables planning-... are left out.",
+                    "There are only baselines: the tables groups, -tests,",
+                ),
+            ),
+            (("full", "uct"), {"planning"}, ("There are no learners: the tables learning-... are left out.",)),
+            (
+                ("random", "full", "uct"),
+                {"planning"},
+                ("There are no learners: the tables learning-... are left out.",),
+            ),
+        ):
             lines = results_of({key: value for key, value in made_up().items() if key[0].split("_")[0] in kinds})
             name = "-".join(kinds)
             folder = write(self.root / name, lines)
             (folder / "curves.csv").write_text(CURVES + "\n")  # as racebeam experiment leaves it
             files = self.evaluated(name + "-report", folder)
             tables = {file.split("/")[1] for file in files if file.startswith("tables/")}
-            self.assertEqual({group for group in ("learning", "planning", "baselines") if f"{group}-scores.csv" in tables}, groups)
+            self.assertEqual(
+                {group for group in ("learning", "planning", "baselines") if f"{group}-scores.csv" in tables}, groups
+            )
             self.assertNotIn("learning-curves.csv", tables)
             report = files["report.md"].decode()
             for sentence in (*sentences, "There are no training episodes: the learning curves are left out."):
@@ -145,8 +181,13 @@ class Reports(unittest.TestCase):
         self.assertNotIn("left out", self.files["report.md"].decode())
 
     def test_roles_come_with_the_results(self):
-        scores = {("mine", "pong"): [[1], [2]], ("uct", "pong"): [[3], [5]], ("scripted", "pong"): [[2], [4]], ("random", "pong"): [[0]],
-                  ("his", "pong"): [[5], [7]]}
+        scores = {
+            ("mine", "pong"): [[1], [2]],
+            ("uct", "pong"): [[3], [5]],
+            ("scripted", "pong"): [[2], [4]],
+            ("random", "pong"): [[0]],
+            ("his", "pong"): [[5], [7]],
+        }
         folder = write(self.root / "roles", results_of(scores))
         found = tables(folder)
         self.assertIn("set,game,his,mine,scripted,random\n", found["learning-scores.csv"])
@@ -172,7 +213,9 @@ class Reports(unittest.TestCase):
         self.assertEqual(list(CATALOGUE), sorted(file.stem for file in files))
 
     def test_groups_that_have_no_game_in_common(self):
-        found = tables(write(self.root / "apart", results_of({("basic", "pong"): [[1], [2]], ("ram", "boxing"): [[3], [4]]})))
+        found = tables(
+            write(self.root / "apart", results_of({("basic", "pong"): [[1], [2]], ("ram", "boxing"): [[3], [4]]}))
+        )
         self.assertIn("\ntesting,boxing,n/a,3.5\ntesting,pong,1.5,n/a\n", found["learning-scores.csv"])
         self.assertNotIn("learning-normalised.csv", found)
         self.assertIn("basic,---,n/a\n", found["learning-tests.csv"])
@@ -199,9 +242,12 @@ class Paper(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             files = read(pathlib.Path(folder) / "paper")
         text = files["report.md"].decode()
-        for sentence in ("prints 3: random play, and the best Const and Perturb policy", "prints no single trials",
-                         "Games: 5 of the training set, 50 of the testing set.",
-                         "No baseline score (n/a) in skiing, venture: the range is unknown or empty."):
+        for sentence in (
+            "prints 3: random play, and the best Const and Perturb policy",
+            "prints no single trials",
+            "Games: 5 of the training set, 50 of the testing set.",
+            "No baseline score (n/a) in skiing, venture: the range is unknown or empty.",
+        ):
             self.assertIn(sentence, text)
         self.assertIn(b"\nbasic,bass,18,32,20,35,0\n", files["tables/paired.csv"])
         self.assertIn(b"\nplanners above both or equal,49,49\n", files["tables/claims.csv"])

@@ -19,8 +19,12 @@ FEW = bootstrap.Bootstrap(seed=5, repetitions=200)
 
 def results_of(scores, ends=None):
     """Results of {(agent, game): [scores of the episodes of each trial]}."""
-    rows = [(game, "m", agent, trial, episode, score, "over") for (agent, game), trials in scores.items()
-            for trial, episodes in enumerate(trials) for episode, score in enumerate(episodes)]
+    rows = [
+        (game, "m", agent, trial, episode, score, "over")
+        for (agent, game), trials in scores.items()
+        for trial, episodes in enumerate(trials)
+        for episode, score in enumerate(episodes)
+    ]
     columns = ["game", "image_md5", "agent", "trial", "episode", "score", "end"]
     return Results(pd.DataFrame(rows + (ends or []), columns=columns), None, (), ())
 
@@ -41,18 +45,31 @@ class Scores(unittest.TestCase):
         scores = scores_of(results_of({("basic", "asterix"): [[4]], ("basic", "boxing"): [[5]]}, lost))
         self.assertEqual(scores.means["basic"].to_list(), [4, 5])
         self.assertNotIn("ram", scores.means)
-        self.assertEqual(scores.notes, ("Trial 1 of basic on asterix diverged, and is in no mean.",
-                                        "Trial 0 of ram on boxing diverged, and is in no mean."))
+        self.assertEqual(
+            scores.notes,
+            (
+                "Trial 1 of basic on asterix diverged, and is in no mean.",
+                "Trial 0 of ram on boxing diverged, and is in no mean.",
+            ),
+        )
 
     def test_const_and_perturb_are_the_best_of_their_policies(self):
-        given = {("random", "boxing"): [[3]], ("const_0", "boxing"): [[4]], ("const_17", "boxing"): [[9]],
-                 ("perturb_2", "boxing"): [[5]], ("perturb_3", "boxing"): [[-5]], ("basic", "boxing"): [[0]]}
+        given = {
+            ("random", "boxing"): [[3]],
+            ("const_0", "boxing"): [[4]],
+            ("const_17", "boxing"): [[9]],
+            ("perturb_2", "boxing"): [[5]],
+            ("perturb_3", "boxing"): [[-5]],
+            ("basic", "boxing"): [[0]],
+        }
         scores = scores_of(results_of(given))
         self.assertEqual(scores.views.loc["boxing"].to_dict(), {"random": 3, "const": 9, "perturb": 5})
         self.assertEqual(list(scores.means), ["basic"])
 
     def test_learners_and_planners_are_groups_and_baselines_alone_are_one(self):
-        both = scores_of(results_of({(agent, "boxing"): [[1]] for agent in ("uct", "constant", "basic", "random", "const-3")}))
+        both = scores_of(
+            results_of({(agent, "boxing"): [[1]] for agent in ("uct", "constant", "basic", "random", "const-3")})
+        )
         self.assertEqual([group.agents for group in both.groups], [("basic", "constant"), ("uct",)])
         alone = scores_of(results_of({(agent, "boxing"): [[1]] for agent in ("random", "const_upfire")}))
         self.assertEqual([group.agents for group in alone.groups], [("random", "const")])
@@ -76,8 +93,8 @@ class Normalisation(unittest.TestCase):
         return self.ranges[name].normalise(self.scores.means)["basic"]
 
     def test_random(self):
-        self.assertEqual(self.of_basic("random")["boxing"], 8)       # 16 / |-2|
-        self.assertTrue(np.isnan(self.of_basic("random")["pong"]))   # 3 / 0
+        self.assertEqual(self.of_basic("random")["boxing"], 8)  # 16 / |-2|
+        self.assertTrue(np.isnan(self.of_basic("random")["pong"]))  # 3 / 0
         self.assertEqual(self.ranges["random"].without(["boxing", "pong"]), ["pong"])
 
     def test_baseline(self):
@@ -93,7 +110,9 @@ class Normalisation(unittest.TestCase):
         self.assertAlmostEqual(self.of_basic("human")["boxing"], (16 - 0.1) / (12.1 - 0.1))
 
     def test_aggregates_name_what_has_no_range_and_never_mix_sets_silently(self):
-        rows = aggregate.aggregate_rows(self.scores, self.ranges["inter-algorithm"], Group("learning", ("basic", "bass")), FEW)
+        rows = aggregate.aggregate_rows(
+            self.scores, self.ranges["inter-algorithm"], Group("learning", ("basic", "bass")), FEW
+        )
         found = {(row.set, row.agent): (row.games, row[5]) for row in rows.itertuples()}
         self.assertEqual(found["training", "basic"], (1, 0))
         self.assertEqual(found["testing", "basic"], (1, 1))
@@ -102,15 +121,20 @@ class Normalisation(unittest.TestCase):
 
 class Paired(unittest.TestCase):
     def verdicts(self, first, second):
-        pair, = paired.pairs(scores_of(results_of({("basic", "pong"): [[score] for score in first],
-                                                   ("bass", "pong"): [[score] for score in second]})),
-                             Group("learning", ("basic", "bass")))
+        (pair,) = paired.pairs(
+            scores_of(
+                results_of(
+                    {("basic", "pong"): [[score] for score in first], ("bass", "pong"): [[score] for score in second]}
+                )
+            ),
+            Group("learning", ("basic", "bass")),
+        )
         return [name for name in ("better", "worse", "few", "constant") if getattr(pair, name)]
 
     def test_welch_by_hand(self):
         # Means 2 and 5; variances of the means 1/3 and 4/3; t = -3 / sqrt(5/3); Welch's degrees of freedom 50/17.
         # The density of t, integrated numerically, gives 0.104479.
-        self.assertAlmostEqual(paired.welch(np.array([1., 2, 3]), np.array([3., 5, 7])), 0.104479, places=6)
+        self.assertAlmostEqual(paired.welch(np.array([1.0, 2, 3]), np.array([3.0, 5, 7])), 0.104479, places=6)
 
     def test_only_significant_differences_count(self):
         self.assertEqual(self.verdicts([1, 2, 3], [3, 5, 7]), [])
@@ -124,18 +148,24 @@ class Paired(unittest.TestCase):
 
     def test_pairs_use_the_games_that_both_have(self):
         given = {("basic", "pong"): [[1], [2]], ("bass", "pong"): [[1], [3]], ("bass", "boxing"): [[9], [8]]}
-        pair, = paired.pairs(scores_of(results_of(given)), Group("learning", ("basic", "bass")))
+        (pair,) = paired.pairs(scores_of(results_of(given)), Group("learning", ("basic", "bass")))
         self.assertEqual((pair.games, pair.lacking), (["pong"], ["boxing"]))
 
     def test_the_table_says_where_nothing_was_tested(self):
-        scores = scores_of(results_of({("basic", "pong"): [[1], [2]], ("bass", "pong"): [[5]], ("ram", "boxing"): [[5], [6]]}))
+        scores = scores_of(
+            results_of({("basic", "pong"): [[1], [2]], ("bass", "pong"): [[5]], ("ram", "boxing"): [[5], [6]]})
+        )
         agents = ("basic", "bass", "ram")
         found = paired.pairs(scores, Group("learning", agents))
-        self.assertEqual(paired.counts(found, agents, "better", "worse", "tested")["bass"].to_list(), ["n/a", "---", "n/a"])
-        self.assertEqual(paired.counts(found, agents, "higher", "lower", "games")["bass"].to_list(), ["0--1", "---", "n/a"])
+        self.assertEqual(
+            paired.counts(found, agents, "better", "worse", "tested")["bass"].to_list(), ["n/a", "---", "n/a"]
+        )
+        self.assertEqual(
+            paired.counts(found, agents, "higher", "lower", "games")["bass"].to_list(), ["0--1", "---", "n/a"]
+        )
 
     def test_the_first_of_a_tie_is_best(self):
-        best, ties = paired.times_best(pd.DataFrame({"a": [1., 5], "b": [1., 6], "c": [0., 6]}, index=["x", "y"]))
+        best, ties = paired.times_best(pd.DataFrame({"a": [1.0, 5], "b": [1.0, 6], "c": [0.0, 6]}, index=["x", "y"]))
         self.assertEqual(best.to_dict(), {"a": 1, "b": 1, "c": 0})
         self.assertEqual(ties, {"x": ["a", "b"], "y": ["b", "c"]})
 
@@ -151,17 +181,19 @@ class Bootstrap(unittest.TestCase):
             self.assertAlmostEqual(float(bootstrap.improvement(*pair)[0]), metrics.probability_of_improvement(*pair))
 
     def test_a_profile_is_the_share_above_each_threshold(self):
-        shares = bootstrap.profile(np.array([0., 1, 2]))(np.array([[0., 1], [2, 3]]))
+        shares = bootstrap.profile(np.array([0.0, 1, 2]))(np.array([[0.0, 1], [2, 3]]))
         self.assertEqual(shares.tolist(), [0.75, 0.5, 0.25])
 
     def test_the_interquartile_mean_and_the_optimality_gap(self):
-        scores = np.array([[0., 0.4], [0.6, 100]])
+        scores = np.array([[0.0, 0.4], [0.6, 100]])
         self.assertEqual(bootstrap.aggregates(scores).round(9).tolist(), [0.5, 0.5])
 
     def test_the_seed_decides_and_the_global_generator_is_put_back(self):
         np.random.seed(1)
         before = np.random.get_state()[1].tolist()
-        one, same, other = (bootstrap.Bootstrap(seed, 50).estimate(bootstrap.aggregates, self.first) for seed in (1, 1, 2))
+        one, same, other = (
+            bootstrap.Bootstrap(seed, 50).estimate(bootstrap.aggregates, self.first) for seed in (1, 1, 2)
+        )
         self.assertEqual((one.low.tolist(), one.high.tolist()), (same.low.tolist(), same.high.tolist()))
         self.assertNotEqual(one.low.tolist(), other.low.tolist())
         self.assertEqual(np.random.get_state()[1].tolist(), before)
@@ -173,24 +205,31 @@ class Bootstrap(unittest.TestCase):
         self.assertTrue(np.isnan(alone.low).all() and np.isnan(alone.high).all() and not np.isnan(alone.value).any())
 
     def test_the_bootstrap_is_stratified_by_game(self):
-        constant_in_each_game = np.array([[1., 2, 4]] * 5)
+        constant_in_each_game = np.array([[1.0, 2, 4]] * 5)
         estimate = FEW.estimate(bootstrap.aggregates, constant_in_each_game)
         self.assertEqual(estimate.low.tolist(), estimate.value.tolist())
 
     def test_uneven_trials_are_all_used(self):
         scores = scores_of(results_of({("basic", "pong"): [[1], [2], [3]], ("basic", "boxing"): [[4], [5]]}))
-        np.testing.assert_array_equal(aggregate.matrix(scores, "basic", ["pong", "boxing"]), [[1, 4], [2, 5], [3, np.nan]])
-        ranges = Ranges("made", pd.Series({"pong": 1., "boxing": 0}), pd.Series({"pong": 3., "boxing": 10}))
-        np.testing.assert_array_equal(aggregate.normalised_matrix(scores, ranges, "basic", ["pong", "boxing"]),
-                                      [[0, 0.4], [0.5, 0.5], [1, np.nan]])
+        np.testing.assert_array_equal(
+            aggregate.matrix(scores, "basic", ["pong", "boxing"]), [[1, 4], [2, 5], [3, np.nan]]
+        )
+        ranges = Ranges("made", pd.Series({"pong": 1.0, "boxing": 0}), pd.Series({"pong": 3.0, "boxing": 10}))
+        np.testing.assert_array_equal(
+            aggregate.normalised_matrix(scores, ranges, "basic", ["pong", "boxing"]),
+            [[0, 0.4], [0.5, 0.5], [1, np.nan]],
+        )
 
     def test_games_with_different_numbers_of_trials_count_the_same(self):
         games = self.first[:4, :3]  # three games of four trials; the second has each of two twice
         games[2:, 1] = games[:2, 1]
         uneven = bootstrap.padded([games[:, 0], games[:2, 1], games[:, 2]])
-        for function in (bootstrap.aggregates, bootstrap.profile(np.array([0., 1, 2])),
-                         lambda scores: bootstrap.improvement(scores, self.second[:, :3]),
-                         lambda scores: bootstrap.improvement(self.second[:, :3], scores)):
+        for function in (
+            bootstrap.aggregates,
+            bootstrap.profile(np.array([0.0, 1, 2])),
+            lambda scores: bootstrap.improvement(scores, self.second[:, :3]),
+            lambda scores: bootstrap.improvement(self.second[:, :3], scores),
+        ):
             np.testing.assert_allclose(function(uneven), function(games))
 
     def test_uneven_trials_have_intervals_which_the_seed_decides(self):
@@ -199,17 +238,22 @@ class Bootstrap(unittest.TestCase):
         self.assertTrue((one.low < one.value).all() and (one.value < one.high).all())
         self.assertEqual((one.low.tolist(), one.high.tolist()), (same.low.tolist(), same.high.tolist()))
         self.assertNotEqual(one.low.tolist(), other.low.tolist())
-        constant = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(5), np.full(3, 2.)]))
+        constant = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(5), np.full(3, 2.0)]))
         self.assertEqual(constant.low.tolist(), constant.high.tolist())
-        alone = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(1), np.array([1., 2, 3])]))
-        self.assertAlmostEqual(alone.value[0], (5 / 6 * 1 + 1 / 6 * 2))  # of the weights 4/3, 1/3 and 1/3, the middle half
+        alone = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(1), np.array([1.0, 2, 3])]))
+        self.assertAlmostEqual(
+            alone.value[0], (5 / 6 * 1 + 1 / 6 * 2)
+        )  # of the weights 4/3, 1/3 and 1/3, the middle half
         self.assertTrue(np.isnan(alone.low).all())
 
 
 class Curves(unittest.TestCase):
     def test_a_curve_is_the_mean_of_trials_in_stretches_of_frames(self):
-        episodes = [("pong", "basic", trial, episode, score, 50) for trial, scores in enumerate(([1, 3], [5, 7]))
-                    for episode, score in enumerate(scores)]
+        episodes = [
+            ("pong", "basic", trial, episode, score, 50)
+            for trial, scores in enumerate(([1, 3], [5, 7]))
+            for episode, score in enumerate(scores)
+        ]
         made = curves.learning_curves(curves_of(episodes))
         self.assertEqual(made["frames"].to_list(), [50, 100])
         self.assertEqual(made["score"].to_list(), [3, 5])
@@ -217,7 +261,9 @@ class Curves(unittest.TestCase):
 
     def test_checkpoints_take_the_last_100_episodes_that_ended_before(self):
         # Episodes of 10,000 frames: the 1,000th ends at 10 million frames. The score is the number of the episode.
-        episodes = [("pong", "basic", trial, number, number + trial, 10_000) for trial in (0, 2) for number in range(1, 1101)]
+        episodes = [
+            ("pong", "basic", trial, number, number + trial, 10_000) for trial in (0, 2) for number in range(1, 1101)
+        ]
         row = machado2018.checkpoints(curves_of(episodes)).iloc[0]
         self.assertEqual(row["10 M"], (901 + 1000) / 2 + 1)
         self.assertAlmostEqual(row["10 M deviation"], np.sqrt(2))

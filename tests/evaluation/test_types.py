@@ -11,8 +11,21 @@ package.require("mypy")
 
 class Types(unittest.TestCase):
     def test_mypy_is_content(self):
-        done = subprocess.run([sys.executable, "-m", "mypy", "--config-file", "pyproject.toml", "--cache-dir", "/dev/null",
-                               "racebeam_evaluation"], cwd=package.SOURCE / "evaluation", capture_output=True, text=True)
+        done = subprocess.run(
+            [
+                sys.executable,
+                "-m",
+                "mypy",
+                "--config-file",
+                "pyproject.toml",
+                "--cache-dir",
+                "/dev/null",
+                "racebeam_evaluation",
+            ],
+            cwd=package.SOURCE / "evaluation",
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 

@@ -15,7 +15,6 @@ import tempfile
 import time
 
 import numpy as np
-
 import racebeam
 import racebeam.program
 from racebeam.wire import aio
@@ -23,7 +22,24 @@ from racebeam.wire import aio
 LATE = 30  # seconds: a server that takes longer hangs
 DOCUMENTED = (racebeam.Refused, ConnectionError, TimeoutError)
 DELIBERATE = "a request is one line|requests were sent ahead"
-WORDS = ["", "act", "0", "FIRE*3", "99", "RIGHT@0.5/LEFT", "1\n2", "#", "x" * 5000, "seed=7", "beamfall", 3, None, "all", "ram", "screen:delta"]
+WORDS = [
+    "",
+    "act",
+    "0",
+    "FIRE*3",
+    "99",
+    "RIGHT@0.5/LEFT",
+    "1\n2",
+    "#",
+    "x" * 5000,
+    "seed=7",
+    "beamfall",
+    3,
+    None,
+    "all",
+    "ram",
+    "screen:delta",
+]
 LONG = 60000  # acts after the end of a game: more replies than a connection buffers
 
 
@@ -45,9 +61,13 @@ class Servers:
         folder = tempfile.mkdtemp()
         atexit.register(shutil.rmtree, folder)
         ready = pathlib.Path(folder, "ready")
-        process = subprocess.Popen([racebeam.program.path(), "serve", "--listen", f"unix:{folder}/s", "--ready-file", str(ready)],
-                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                   env={name: value for name, value in os.environ.items() if name != "LD_PRELOAD"})
+        process = subprocess.Popen(
+            [racebeam.program.path(), "serve", "--listen", f"unix:{folder}/s", "--ready-file", str(ready)],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            env={name: value for name, value in os.environ.items() if name != "LD_PRELOAD"},
+        )
         atexit.register(process.kill)
         while not ready.exists():
             time.sleep(0.01)
@@ -57,7 +77,9 @@ class Servers:
         """What is made, by name."""
         return {
             "a session": lambda: racebeam.connect(self.address(), timeout=LATE, arrays=self.chance.random() < 0.5),
-            "AtariEnv on a server": lambda: racebeam.AtariEnv(self._game(), server=self.address(), timeout=LATE, **self._env_settings()),
+            "AtariEnv on a server": lambda: racebeam.AtariEnv(
+                self._game(), server=self.address(), timeout=LATE, **self._env_settings()
+            ),
             "AtariVectorEnv on a server": lambda: self._many(self.address()),
             "AtariVectorEnv on servers": lambda: self._many([self.address(), self.address()]),
         }
@@ -74,10 +96,21 @@ class Servers:
     def ask(self, session):
         """Some call. `receive` without a request would wait for ever."""
         word = self.chance.choice
-        calls = [lambda: session.load("beamfall", seed=1), lambda: session.act(word(WORDS)), lambda: session.look(str(word(WORDS))),
-                 lambda: session.observe("reward", "screen:delta"), lambda: session.request(word(WORDS), word(WORDS)),
-                 lambda: session.send("act", word(WORDS)), session.flush, lambda: session.help(str(word(WORDS))), session.states,
-                 lambda: session.save("here"), lambda: session.restore("here"), lambda: session.open(2), lambda: session.step(1)]
+        calls = [
+            lambda: session.load("beamfall", seed=1),
+            lambda: session.act(word(WORDS)),
+            lambda: session.look(str(word(WORDS))),
+            lambda: session.observe("reward", "screen:delta"),
+            lambda: session.request(word(WORDS), word(WORDS)),
+            lambda: session.send("act", word(WORDS)),
+            session.flush,
+            lambda: session.help(str(word(WORDS))),
+            session.states,
+            lambda: session.save("here"),
+            lambda: session.restore("here"),
+            lambda: session.open(2),
+            lambda: session.step(1),
+        ]
         if session.unanswered:
             calls = [*calls, *[session.receive, session.receive_values, session.receive_plain] * 4]
         word([*calls, session.close_connection] if self.chance.random() < 0.05 else calls)()
@@ -102,7 +135,10 @@ class Servers:
         if kind == 0:
             return (*(racebeam.AtariEnv("beamfall", server=where) for where in (self.address(), None)), 1)
         server = self.address() if kind == 1 else [self.address(), self.address()]
-        return (*(racebeam.AtariVectorEnv("beamfall", 2, server=where, obs_type="ram") for where in (server, None)), [1, 1])
+        return (
+            *(racebeam.AtariVectorEnv("beamfall", 2, server=where, obs_type="ram") for where in (server, None)),
+            [1, 1],
+        )
 
     def after_an_interrupt(self):
         """The next answer is right, or the sessions have ended."""
@@ -126,8 +162,10 @@ class Servers:
 
     def past_the_end(self):
         """A step that is much longer than its game."""
-        there, here = (racebeam.AtariEnv("beamfall", server=where, frameskip=LONG, max_num_frames_per_episode=10)
-                       for where in (self.address(), None))
+        there, here = (
+            racebeam.AtariEnv("beamfall", server=where, frameskip=LONG, max_num_frames_per_episode=10)
+            for where in (self.address(), None)
+        )
         for env in (there, here):
             env.reset(seed=1)
         self._compare(there.step(1), here.step(1))

@@ -10,9 +10,8 @@ import package
 
 package.require("gymnasium", "numpy", "submitit")
 
-import submitit
-
 import racebeam
+import submitit
 from racebeam.cluster import SlurmServers
 
 
@@ -35,7 +34,9 @@ class Servers(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def servers(self, n, image=None, **options):
-        return SlurmServers(n, image, folder=self.folder, executor=submitit.LocalExecutor(self.folder / "logs"), wait=60, **options)
+        return SlurmServers(
+            n, image, folder=self.folder, executor=submitit.LocalExecutor(self.folder / "logs"), wait=60, **options
+        )
 
     def nothing_is_left(self):
         until = time.monotonic() + 30

@@ -19,9 +19,8 @@ package.require("gymnasium", "numpy")
 
 import gymnasium as gym
 import numpy as np
-from gymnasium.utils.env_checker import check_env
-
 import racebeam
+from gymnasium.utils.env_checker import check_env
 from racebeam import images
 
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
@@ -59,10 +58,12 @@ class Registration(unittest.TestCase):
             self.assertRaises(ValueError, gym.wrappers.AtariPreprocessing, gym.make("racebeam/Beamfall-v5"))
 
     def test_a_spawned_process_makes_an_id_that_names_the_module(self):
-        script = ("import gymnasium as gym, sys\n"
-                  "if __name__ == '__main__':\n"
-                  "    envs = gym.make_vec('racebeam:racebeam/Beamfall-v5', 2, vectorization_mode='async', vector_kwargs={'context': 'spawn'})\n"
-                  "    print(envs.reset(seed=1)[0].shape); envs.close()\n")
+        script = (
+            "import gymnasium as gym, sys\n"
+            "if __name__ == '__main__':\n"
+            "    envs = gym.make_vec('racebeam:racebeam/Beamfall-v5', 2, vectorization_mode='async', vector_kwargs={'context': 'spawn'})\n"
+            "    print(envs.reset(seed=1)[0].shape); envs.close()\n"
+        )
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "spawn.py")
             file.write_text(script)
@@ -72,11 +73,13 @@ class Registration(unittest.TestCase):
     @unittest.skipUnless(importlib.util.find_spec("ale_py"), "there is no ale_py")
     def test_a_later_import_of_ale_py_does_not_take_the_ids_back(self):
         for ours in ("racebeam.register_ale_ids()", "import racebeam.ale_py"):
-            script = (f"import gymnasium as gym, racebeam\n{ours}\n"
-                      "import ale_py, inspect, sys\n"
-                      "for env_id in ('ALE/Pong-v5', 'PongNoFrameskip-v4'): print(gym.spec(env_id).entry_point)\n"
-                      "print(type(ale_py.__loader__) is type(ale_py.__spec__.loader), ale_py.ALEInterface.__module__)\n"
-                      "print('ALEState' in inspect.getsource(ale_py))")
+            script = (
+                f"import gymnasium as gym, racebeam\n{ours}\n"
+                "import ale_py, inspect, sys\n"
+                "for env_id in ('ALE/Pong-v5', 'PongNoFrameskip-v4'): print(gym.spec(env_id).entry_point)\n"
+                "print(type(ale_py.__loader__) is type(ale_py.__spec__.loader), ale_py.ALEInterface.__module__)\n"
+                "print('ALEState' in inspect.getsource(ale_py))"
+            )
             done = subprocess.run([sys.executable, "-W", "error", "-c", script], capture_output=True, text=True)
             self.assertEqual(done.stdout.split("\n")[:2], ["racebeam.ale_py.env:AtariEnv"] * 2, done.stderr)
             self.assertEqual(done.stdout.split("\n")[2:4], ["True ale_py._ale_py", "True"], done.stderr)
@@ -89,11 +92,13 @@ class Registration(unittest.TestCase):
                 check_env(env.unwrapped, skip_render_check=importlib.util.find_spec("pygame") is None)
 
     def test_the_ids_of_ale_come_when_they_are_asked_for(self):
-        script = ("import gymnasium as gym, racebeam\n"
-                  "before = {i for i, s in gym.registry.items() if str(s.entry_point).startswith('racebeam')}\n"
-                  "racebeam.register_ale_ids(); racebeam.register_ale_ids()\n"
-                  "ours = {i for i, s in gym.registry.items() if str(s.entry_point).startswith('racebeam')} - before\n"
-                  "print(len(before), len(ours), sorted(ours)[0], 'PongNoFrameskip-v4' in ours, 'ALE/Combat-v5' in ours)")
+        script = (
+            "import gymnasium as gym, racebeam\n"
+            "before = {i for i, s in gym.registry.items() if str(s.entry_point).startswith('racebeam')}\n"
+            "racebeam.register_ale_ids(); racebeam.register_ale_ids()\n"
+            "ours = {i for i, s in gym.registry.items() if str(s.entry_point).startswith('racebeam')} - before\n"
+            "print(len(before), len(ours), sorted(ours)[0], 'PongNoFrameskip-v4' in ours, 'ALE/Combat-v5' in ours)"
+        )
         done = subprocess.run([sys.executable, "-W", "error", "-c", script], capture_output=True, text=True, check=True)
         self.assertEqual(done.stdout.split(), ["220", "352", "ALE/Adventure-v5", "True", "False"])
         self.assertEqual(done.stderr, "")
@@ -135,13 +140,18 @@ class Playing(unittest.TestCase):
     def test_copies_go_on_where_the_game_is(self):
         played(self.env, self.actions[:30])
         self.env.action_space.seed(3)
-        copies = [copy.deepcopy(self.env), pickle.loads(pickle.dumps(self.env)), pickle.loads(pickle.dumps(gym.make(
-            "racebeam/Updraft-v5", frameskip=(2, 5))))]
+        copies = [
+            copy.deepcopy(self.env),
+            pickle.loads(pickle.dumps(self.env)),
+            pickle.loads(pickle.dumps(gym.make("racebeam/Updraft-v5", frameskip=(2, 5)))),
+        ]
         first = played(self.env, self.actions), self.env.action_space.sample()
         for env in copies[:2]:
             self.assertEqual((played(env, self.actions), env.action_space.sample()), first)
-        self.assertEqual(played(copies[0].reset(seed=11) and copies[0], self.actions),
-                         played(self.env.reset(seed=11) and self.env, self.actions))
+        self.assertEqual(
+            played(copies[0].reset(seed=11) and copies[0], self.actions),
+            played(self.env.reset(seed=11) and self.env, self.actions),
+        )
 
     def test_a_copy_draws_the_same_frameskips(self):
         env = racebeam.AtariEnv("updraft", frameskip=(2, 9))
@@ -195,9 +205,16 @@ class Playing(unittest.TestCase):
         def settings(**arguments):
             env = racebeam.AtariEnv("beamfall", **arguments)
             ale = env.ale
-            return (env._frameskip, ale.getFloat("repeat_action_probability"), env.action_space.n,
-                    ale.getInt("max_num_frames_per_episode"), ale.getBool("truncate_on_loss_of_life"), env._noop_max,
-                    env._reward_range)
+            return (
+                env._frameskip,
+                ale.getFloat("repeat_action_probability"),
+                env.action_space.n,
+                ale.getInt("max_num_frames_per_episode"),
+                ale.getBool("truncate_on_loss_of_life"),
+                env._noop_max,
+                env._reward_range,
+            )
+
         self.assertEqual(settings(), (4, 0.25, 18, 0, False, 0, None))
         self.assertEqual(settings(preset="paper2013"), (5, 0.0, 18, 18000, False, 0, None))
         self.assertEqual(settings(preset="dqn2015"), (4, 0.0, 18, 18000, True, 30, (-1, 1)))
@@ -210,11 +227,26 @@ class Playing(unittest.TestCase):
                 env = racebeam.AtariEnv("beamfall", preset=name)
                 low, high = env._reward_range or ("none", "none")
                 self.assertEqual(
-                    (told["frame_skip"], told["sticky"], told["max_episode_frames"], told["life_loss_ends"], told["noop_max"],
-                     told["reward_min"], told["reward_max"]),
-                    (env._frameskip, env.ale.getFloat("repeat_action_probability"),
-                     env.ale.getInt("max_num_frames_per_episode"), int(env.ale.getBool("truncate_on_loss_of_life")),
-                     env._noop_max, low, high), name)
+                    (
+                        told["frame_skip"],
+                        told["sticky"],
+                        told["max_episode_frames"],
+                        told["life_loss_ends"],
+                        told["noop_max"],
+                        told["reward_min"],
+                        told["reward_max"],
+                    ),
+                    (
+                        env._frameskip,
+                        env.ale.getFloat("repeat_action_probability"),
+                        env.ale.getInt("max_num_frames_per_episode"),
+                        int(env.ale.getBool("truncate_on_loss_of_life")),
+                        env._noop_max,
+                        low,
+                        high,
+                    ),
+                    name,
+                )
 
     def test_a_lost_life_ends_the_episode_of_dqn_and_rewards_are_clipped(self):
         env = racebeam.AtariEnv("beamfall", preset="dqn2015")
@@ -250,7 +282,9 @@ class Playing(unittest.TestCase):
         parts.reset(seed=2)
         seen = whole.step(1)
         reward = sum(parts.step(1)[1] for _ in range(5000))
-        self.assertEqual((seen[0].tobytes(), seen[1], seen[4]), (parts.ale.getScreenRGB().tobytes(), reward, parts._get_info()))
+        self.assertEqual(
+            (seen[0].tobytes(), seen[1], seen[4]), (parts.ale.getScreenRGB().tobytes(), reward, parts._get_info())
+        )
 
 
 class BadInput(unittest.TestCase):
@@ -263,7 +297,9 @@ class BadInput(unittest.TestCase):
         self.refused(racebeam.UnknownGame, "there is no game 'beamfal'; did you mean beamfall", make, "beamfal")
         self.refused(racebeam.UnknownGame, r"there is no game \[1\]", make, [1])
         self.refused(wrong, "obs_type is 'text'; it takes rgb, grayscale, ram", make, "beamfall", obs_type="text")
-        self.refused(wrong, "render_mode is 'ansi'; it takes None, human, rgb_array", make, "beamfall", render_mode="ansi")
+        self.refused(
+            wrong, "render_mode is 'ansi'; it takes None, human, rgb_array", make, "beamfall", render_mode="ansi"
+        )
         self.refused(wrong, "frameskip has the type float", make, "beamfall", frameskip=4.0)
         for frameskip in (0, -1, (0, 3), (3, 3), (4, 3), (1, 2, 3), ()):
             self.refused(wrong, "frameskip is", make, "beamfall", frameskip=frameskip)
@@ -274,24 +310,42 @@ class BadInput(unittest.TestCase):
         self.refused(racebeam.InvalidInput, "rules is 5; it takes ale-0.12 or fixed", make, "beamfall", rules=5)
         for probability in (2, -0.5, "x", float("nan"), [0.5]):
             self.refused(wrong, "repeat_action_probability is", make, "beamfall", repeat_action_probability=probability)
-        for name, values in (("mode", ("x", 1.0, -1, 2**40)), ("difficulty", ("x", -1)), ("max_num_frames_per_episode", (1.5, -5, 2**40)),
-                             ("noop_max", (1.5, -1, 10**12)), ("frameskip", (2**31, (1, 2**31), (1.0, 2), True)), ("server", (5, ["unix:x"])),
-                             ("continuous_action_threshold", ("x", float("nan"), None)), ("timeout", ("x", 0, -1, float("nan")))):
+        for name, values in (
+            ("mode", ("x", 1.0, -1, 2**40)),
+            ("difficulty", ("x", -1)),
+            ("max_num_frames_per_episode", (1.5, -5, 2**40)),
+            ("noop_max", (1.5, -1, 10**12)),
+            ("frameskip", (2**31, (1, 2**31), (1.0, 2), True)),
+            ("server", (5, ["unix:x"])),
+            ("continuous_action_threshold", ("x", float("nan"), None)),
+            ("timeout", ("x", 0, -1, float("nan"))),
+        ):
             for value in values:
                 self.refused(wrong, f"{name} (is|has)", make, "beamfall", **{name: value})
         for name in ("frameskip", "max_num_frames_per_episode", "noop_max"):
             make("beamfall", **{name: np.int64(4)}).reset(seed=1)
         make("beamfall", frameskip=(np.int64(2), 5), mode=np.int32(0), difficulty=np.int64(1)).reset(seed=1)
         self.refused(racebeam.InvalidInput, "beamfall has no mode for two", make, "beamfall", two_player=True)
-        for arguments, kind in (({"frameskip": 0}, ValueError), ({"frameskip": (3, 3)}, ValueError), ({"frameskip": "x"}, TypeError),
-                                ({"frameskip": (1.0, 2)}, TypeError), ({"reward_range": (2, 1)}, ValueError), ({"server": 3}, TypeError),
-                                ({"reward_range": (0, float("nan"))}, ValueError), ({"reward_range": (1,)}, ValueError),
-                                ({"reward_range": ("a", 1)}, TypeError), ({"reward_range": 5}, TypeError), ({"rom": 5}, TypeError),
-                                ({"two_player": True, "continuous": True}, ValueError)):
+        for arguments, kind in (
+            ({"frameskip": 0}, ValueError),
+            ({"frameskip": (3, 3)}, ValueError),
+            ({"frameskip": "x"}, TypeError),
+            ({"frameskip": (1.0, 2)}, TypeError),
+            ({"reward_range": (2, 1)}, ValueError),
+            ({"server": 3}, TypeError),
+            ({"reward_range": (0, float("nan"))}, ValueError),
+            ({"reward_range": (1,)}, ValueError),
+            ({"reward_range": ("a", 1)}, TypeError),
+            ({"reward_range": 5}, TypeError),
+            ({"rom": 5}, TypeError),
+            ({"two_player": True, "continuous": True}, ValueError),
+        ):
             for also in (wrong, kind):
                 self.refused(also, next(iter(arguments)), make, "beamfall", **arguments)
         for flag in ("two_player", "continuous", "sound", "sound_obs", "life_loss_ends", "full_action_space"):
-            self.refused(wrong, f"{flag} is array.*; it takes True or False", make, "beamfall", **{flag: np.ones(2, bool)})
+            self.refused(
+                wrong, f"{flag} is array.*; it takes True or False", make, "beamfall", **{flag: np.ones(2, bool)}
+            )
 
     def test_actions(self):
         env = racebeam.AtariEnv("beamfall")
@@ -317,8 +371,12 @@ class BadInput(unittest.TestCase):
         for rom in (5, [1], env):
             for call in (lambda rom: racebeam.AtariEnv("beamfall", rom=rom), env.ale.loadROM, env.ale.isSupportedROM):
                 self.refused(TypeError, "rom has the type .*; it takes a path, or the bytes of an image", call, rom)
-        for rom, sentence in ((b"", "it is empty"), (b"x" * 600000, "larger than the largest image"),
-                              ("/nowhere/x.bin", "there is no such file"), ("/dev/zero", "image /dev/zero")):
+        for rom, sentence in (
+            (b"", "it is empty"),
+            (b"x" * 600000, "larger than the largest image"),
+            ("/nowhere/x.bin", "there is no such file"),
+            ("/dev/zero", "image /dev/zero"),
+        ):
             self.refused(racebeam.InvalidInput, sentence, racebeam.AtariEnv, "beamfall", rom=rom)
 
     def test_seeds(self):
@@ -328,13 +386,20 @@ class BadInput(unittest.TestCase):
         self.assertEqual(len(env.reset(seed=2**100)[1]["seeds"]), 2)
 
     def test_a_missing_image_says_where_was_looked(self):
-        script = "import racebeam\ntry: racebeam.AtariEnv('pong')\nexcept FileNotFoundError as e: print(type(e).__name__, e)"
+        script = (
+            "import racebeam\ntry: racebeam.AtariEnv('pong')\nexcept FileNotFoundError as e: print(type(e).__name__, e)"
+        )
         with_path = dict(os.environ, RACEBEAM_ROMS="/nowhere", ALE_ROMS_DIR=str(HOMEBREW), PYTHONPATH="")
         blind = "import importlib.machinery as m; m.PathFinder.find_spec = classmethod(lambda *a, _f=m.PathFinder.find_spec: "
         blind += "None if a[1:2] == ('ale_py',) else _f(*a[1:]));"
-        done = subprocess.run([sys.executable, "-c", blind + script], env=with_path, capture_output=True, text=True, check=True)
-        self.assertIn("MissingImage no cartridge image of pong was found; racebeam searched RACEBEAM_ROMS, /nowhere (not a folder); "
-                      f"ALE_ROMS_DIR, {HOMEBREW} (no file has an MD5 of the game); an installed ale_py", done.stdout)
+        done = subprocess.run(
+            [sys.executable, "-c", blind + script], env=with_path, capture_output=True, text=True, check=True
+        )
+        self.assertIn(
+            "MissingImage no cartridge image of pong was found; racebeam searched RACEBEAM_ROMS, /nowhere (not a folder); "
+            f"ALE_ROMS_DIR, {HOMEBREW} (no file has an MD5 of the game); an installed ale_py",
+            done.stdout,
+        )
 
     def test_an_image_is_found_by_its_md5(self):
         if "pong" not in package.roms():
@@ -343,8 +408,13 @@ class BadInput(unittest.TestCase):
             pathlib.Path(folder, "something.a26").write_bytes(pathlib.Path(racebeam.find_image("pong")).read_bytes())
             pathlib.Path(folder, "pong.bin").write_bytes(b"no image of pong")
             script = "import racebeam; print(racebeam.find_image('pong'))"
-            done = subprocess.run([sys.executable, "-c", script], env=dict(os.environ, RACEBEAM_ROMS=folder),
-                                  capture_output=True, text=True, check=True)
+            done = subprocess.run(
+                [sys.executable, "-c", script],
+                env=dict(os.environ, RACEBEAM_ROMS=folder),
+                capture_output=True,
+                text=True,
+                check=True,
+            )
             self.assertEqual(done.stdout.strip(), str(pathlib.Path(folder, "something.a26")))
 
     def test_a_file_that_is_overwritten_is_identified_again(self):
@@ -360,14 +430,19 @@ class BadInput(unittest.TestCase):
                         self.assertEqual(racebeam.find_image(game), expected)
 
     def test_what_counts_as_an_image_is_in_the_document(self):
-        told = re.search(r"A file that ends in (.*?) is identified", (package.SOURCE / "docs/python.md").read_text().replace("\n", " "))[1]
+        told = re.search(
+            r"A file that ends in (.*?) is identified",
+            (package.SOURCE / "docs/python.md").read_text().replace("\n", " "),
+        )[1]
         self.assertEqual(told, "`.bin`, `.a26` or `.rom`, also with `.gz` after it,")
         with tempfile.TemporaryDirectory() as folder:
             names = ("a.bin", "b.a26", "c.rom", "d.bin.gz", "e.BIN", "f", "g.foo", "h.bin.bak", "i.zip", "sub/j.bin")
             pathlib.Path(folder, "sub").mkdir()
             for name in names:
                 pathlib.Path(folder, name).write_bytes(b"x")
-            self.assertEqual(racebeam._core.image_files(folder), [str(pathlib.Path(folder, name)) for name in names[:5]])
+            self.assertEqual(
+                racebeam._core.image_files(folder), [str(pathlib.Path(folder, name)) for name in names[:5]]
+            )
 
     def test_the_games_are_the_callers_own(self):
         racebeam.games().clear()
@@ -379,9 +454,20 @@ class BadInput(unittest.TestCase):
         env.close()
         env.close()
         ours = racebeam.AtariEnv("beamfall")
-        for call in (lambda: env.step(0), env.reset, env.render, env.clone_state, lambda: env.restore_state(ours.clone_state()),
-                     env.seed_game, env.load_game, lambda: env.ale.act(0), lambda: env.ale.getScreenRGB(), lambda: copy.copy(env),
-                     lambda: copy.deepcopy(env), lambda: pickle.dumps(env)):
+        for call in (
+            lambda: env.step(0),
+            env.reset,
+            env.render,
+            env.clone_state,
+            lambda: env.restore_state(ours.clone_state()),
+            env.seed_game,
+            env.load_game,
+            lambda: env.ale.act(0),
+            lambda: env.ale.getScreenRGB(),
+            lambda: copy.copy(env),
+            lambda: copy.deepcopy(env),
+            lambda: pickle.dumps(env),
+        ):
             self.refused(gym.error.ClosedEnvironmentError, "was closed", call)
         self.assertEqual(env.get_action_meanings(), ours.get_action_meanings())
 
@@ -389,9 +475,16 @@ class BadInput(unittest.TestCase):
         env = racebeam.AtariEnv("beamfall")
         env.reset(seed=1)
         whole = env.clone_state().serialize()
-        for data, sentence in ((b"nonsense", "are no state"), (b"", "of no game"), (whole[:-9], ""), (whole + b"x", "")):
+        for data, sentence in (
+            (b"nonsense", "are no state"),
+            (b"", "of no game"),
+            (whole[:-9], ""),
+            (whole + b"x", ""),
+        ):
             self.refused(racebeam.InvalidInput, sentence, lambda data=data: env.restore_state(racebeam.ALEState(data)))
-        self.refused(racebeam.InvalidInput, "the state is of", racebeam.AtariEnv("updraft").restore_state, env.clone_state())
+        self.refused(
+            racebeam.InvalidInput, "the state is of", racebeam.AtariEnv("updraft").restore_state, env.clone_state()
+        )
         self.assertEqual(env.clone_state().serialize(), whole)
 
 
@@ -401,50 +494,61 @@ class Window(unittest.TestCase):
 
     def check(self, script, *said, **variables):
         """What a script says at last."""
-        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env={**os.environ, **variables})
-        self.assertEqual((done.returncode, done.stdout.split()[-len(said):]), (0, [*said]), done.stderr)
+        done = subprocess.run(
+            [sys.executable, "-c", script], capture_output=True, text=True, env={**os.environ, **variables}
+        )
+        self.assertEqual((done.returncode, done.stdout.split()[-len(said) :]), (0, [*said]), done.stderr)
 
     def test_a_person_sees_each_frame(self):
-        script = ("import racebeam, time\n"
-                  "env = racebeam.AtariEnv('beamfall', render_mode='human')\n"
-                  "quiet = racebeam.AtariEnv('beamfall')\n"
-                  "assert (env.reset(seed=1)[0] == quiet.reset(seed=1)[0]).all() and env.render() is None\n"
-                  "begin = time.monotonic()\n"
-                  "for action in range(15):\n"
-                  "    a, b = env.step(action), quiet.step(action)\n"
-                  "    assert (a[0] == b[0]).all() and a[1:] == b[1:], (a[1:], b[1:])\n"
-                  "took = time.monotonic() - begin\n"
-                  "import pygame\n"
-                  "shown = pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
-                  "assert (shown == a[0]).all()\n"
-                  "env.close()\n"
-                  "print(0.8 < took)")
+        script = (
+            "import racebeam, time\n"
+            "env = racebeam.AtariEnv('beamfall', render_mode='human')\n"
+            "quiet = racebeam.AtariEnv('beamfall')\n"
+            "assert (env.reset(seed=1)[0] == quiet.reset(seed=1)[0]).all() and env.render() is None\n"
+            "begin = time.monotonic()\n"
+            "for action in range(15):\n"
+            "    a, b = env.step(action), quiet.step(action)\n"
+            "    assert (a[0] == b[0]).all() and a[1:] == b[1:], (a[1:], b[1:])\n"
+            "took = time.monotonic() - begin\n"
+            "import pygame\n"
+            "shown = pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
+            "assert (shown == a[0]).all()\n"
+            "env.close()\n"
+            "print(0.8 < took)"
+        )
         self.check(script, "True")
 
     def test_games_share_the_window_until_each_is_closed(self):
-        self.check("import copy, pygame, racebeam\n"
-                   "def shown(): return pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
-                   "games = [racebeam.AtariEnv(game, render_mode='human', sound=True) for game in ('beamfall', 'updraft')]\n"
-                   "games.append(copy.deepcopy(games[0]))\n"
-                   "for _ in range(2):\n"
-                   "    for game in games:\n"
-                   "        assert (game.reset(seed=1)[0] == shown()).all()\n"
-                   "        print(pygame.display.get_caption()[0])\n"
-                   "for game in games[:2]:\n"
-                   "    game.close()\n"
-                   "assert (games[2].step(1)[0] == shown()).all()\n"
-                   "games[2].close()\n"
-                   "assert not pygame.display.get_init() and not pygame.mixer.get_init()\n"
-                   "games = [racebeam.AtariEnv('beamfall', render_mode='human') for _ in range(2)]\n"
-                   "pygame.quit()  # as another's environment does\n"
-                   "games[0].reset(); del games[0], game; games[0].close()\n"
-                   "assert not pygame.display.get_init()\n",
-                   *("Beamfall", "Updraft", "Beamfall") * 2)
+        self.check(
+            "import copy, pygame, racebeam\n"
+            "def shown(): return pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
+            "games = [racebeam.AtariEnv(game, render_mode='human', sound=True) for game in ('beamfall', 'updraft')]\n"
+            "games.append(copy.deepcopy(games[0]))\n"
+            "for _ in range(2):\n"
+            "    for game in games:\n"
+            "        assert (game.reset(seed=1)[0] == shown()).all()\n"
+            "        print(pygame.display.get_caption()[0])\n"
+            "for game in games[:2]:\n"
+            "    game.close()\n"
+            "assert (games[2].step(1)[0] == shown()).all()\n"
+            "games[2].close()\n"
+            "assert not pygame.display.get_init() and not pygame.mixer.get_init()\n"
+            "games = [racebeam.AtariEnv('beamfall', render_mode='human') for _ in range(2)]\n"
+            "pygame.quit()  # as another's environment does\n"
+            "games[0].reset(); del games[0], game; games[0].close()\n"
+            "assert not pygame.display.get_init()\n",
+            *("Beamfall", "Updraft", "Beamfall") * 2,
+        )
 
     def test_without_a_display_a_sentence_says_so(self):
-        self.check("import racebeam\n"
-                   "try: racebeam.AtariEnv('beamfall', render_mode='human')\n"
-                   "except racebeam.InvalidInput as error: print('needs a display' in str(error))", "True", SDL_VIDEODRIVER="x11", DISPLAY="")
+        self.check(
+            "import racebeam\n"
+            "try: racebeam.AtariEnv('beamfall', render_mode='human')\n"
+            "except racebeam.InvalidInput as error: print('needs a display' in str(error))",
+            "True",
+            SDL_VIDEODRIVER="x11",
+            DISPLAY="",
+        )
 
 
 if __name__ == "__main__":

@@ -16,20 +16,23 @@ import ale_py
 import gymnasium
 from gymnasium.utils.env_match import check_environments_match
 
-import racebeam
-
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--steps", type=int, default=100, help="of each run (default 100)")
 parser.add_argument("--seeds", type=int, default=3, help="of each game (default 3)")
 parser.add_argument("--parts", type=int, default=52, help="of all runs, of which one is played (default 52)")
-parser.add_argument("--part", type=int, default=datetime.date.today().toordinal(), help="which one (default: by the day)")
+parser.add_argument(
+    "--part", type=int, default=datetime.date.today().toordinal(), help="which one (default: by the day)"
+)
 options = parser.parse_args()
 
 ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
 
 
 def check(name, obs_type, seed):
-    envs = [gymnasium.make(f"{namespace}/{name}-v5", obs_type=obs_type, disable_env_checker=True) for namespace in ("racebeam", "ALE")]
+    envs = [
+        gymnasium.make(f"{namespace}/{name}-v5", obs_type=obs_type, disable_env_checker=True)
+        for namespace in ("racebeam", "ALE")
+    ]
     assert all(env.unwrapped.ale.getFloat("repeat_action_probability") == 0.25 for env in envs)
     check_environments_match(*envs, options.steps, seed=seed, info_comparison="equivalence")
     for env in envs:
@@ -42,7 +45,9 @@ if set(names) - {spec.name for spec in gymnasium.registry.values() if spec.names
 if not package.roms():
     print("SKIPPED: there are no cartridge images")
     sys.exit(package.SKIPPED)
-runs = list(itertools.product(names, ("rgb", "grayscale", "ram"), range(options.seeds)))[options.part % options.parts::options.parts]
+runs = list(itertools.product(names, ("rgb", "grayscale", "ram"), range(options.seeds)))[
+    options.part % options.parts :: options.parts
+]
 failures = 0
 for run in runs:
     try:

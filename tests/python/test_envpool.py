@@ -16,15 +16,21 @@ package.require("numpy", "gymnasium")
 
 import gymnasium
 import numpy as np
-from gymnasium.error import Error
-
 import racebeam
+from gymnasium.error import Error
 from racebeam import InvalidInput, envpool
 
 PATIENCE = 60  # seconds until something counts as hanging
 HAS_VECTORS = hasattr(gymnasium.vector, "AutoresetMode")
-INFO = {"env_id": "int32", "players": None, "lives": "int32", "reward": "float32", "terminated": "int32", "ram": "uint8",
-        "elapsed_step": "int32"}
+INFO = {
+    "env_id": "int32",
+    "players": None,
+    "lives": "int32",
+    "reward": "float32",
+    "terminated": "int32",
+    "ram": "uint8",
+    "elapsed_step": "int32",
+}
 
 
 def make(env_type="gymnasium", **config):
@@ -55,8 +61,13 @@ class Gymnasium(unittest.TestCase):
         self.assertTrue(np.array_equal(seen[:, :3], seen[:, 9:]))
         whole = racebeam.AtariVectorEnv("beamfall", 3, grayscale=False, start="noops-fire", stack_start="repeats")
         expected = whole.reset(seed=42)[0]
-        self.assertTrue(all(np.array_equal(seen[:, 3 * frame + colour], expected[:, frame, :, :, colour])
-                            for frame in range(4) for colour in range(3)))
+        self.assertTrue(
+            all(
+                np.array_equal(seen[:, 3 * frame + colour], expected[:, frame, :, :, colour])
+                for frame in range(4)
+                for colour in range(3)
+            )
+        )
         self.assertEqual(grey.reset()[0].shape, (3, 4, 84, 84))
 
     def test_the_first_step_is_the_reset(self):
@@ -66,8 +77,15 @@ class Gymnasium(unittest.TestCase):
         self.assertEqual(info["elapsed_step"].tolist(), [0, 0, 0])
 
     def test_seeds(self):
-        first = [make(seed=seed).reset()[0] for seed in (42, 7, [42, 43, 44])] + [make(env_seed=[7, 8, 9]).reset()[0], make().reset()[0]]
-        self.assertTrue(np.array_equal(first[0], first[2]) and np.array_equal(first[0], first[4]) and np.array_equal(first[1], first[3]))
+        first = [make(seed=seed).reset()[0] for seed in (42, 7, [42, 43, 44])] + [
+            make(env_seed=[7, 8, 9]).reset()[0],
+            make().reset()[0],
+        ]
+        self.assertTrue(
+            np.array_equal(first[0], first[2])
+            and np.array_equal(first[0], first[4])
+            and np.array_equal(first[1], first[3])
+        )
         self.assertFalse(np.array_equal(first[0], first[1]))
         with self.assertWarns(UserWarning):
             make().reset(seed=3)
@@ -106,8 +124,11 @@ class Gymnasium(unittest.TestCase):
         self.assertEqual(envs.step(np.zeros(3, int))[4]["elapsed_step"].tolist(), [2, 2, 1])
 
     def test_a_reset_drops_what_was_not_received(self):
-        ends = {"reset": lambda envs: envs.reset(), "mask": lambda envs: envs.reset(options={"reset_mask": [True] * 4}),
-                "async_reset": lambda envs: (envs.async_reset(), envs.recv())[1]}
+        ends = {
+            "reset": lambda envs: envs.reset(),
+            "mask": lambda envs: envs.reset(options={"reset_mask": [True] * 4}),
+            "async_reset": lambda envs: (envs.async_reset(), envs.recv())[1],
+        }
         for config in ({}, {"batch_size": 2}):
             for name, end in ends.items():
                 with self.subTest(name=name, **config):
@@ -134,9 +155,13 @@ class Gymnasium(unittest.TestCase):
         for mask in ([True, False, True], np.array([1, 0, 2]), np.array([True, False, True])):
             self.assertEqual(envs.reset(options={"reset_mask": mask})[1]["env_id"].tolist(), [0, 2])
         self.assertEqual(envs.reset(options={"reset_mask": None})[1]["env_id"].tolist(), [0, 1, 2])
-        for options, env_id, sentence in (({"reset_mask": np.zeros(3, bool)}, None, "one environment or more"), ({"reset_mask": [True]}, None, "takes 3 values"),
-                                          ({"reset_mask": "abc"}, None, "takes 3 values"), ({"foo": 1}, None, "options has 'foo'; it takes only reset_mask"),
-                                          ({"reset_mask": [True] * 3}, np.array([1]), "env_id and reset_mask are given")):
+        for options, env_id, sentence in (
+            ({"reset_mask": np.zeros(3, bool)}, None, "one environment or more"),
+            ({"reset_mask": [True]}, None, "takes 3 values"),
+            ({"reset_mask": "abc"}, None, "takes 3 values"),
+            ({"foo": 1}, None, "options has 'foo'; it takes only reset_mask"),
+            ({"reset_mask": [True] * 3}, np.array([1]), "env_id and reset_mask are given"),
+        ):
             with self.subTest(options=options), self.assertRaisesRegex(ValueError, sentence):
                 envs.reset(env_id, options=options)
 
@@ -162,7 +187,9 @@ class Gymnasium(unittest.TestCase):
             one.reset()
         for _ in range(10):
             seen = envs.step(np.array([1, 3, 4]))[0]
-            expected, *_, info = others.step({"action": np.array([4, 1, 3], np.int32), "env_id": np.array([2, 0, 1], np.int32)})
+            expected, *_, info = others.step(
+                {"action": np.array([4, 1, 3], np.int32), "env_id": np.array([2, 0, 1], np.int32)}
+            )
             self.assertEqual(info["env_id"].tolist(), [2, 0, 1])  # results are in this order, too
             self.assertTrue(np.array_equal(seen[[2, 0, 1]], expected))
 
@@ -171,7 +198,9 @@ class Gymnasium(unittest.TestCase):
         for step in range(30):
             seen, *whole, info = envs.step(np.array([1, 3, 4]))
             for ids in ([1], [2, 0]):
-                part, *rest, told = others.step(np.array([[1, 3, 4][env] for env in ids], np.int32), np.array(ids, np.int32))
+                part, *rest, told = others.step(
+                    np.array([[1, 3, 4][env] for env in ids], np.int32), np.array(ids, np.int32)
+                )
                 self.assertTrue(np.array_equal(part, seen[ids]))
                 self.assertEqual([one.tolist() for one in rest], [one[ids].tolist() for one in whole])
                 self.assertEqual((told["env_id"].tolist(), told["players"]["env_id"].tolist()), (ids, ids))
@@ -212,14 +241,20 @@ class OldGymnasium(unittest.TestCase):
     """Gymnasium 0.29.1, which CleanRL pins, has no AutoresetMode."""
 
     def test_without_AutoresetMode_envpool_plays_and_AtariVectorEnv_says_what_it_needs(self):
-        script = ("import gymnasium.vector as v; vars(v).pop('AutoresetMode', None)\n"
-                  "import racebeam, racebeam.envpool as envpool\n"
-                  "for kind in ('gymnasium', 'gym', 'dm'):\n"
-                  "    envs = envpool.make('Beamfall-v5', env_type=kind, num_envs=2); envs.reset(); envs.step([0, 1]); envs.close(); envs.close()\n"
-                  "try: racebeam.AtariVectorEnv('beamfall', 2)\n"
-                  "except ImportError as error: print(error)")
+        script = (
+            "import gymnasium.vector as v; vars(v).pop('AutoresetMode', None)\n"
+            "import racebeam, racebeam.envpool as envpool\n"
+            "for kind in ('gymnasium', 'gym', 'dm'):\n"
+            "    envs = envpool.make('Beamfall-v5', env_type=kind, num_envs=2); envs.reset(); envs.step([0, 1]); envs.close(); envs.close()\n"
+            "try: racebeam.AtariVectorEnv('beamfall', 2)\n"
+            "except ImportError as error: print(error)"
+        )
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
-        self.assertRegex(done.stdout, "AtariVectorEnv needs Gymnasium 1.1 or later, and this is .*; install it with: pip install", done.stderr)
+        self.assertRegex(
+            done.stdout,
+            "AtariVectorEnv needs Gymnasium 1.1 or later, and this is .*; install it with: pip install",
+            done.stderr,
+        )
 
 
 class Others(unittest.TestCase):
@@ -235,7 +270,9 @@ class Others(unittest.TestCase):
     def test_spaces_are_those_of_gym_where_that_is_imported(self):
         self.assertIsInstance(make("gym").action_space, gymnasium.spaces.Discrete)
         box = unittest.mock.Mock(side_effect=lambda low, high, shape, dtype: ("box", low, high, shape, np.dtype(dtype)))
-        theirs = types.SimpleNamespace(spaces=types.SimpleNamespace(Box=box, Discrete=lambda count: ("discrete", int(count))))
+        theirs = types.SimpleNamespace(
+            spaces=types.SimpleNamespace(Box=box, Discrete=lambda count: ("discrete", int(count)))
+        )
         with unittest.mock.patch.dict(sys.modules, gym=theirs):
             envs = make("gym")
             self.assertEqual(envs.observation_space, ("box", 0, 255, (4, 84, 84), np.uint8))
@@ -248,9 +285,13 @@ class Others(unittest.TestCase):
         self.assertEqual([one.step_type.tolist() for one in shown], [[0] * 3, [1] * 3, [2] * 3, [0] * 3])
         self.assertEqual([one.discount.tolist() for one in shown], [[1] * 3, [1] * 3, [0] * 3, [1] * 3])
         self.assertEqual(shown[0].observation.obs.shape, (3, 4, 84, 84))
-        self.assertEqual([[one.first().tolist(), one.mid().tolist(), one.last().tolist()] for one in shown[:3]],
-                         [[[part == kind] * 3 for part in range(3)] for kind in range(3)])
-        self.assertEqual(shown[0].observation._fields, ("env_id", "players", "obs", "lives", "reward", "terminated", "ram"))
+        self.assertEqual(
+            [[one.first().tolist(), one.mid().tolist(), one.last().tolist()] for one in shown[:3]],
+            [[[part == kind] * 3 for part in range(3)] for kind in range(3)],
+        )
+        self.assertEqual(
+            shown[0].observation._fields, ("env_id", "players", "obs", "lives", "reward", "terminated", "ram")
+        )
 
     def test_actions_of_other_types(self):
         envs = make("dm")
@@ -265,8 +306,16 @@ class Others(unittest.TestCase):
             self.assertRaisesRegex(IndexError, "is out of range; there are 0 to 17", envs.step, actions)
 
     def test_a_fraction_of_an_action_is_cut_off(self):
-        for cut, whole in ((np.full(3, 1.9), 1), ([True] * 3, 1), (np.full(3, -0.5), 0), (np.full(3, 3.0, np.float32), 3)):
-            shown = [[envs.step(action)[4]["ram"] for _ in range(9)] for envs, action in ((make(), cut), (make(), np.full(3, whole)))]
+        for cut, whole in (
+            (np.full(3, 1.9), 1),
+            ([True] * 3, 1),
+            (np.full(3, -0.5), 0),
+            (np.full(3, 3.0, np.float32), 3),
+        ):
+            shown = [
+                [envs.step(action)[4]["ram"] for _ in range(9)]
+                for envs, action in ((make(), cut), (make(), np.full(3, whole)))
+            ]
             self.assertTrue(np.array_equal(*shown))
 
     def test_they_are_closed_at_the_end_of_a_block(self):
@@ -279,12 +328,20 @@ class Others(unittest.TestCase):
         for env_type in ("gymnasium", "gym"):
             envs = make(env_type, render_mode="rgb_array")
             self.assertIs(envs.unwrapped, envs)
-            self.assertEqual((envs.is_vector_env, envs.render_mode, envs.metadata["render_modes"]), (True, "rgb_array", ["rgb_array"]))
+            self.assertEqual(
+                (envs.is_vector_env, envs.render_mode, envs.metadata["render_modes"]),
+                (True, "rgb_array", ["rgb_array"]),
+            )
         self.assertEqual(envs.reward_range, (-float("inf"), float("inf")))
 
     def test_the_spec_says_what_a_reset_returns(self):
         self.assertIs(envpool.make_spec("Beamfall-v5").config.gym_reset_return_info, True)
-        for env_type, config, returns in (("gymnasium", {}, True), ("dm", {}, True), ("gym", {}, False), ("gym", {"gym_reset_return_info": True}, True)):
+        for env_type, config, returns in (
+            ("gymnasium", {}, True),
+            ("dm", {}, True),
+            ("gym", {}, False),
+            ("gym", {"gym_reset_return_info": True}, True),
+        ):
             self.assertIs(make(env_type, **config).spec.config.gym_reset_return_info, returns)
 
     def test_an_environment_is_one_of_gymnasium(self):
@@ -293,13 +350,25 @@ class Others(unittest.TestCase):
 
     def test_tasks(self):
         tasks = envpool.list_all_envs()
-        self.assertTrue({"Pong-v5", "SpaceInvaders-v5", "TicTacToe3d-v5", "Beamfall-v5"} <= set(tasks) and "Combat-v5" not in tasks)
+        self.assertTrue(
+            {"Pong-v5", "SpaceInvaders-v5", "TicTacToe3d-v5", "Beamfall-v5"} <= set(tasks) and "Combat-v5" not in tasks
+        )
 
     def test_bad_input(self):
-        for task, env_type, config in (("Pong-v4", "gym", {}), ("Combat-v5", "dm", {}), ("Beamfall-v5", "x", {}), ("Beamfall-v5", "gym", {"noops": 3}),
-                                       ("Beamfall-v5", "gym", {"max_num_players": 2}), ("Beamfall-v5", "gym", {"use_inter_area_resize": False}),
-                                       ("Beamfall-v5", "dm", {"seed": 2**31}), ("Beamfall-v5", "gym", {"seed": [1]}), ("Beamfall-v5", "gym", {"env_seed": "xyz"}),
-                                       ("Beamfall-v5", "dm", {"batch_size": 4}), ("Beamfall-v5", "gym", {"mode": "x"}), (3, "gym", {})):
+        for task, env_type, config in (
+            ("Pong-v4", "gym", {}),
+            ("Combat-v5", "dm", {}),
+            ("Beamfall-v5", "x", {}),
+            ("Beamfall-v5", "gym", {"noops": 3}),
+            ("Beamfall-v5", "gym", {"max_num_players": 2}),
+            ("Beamfall-v5", "gym", {"use_inter_area_resize": False}),
+            ("Beamfall-v5", "dm", {"seed": 2**31}),
+            ("Beamfall-v5", "gym", {"seed": [1]}),
+            ("Beamfall-v5", "gym", {"env_seed": "xyz"}),
+            ("Beamfall-v5", "dm", {"batch_size": 4}),
+            ("Beamfall-v5", "gym", {"mode": "x"}),
+            (3, "gym", {}),
+        ):
             with self.subTest(task=task, env_type=env_type, **config), self.assertRaises(InvalidInput) as raised:
                 envpool.make(task, env_type=env_type, **{"num_envs": 3, **config})
             for theirs in (AssertionError, TypeError, RuntimeError, ValueError):  # EnvPool raises one or the other
@@ -331,17 +400,19 @@ class Modules(unittest.TestCase):
     """What programs import from EnvPool."""
 
     def test_in_the_place_of_envpool(self):
-        script = ("import sys, racebeam.envpool\n"
-                  "sys.modules['envpool'] = racebeam.envpool\n"
-                  "import envpool, envpool.registration, envpool.atari.registration\n"
-                  "from envpool.atari import AtariDMEnvPool, AtariEnvSpec, AtariGymnasiumEnvPool\n"
-                  "from envpool.python import protocol\n"
-                  "for name in ('EnvSpec', 'EnvPool', 'DMEnvPool', 'GymnasiumEnvPool'):\n"
-                  "    assert getattr(protocol, name) is getattr(envpool, name) and name in envpool.__all__\n"
-                  "assert envpool.registration.make is envpool.make and AtariEnvSpec is envpool.EnvSpec\n"
-                  "assert len(envpool.atari.registration.atari_game_list) == 104 and envpool.__version__\n"
-                  "envs = AtariGymnasiumEnvPool(AtariEnvSpec(AtariEnvSpec.gen_config(task='beamfall', num_envs=2)))\n"
-                  "print(envs.reset()[0].shape)")
+        script = (
+            "import sys, racebeam.envpool\n"
+            "sys.modules['envpool'] = racebeam.envpool\n"
+            "import envpool, envpool.registration, envpool.atari.registration\n"
+            "from envpool.atari import AtariDMEnvPool, AtariEnvSpec, AtariGymnasiumEnvPool\n"
+            "from envpool.python import protocol\n"
+            "for name in ('EnvSpec', 'EnvPool', 'DMEnvPool', 'GymnasiumEnvPool'):\n"
+            "    assert getattr(protocol, name) is getattr(envpool, name) and name in envpool.__all__\n"
+            "assert envpool.registration.make is envpool.make and AtariEnvSpec is envpool.EnvSpec\n"
+            "assert len(envpool.atari.registration.atari_game_list) == 104 and envpool.__version__\n"
+            "envs = AtariGymnasiumEnvPool(AtariEnvSpec(AtariEnvSpec.gen_config(task='beamfall', num_envs=2)))\n"
+            "print(envs.reset()[0].shape)"
+        )
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout), (0, "(2, 4, 84, 84)\n"), done.stderr)
 
@@ -352,20 +423,34 @@ class Modules(unittest.TestCase):
         self.assertRaisesRegex(TypeError, "there is no setting 'foo'", envpool.EnvSpec.gen_config, foo=3)
         self.assertRaisesRegex(InvalidInput, "there are 2 values; there must be 26", envpool.EnvSpec, (1, 2))
         for task in ("nope", ["x"], ""):
-            self.assertRaisesRegex(racebeam.UnknownGame, "there is no task of a game", envpool.EnvSpec, envpool.EnvSpec.gen_config(task=task))
+            self.assertRaisesRegex(
+                racebeam.UnknownGame,
+                "there is no task of a game",
+                envpool.EnvSpec,
+                envpool.EnvSpec.gen_config(task=task),
+            )
         self.assertRaisesRegex(InvalidInput, "the spec is 3", envpool.GymnasiumEnvPool, 3)
 
     def test_the_raw_interface(self):
         from racebeam.envpool.atari.atari_envpool import _AtariEnvPool, _AtariEnvSpec
 
-        config = {**dict(zip(_AtariEnvSpec._config_keys, _AtariEnvSpec._default_config_values)), "task": b"beamfall", "num_envs": 3}
+        config = {
+            **dict(zip(_AtariEnvSpec._config_keys, _AtariEnvSpec._default_config_values)),
+            "task": b"beamfall",
+            "num_envs": 3,
+        }
         raw, envs = _AtariEnvPool(_AtariEnvSpec(tuple(config.values()))), make("dm")
         raw._reset(np.arange(3, dtype=np.int32))
         time_step = envs.reset()
         for step in range(20):
             state = dict(zip(raw._state_keys, raw._recv()))
-            for name, value in (("obs", time_step.observation.obs), ("step_type", time_step.step_type), ("reward", time_step.reward),
-                                ("info:ram", time_step.observation.ram), ("discount", time_step.discount)):
+            for name, value in (
+                ("obs", time_step.observation.obs),
+                ("step_type", time_step.step_type),
+                ("reward", time_step.reward),
+                ("info:ram", time_step.observation.ram),
+                ("discount", time_step.discount),
+            ):
                 self.assertTrue(np.array_equal(state[name], value), name)
             actions = np.array([step % 18, 1, 2])
             raw._send((state["info:env_id"], state["info:players.env_id"], actions))
@@ -386,8 +471,11 @@ class Compiled(unittest.TestCase):
         import jax
 
         for env_type in ("gymnasium", "gym", "dm"):
-            for config in ({"episodic_life": True, "frame_skip": 60, "reward_clip": True}, {"gray_scale": False, "img_height": 30, "max_episode_steps": 7},
-                           {"zero_discount_on_life_loss": True, "frame_skip": 60}):
+            for config in (
+                {"episodic_life": True, "frame_skip": 60, "reward_clip": True},
+                {"gray_scale": False, "img_height": 30, "max_episode_steps": 7},
+                {"zero_discount_on_life_loss": True, "frame_skip": 60},
+            ):
                 with self.subTest(env_type=env_type, **config):
                     envs, others = make(env_type, **config), make(env_type, **config)
                     handle, recv, send, step = envs.xla()
@@ -436,10 +524,15 @@ class Compiled(unittest.TestCase):
 
         envs = make()
         handle, recv, send, step = envs.xla()
-        self.assertRaisesRegex(InvalidInput, r"actions have the shape \(2,\); they must have \(3,\)", send, handle, np.ones(2, np.int32))
+        self.assertRaisesRegex(
+            InvalidInput, r"actions have the shape \(2,\); they must have \(3,\)", send, handle, np.ones(2, np.int32)
+        )
         self.assertRaises(TypeError, send, handle, np.ones(3))
-        for function, arguments, words in ((recv, (), "0 machines play, and a receive takes 3"), (step, (np.full(3, 99),), "out of range"),
-                                           (step, (np.ones(1, np.int32), np.array([7])), "there is no machine 7")):
+        for function, arguments, words in (
+            (recv, (), "0 machines play, and a receive takes 3"),
+            (step, (np.full(3, 99),), "out of range"),
+            (step, (np.ones(1, np.int32), np.array([7])), "there is no machine 7"),
+        ):
             with self.assertRaisesRegex(jax.errors.JaxRuntimeError, words):
                 jax.block_until_ready(function(handle, *arguments))
         envs.close()
@@ -449,11 +542,22 @@ class Compiled(unittest.TestCase):
 
 class Rendering(unittest.TestCase):
     def test_what_envpool_takes_for_it(self):
-        for arguments in ({"render_mode": "rgb_array"}, {"render_mode": None}, {"from_pixels": False}, {"render_camera_id": -1}):
+        for arguments in (
+            {"render_mode": "rgb_array"},
+            {"render_mode": None},
+            {"from_pixels": False},
+            {"render_camera_id": -1},
+        ):
             envs = make("gymnasium", **arguments)
             self.assertNotIn(*arguments, envs.config)
             self.assertEqual(envs.render().shape, (1, 210, 160, 3))
-        for arguments in ({"render_mode": "human"}, {"from_pixels": True}, {"render_width": 100}, {"render_height": 3}, {"render_camera_id": 4}):
+        for arguments in (
+            {"render_mode": "human"},
+            {"from_pixels": True},
+            {"render_width": 100},
+            {"render_height": 3},
+            {"render_camera_id": 4},
+        ):
             with self.subTest(**arguments), self.assertRaisesRegex(racebeam.InvalidInput, "racebeam has"):
                 make("gymnasium", **arguments)
 
@@ -466,7 +570,9 @@ class Rendering(unittest.TestCase):
 
     @unittest.skipUnless("air_raid" in package.roms(), "there is no image of air_raid")
     def test_the_upper_210_rows_of_higher_screens_are_seen(self):
-        envs = envpool.make_gymnasium("AirRaid-v5", gray_scale=False, stack_num=1, img_height=210, img_width=160, use_inter_area_resize=False)
+        envs = envpool.make_gymnasium(
+            "AirRaid-v5", gray_scale=False, stack_num=1, img_height=210, img_width=160, use_inter_area_resize=False
+        )
         seen = envs.reset()[0]
         self.assertEqual(envs.render().shape, (1, 210, 160, 3))
         self.assertTrue(np.array_equal(seen[0].transpose(1, 2, 0), envs.render()[0]))
@@ -504,13 +610,23 @@ class Found(unittest.TestCase):
     """By fuzz.py."""
 
     def test_counts_that_are_none(self):
-        for config in ({"num_envs": np.ones(210, np.uint8)}, {"num_envs": 0}, {"max_episode_steps": "2"}, {"frame_skip": [4]}):
+        for config in (
+            {"num_envs": np.ones(210, np.uint8)},
+            {"num_envs": 0},
+            {"max_episode_steps": "2"},
+            {"frame_skip": [4]},
+        ):
             with self.subTest(**config), self.assertRaises(gymnasium.error.Error):
                 make(**config)
 
     def test_arrays_for_single_values(self):
         many = np.ones(3)
-        for config in ({"episodic_life": many}, {"mode": many}, {"max_num_players": many}, {"use_inter_area_resize": many}):
+        for config in (
+            {"episodic_life": many},
+            {"mode": many},
+            {"max_num_players": many},
+            {"use_inter_area_resize": many},
+        ):
             with self.subTest(**config), self.assertRaises(envpool.InvalidSetting):
                 make(**config)
         envs = make()
@@ -529,7 +645,9 @@ class Found(unittest.TestCase):
         for env_id in ([[0], [0, 1, 2]], [99], [-1], [0.5], np.zeros((1, 3), int), "0"):
             with self.subTest(env_id=env_id):
                 self.assertRaisesRegex(InvalidInput, "env_id is .* takes whole numbers from 0 to 2", envs.reset, env_id)
-                self.assertRaisesRegex(InvalidInput, "env_id is .* takes whole numbers from 0 to 2", envs.step, np.zeros(3, int), env_id)
+                self.assertRaisesRegex(
+                    InvalidInput, "env_id is .* takes whole numbers from 0 to 2", envs.step, np.zeros(3, int), env_id
+                )
         self.assertRaisesRegex(InvalidInput, "options is .* takes a dictionary", envs.reset, options=np.ones(3))
         envs.step(np.zeros(3, int), env_id=np.array([2, 0, 1]))
 
@@ -544,28 +662,50 @@ class Spec(unittest.TestCase):
     """What make_spec() of EnvPool 1.2.5 shows of Pong-v5, but for the number of actions."""
 
     def test_spaces_and_settings(self):
-        for config, shape, actions in (({"num_envs": 4}, (4, 84, 84), 18), ({"gray_scale": False, "img_width": 50}, (12, 84, 50), 18)):
+        for config, shape, actions in (
+            ({"num_envs": 4}, (4, 84, 84), 18),
+            ({"gray_scale": False, "img_width": 50}, (12, 84, 50), 18),
+        ):
             spec = envpool.make_spec("Beamfall-v5", **config)
             self.assertEqual((spec.observation_space.shape, spec.gymnasium_observation_space.dtype), (shape, np.uint8))
-            self.assertEqual((spec.action_space.n, spec.gymnasium_action_space.n, spec.reward_threshold), (actions, actions, None))
+            self.assertEqual(
+                (spec.action_space.n, spec.gymnasium_action_space.n, spec.reward_threshold), (actions, actions, None)
+            )
             self.assertEqual((spec.config.num_envs, spec.config.batch_size), (config.get("num_envs", 1),) * 2)
-            self.assertEqual((spec.config.seed, spec.config.max_episode_steps, spec.config.task), (42, 27000, "beamfall"))
+            self.assertEqual(
+                (spec.config.seed, spec.config.max_episode_steps, spec.config.task), (42, 27000, "beamfall")
+            )
             self.assertTrue(repr(spec).startswith(f"AtariEnvSpec(num_envs={spec.config.num_envs}, "))
             envs = make(**config)
             self.assertEqual((envs.observation_space, envs.action_space), (spec.observation_space, spec.action_space))
             self.assertIn("Beamfall-v5", str(envs))  # Gymnasium takes it from the spec
-            self.assertEqual(envs.spec.config._replace(num_envs=1, batch_size=1), spec.config._replace(num_envs=1, batch_size=1))
+            self.assertEqual(
+                envs.spec.config._replace(num_envs=1, batch_size=1), spec.config._replace(num_envs=1, batch_size=1)
+            )
 
     def test_arrays(self):
         spec = envpool.make_spec("Beamfall-v5")
-        self.assertEqual({name: (array.shape, np.dtype(array.dtype).name, array.minimum, array.maximum) for name, array in spec.state_array_spec.items()}, {
-            "info:env_id": ([], "int32", -2**31, 2**31 - 1), "info:players.env_id": ([-1], "int32", -2**31, 2**31 - 1),
-            "elapsed_step": ([], "int32", -2**31, 2**31 - 1), "done": ([], "bool", False, True),
-            "reward": ([-1], "float32", np.finfo(np.float32).min, np.finfo(np.float32).max), "discount": ([-1], "float32", 0, 1),
-            "step_type": ([], "int32", -2**31, 2**31 - 1), "trunc": ([], "bool", False, True), "obs": ([4, 84, 84], "uint8", 0, 255),
-            "info:lives": ([-1], "int32", -2**31, 2**31 - 1),
-            "info:reward": ([-1], "float32", np.finfo(np.float32).min, np.finfo(np.float32).max),
-            "info:terminated": ([-1], "int32", 0, 1), "info:ram": ([128], "uint8", 0, 255)})
+        self.assertEqual(
+            {
+                name: (array.shape, np.dtype(array.dtype).name, array.minimum, array.maximum)
+                for name, array in spec.state_array_spec.items()
+            },
+            {
+                "info:env_id": ([], "int32", -(2**31), 2**31 - 1),
+                "info:players.env_id": ([-1], "int32", -(2**31), 2**31 - 1),
+                "elapsed_step": ([], "int32", -(2**31), 2**31 - 1),
+                "done": ([], "bool", False, True),
+                "reward": ([-1], "float32", np.finfo(np.float32).min, np.finfo(np.float32).max),
+                "discount": ([-1], "float32", 0, 1),
+                "step_type": ([], "int32", -(2**31), 2**31 - 1),
+                "trunc": ([], "bool", False, True),
+                "obs": ([4, 84, 84], "uint8", 0, 255),
+                "info:lives": ([-1], "int32", -(2**31), 2**31 - 1),
+                "info:reward": ([-1], "float32", np.finfo(np.float32).min, np.finfo(np.float32).max),
+                "info:terminated": ([-1], "int32", 0, 1),
+                "info:ram": ([128], "uint8", 0, 255),
+            },
+        )
         self.assertEqual(spec.action_array_spec["action"], (np.int32, [-1], 0, 17))
 
     def test_what_is_made_fits(self):
@@ -573,10 +713,17 @@ class Spec(unittest.TestCase):
         shown = envs.reset()
         names = {name.removeprefix("info:"): array for name, array in envs.spec.state_array_spec.items()}
         for name, array in names.items():
-            value = {"players.env_id": shown.observation.players.env_id, "step_type": shown.step_type, "discount": shown.discount}.get(
-                name, getattr(shown.observation, name, None))
+            value = {
+                "players.env_id": shown.observation.players.env_id,
+                "step_type": shown.step_type,
+                "discount": shown.discount,
+            }.get(name, getattr(shown.observation, name, None))
             if value is not None:
-                self.assertEqual((value.dtype, value.shape[1:]), (array.dtype, tuple(length for length in array.shape if length != -1)), name)
+                self.assertEqual(
+                    (value.dtype, value.shape[1:]),
+                    (array.dtype, tuple(length for length in array.shape if length != -1)),
+                    name,
+                )
 
     @unittest.skipUnless(package._is_there("dm_env"), "there is no dm_env")
     def test_specs_of_dm_env(self):

@@ -15,13 +15,14 @@ package.require("ale_py", "gymnasium", "numpy")
 
 import ale_py
 import numpy as np
-
 import racebeam
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--steps", type=int, default=40, help="of each run (default 40)")
 parser.add_argument("--runs", type=int, default=1, help="runs of each game (default 1)")
-parser.add_argument("--first", type=int, default=datetime.date.today().toordinal(), help="number of the first run (default: of the day)")
+parser.add_argument(
+    "--first", type=int, default=datetime.date.today().toordinal(), help="number of the first run (default: of the day)"
+)
 parser.add_argument("--defaults", action="store_true", help="in the default settings alone")
 parser.add_argument("--games", help="A,B: these alone")
 parser.add_argument("--parts", type=int, default=2, help="of all games, of which one is played, by --first (default 2)")
@@ -41,7 +42,13 @@ SETTINGS = (
 def parts(env, observation):
     ale = env.ale
     named = observation if isinstance(observation, dict) else {"observation": observation}
-    return {**named, "ram": ale.getRAM(), "grey": ale.getScreenGrayscale(), "rgb": ale.getScreenRGB(), "palette": ale.getScreen()}
+    return {
+        **named,
+        "ram": ale.getRAM(),
+        "grey": ale.getScreenGrayscale(),
+        "rgb": ale.getScreenRGB(),
+        "palette": ale.getScreen(),
+    }
 
 
 class Different(Exception):

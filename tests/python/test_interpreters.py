@@ -30,18 +30,23 @@ else:
     print(type(racebeam.ALEInterface()).__name__, flush=True)
 """
 
-REFUSED = ("refused: another interpreter of this process has imported racebeam, and its objects work in one interpreter only; "
-           "import it in the same interpreter, or in another process")
+REFUSED = (
+    "refused: another interpreter of this process has imported racebeam, and its objects work in one interpreter only; "
+    "import it in the same interpreter, or in another process"
+)
 
 
 class Interpreters(unittest.TestCase):
     def printed(self, program):
-        done = subprocess.run([sys.executable, "-W", "error", "-c", SECOND + program], capture_output=True, text=True, timeout=120)
+        done = subprocess.run(
+            [sys.executable, "-W", "error", "-c", SECOND + program], capture_output=True, text=True, timeout=120
+        )
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout.splitlines()
 
     def test_a_second_interpreter_is_refused_and_the_first_goes_on(self):
-        self.assertEqual(self.printed(f"""
+        self.assertEqual(
+            self.printed(f"""
 import racebeam
 in_second({IMPORT!r})
 in_second({IMPORT!r})
@@ -53,7 +58,9 @@ try:
     ale.loadROM("/nowhere")
 except RuntimeError as error:
     print(type(error).__name__)
-"""), [REFUSED, REFUSED, "1 (210, 160) 0 True", "InvalidInput"])
+"""),
+            [REFUSED, REFUSED, "1 (210, 160) 0 True", "InvalidInput"],
+        )
 
     @unittest.expectedFailure  # the import fails after a sub-interpreter's; the cause is not known yet
     def test_the_interpreter_that_is_first_has_it(self):

@@ -24,7 +24,9 @@ def needs(*modules):
 
 class Examples(unittest.TestCase):
     def refuse(self, example, *options):
-        done = subprocess.run([sys.executable, CLIENT / "examples" / example, "nogame", *options], capture_output=True, text=True)
+        done = subprocess.run(
+            [sys.executable, CLIENT / "examples" / example, "nogame", *options], capture_output=True, text=True
+        )
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr.splitlines()[-1], f"^{example}: there is no game 'nogame'")
         self.assertNotIn("Traceback", done.stderr)
@@ -34,7 +36,9 @@ class Examples(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             curve = pathlib.Path(folder, "curve.png")
             options = [str(curve) if option == "CURVE" else str(option) for option in options]
-            done = subprocess.run([sys.executable, CLIENT / example, *options], capture_output=True, text=True, cwd=folder)
+            done = subprocess.run(
+                [sys.executable, CLIENT / example, *options], capture_output=True, text=True, cwd=folder
+            )
             self.assertEqual(done.returncode, 0, done.stderr)
             if str(curve) in options:
                 self.assertEqual(curve.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
@@ -42,7 +46,9 @@ class Examples(unittest.TestCase):
 
     @needs("matplotlib")
     def test_sarsa(self):
-        said = self.run_example("sarsa.py", racebeam.program.path(), "--training", 3, "--frames", 3000, "--curve", "CURVE")
+        said = self.run_example(
+            "sarsa.py", racebeam.program.path(), "--training", 3, "--frames", 3000, "--curve", "CURVE"
+        )
         self.assertEqual(len(re.findall(r"training episode \d+: score \d+", said)), 3)
 
     @needs("jax", "optax", "matplotlib")
@@ -52,7 +58,9 @@ class Examples(unittest.TestCase):
 
     @needs("jax", "optax")
     def test_ppo_on_pixels(self):
-        said = self.run_example("examples/ppo.py", "--observe", "pixels", "--updates", 1, "--steps", 8, "--envs", 4, "--epochs", 1)
+        said = self.run_example(
+            "examples/ppo.py", "--observe", "pixels", "--updates", 1, "--steps", 8, "--envs", 4, "--epochs", 1
+        )
         self.assertRegex(said, r"\d+ steps a second")
         self.refuse("ppo.py")
 

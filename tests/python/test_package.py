@@ -20,7 +20,9 @@ FOLDER = pathlib.Path(racebeam.__file__).parent
 
 
 def python(script, *words, **environment):
-    return subprocess.run([sys.executable, *words, "-c", script], env={**os.environ, **environment}, capture_output=True, text=True)
+    return subprocess.run(
+        [sys.executable, *words, "-c", script], env={**os.environ, **environment}, capture_output=True, text=True
+    )
 
 
 def has(module):
@@ -29,25 +31,37 @@ def has(module):
 
 class Import(unittest.TestCase):
     def test_numpy_is_all_that_it_needs(self):
-        only_numpy = ("import importlib.machinery as m, sys\n"
-                      "find = m.PathFinder.find_spec\n"
-                      "hidden = ('gymnasium', 'pygame', 'ale_py', 'jax', 'torch', 'stable_baselines3', 'cv2')\n"
-                      "m.PathFinder.find_spec = classmethod(lambda c, name, *a: None if name in hidden else find(name, *a))\n"
-                      "import racebeam, racebeam.ale_py\n"
-                      "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); ale.act(1); print(ale.getScreenRGB().shape)\n"
-                      "for name in ('AtariEnv', 'AtariVectorEnv', 'register_ale_ids'):\n"
-                      "    try: getattr(racebeam, name)()\n"
-                      "    except ImportError as error: print(error)\n"
-                      "try: import racebeam.envpool\n"
-                      "except ImportError as error: print(error)")
+        only_numpy = (
+            "import importlib.machinery as m, sys\n"
+            "find = m.PathFinder.find_spec\n"
+            "hidden = ('gymnasium', 'pygame', 'ale_py', 'jax', 'torch', 'stable_baselines3', 'cv2')\n"
+            "m.PathFinder.find_spec = classmethod(lambda c, name, *a: None if name in hidden else find(name, *a))\n"
+            "import racebeam, racebeam.ale_py\n"
+            "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); ale.act(1); print(ale.getScreenRGB().shape)\n"
+            "for name in ('AtariEnv', 'AtariVectorEnv', 'register_ale_ids'):\n"
+            "    try: getattr(racebeam, name)()\n"
+            "    except ImportError as error: print(error)\n"
+            "try: import racebeam.envpool\n"
+            "except ImportError as error: print(error)"
+        )
         done = python(only_numpy)
-        self.assertEqual(done.stdout.splitlines(), ["(210, 160, 3)", *(
-            f'racebeam.{name} needs Gymnasium; install it with: pip install "racebeam[gymnasium]"'
-            for name in ("AtariEnv", "AtariVectorEnv", "register_ale_ids", "envpool"))], done.stderr)
+        self.assertEqual(
+            done.stdout.splitlines(),
+            [
+                "(210, 160, 3)",
+                *(
+                    f'racebeam.{name} needs Gymnasium; install it with: pip install "racebeam[gymnasium]"'
+                    for name in ("AtariEnv", "AtariVectorEnv", "register_ale_ids", "envpool")
+                ),
+            ],
+            done.stderr,
+        )
 
     def test_nothing_heavy_is_imported_before_it_is_used(self):
         heavy = "'pygame', 'ale_py', 'jax', 'torch', 'stable_baselines3', 'cv2'"
-        self.assertEqual(python(f"import racebeam, sys; print([m for m in ({heavy},) if m in sys.modules])").stdout, "[]\n")
+        self.assertEqual(
+            python(f"import racebeam, sys; print([m for m in ({heavy},) if m in sys.modules])").stdout, "[]\n"
+        )
 
     def test_the_metadata(self):
         described = importlib.metadata.metadata("racebeam")
@@ -63,7 +77,9 @@ class Import(unittest.TestCase):
 
 class Files(unittest.TestCase):
     def test_only_the_modules_entry_is_seen_by_others(self):
-        symbols = subprocess.run(["nm", "-D", "--defined-only", racebeam._core.__file__], capture_output=True, text=True, check=True)
+        symbols = subprocess.run(
+            ["nm", "-D", "--defined-only", racebeam._core.__file__], capture_output=True, text=True, check=True
+        )
         self.assertEqual({line.split()[2].split("@")[0] for line in symbols.stdout.splitlines()}, {"PyInit__core"})
 
     def test_what_is_linked_is_on_every_Linux(self):
@@ -71,36 +87,56 @@ class Files(unittest.TestCase):
         for file in (racebeam._core.__file__, program):
             linked = subprocess.run(["readelf", "-d", file], capture_output=True, text=True, check=True).stdout
             needed = set(re.findall(r"NEEDED.*\[(.*?)\]", linked))
-            self.assertLessEqual(needed, {"libc.so.6", "libm.so.6", "libz.so.1", "libgcc_s.so.1", "ld-linux-x86-64.so.2", "libpthread.so.0"})
+            self.assertLessEqual(
+                needed,
+                {"libc.so.6", "libm.so.6", "libz.so.1", "libgcc_s.so.1", "ld-linux-x86-64.so.2", "libpthread.so.0"},
+            )
 
     def test_it_runs_on_the_systems_that_the_document_names(self):
         told = re.search(r"`manylinux_2_(\d+)_x86_64`", (package.SOURCE / "docs/python.md").read_text())[1]
         program = pathlib.Path(sys.executable).parent / "racebeam"
         for file in (racebeam._core.__file__, program):
-            versions = subprocess.run(["readelf", "--version-info", file], capture_output=True, text=True, check=True).stdout
+            versions = subprocess.run(
+                ["readelf", "--version-info", file], capture_output=True, text=True, check=True
+            ).stdout
             self.assertLessEqual(max(map(int, re.findall(r"GLIBC_2\.(\d+)", versions))), int(told), file)
 
     def test_the_types_are_checked(self):
         self.assertTrue((FOLDER / "py.typed").exists() and (FOLDER / "_core.pyi").exists())
         if not has("mypy"):
             self.skipTest("there is no mypy")
-        for command in (["mypy", "--strict", "--cache-dir", str(package.VENV.parent / "mypy"), "-p", "racebeam"],
-                        ["mypy.stubtest", "racebeam._core", "--ignore-disjoint-bases", "--allowlist",
-                         str(package.SOURCE / "tests/python/stubtest_allowed")]):
-            done = subprocess.run([sys.executable, "-m", *command], capture_output=True, text=True, cwd=FOLDER.parent.parent)
+        for command in (
+            ["mypy", "--strict", "--cache-dir", str(package.VENV.parent / "mypy"), "-p", "racebeam"],
+            [
+                "mypy.stubtest",
+                "racebeam._core",
+                "--ignore-disjoint-bases",
+                "--allowlist",
+                str(package.SOURCE / "tests/python/stubtest_allowed"),
+            ],
+        ):
+            done = subprocess.run(
+                [sys.executable, "-m", *command], capture_output=True, text=True, cwd=FOLDER.parent.parent
+            )
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_types_help_those_who_call(self):
         if not has("mypy") or not has("gymnasium"):
             self.skipTest("there is no mypy, or no Gymnasium")
-        calls = ("import numpy as np, racebeam, racebeam.envpool\n"
-                 "envs = racebeam.AtariVectorEnv('beamfall', 2, seed=np.int64(3))\n"
-                 "envs.reset(seed=np.int64(4)), envs.reset(seed=[np.int64(4), None])\n"
-                 "reveal_type(envs.step([0, 1]))\n"
-                 "reveal_type(racebeam.envpool.make('Pong-v5', env_type='gymnasium'))\n"
-                 "reveal_type(racebeam.envpool.make('Pong-v5', 'dm').reset())\n")
-        done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(package.VENV.parent / "mypy"), "-c", calls],
-                              capture_output=True, text=True, cwd=FOLDER.parent.parent)
+        calls = (
+            "import numpy as np, racebeam, racebeam.envpool\n"
+            "envs = racebeam.AtariVectorEnv('beamfall', 2, seed=np.int64(3))\n"
+            "envs.reset(seed=np.int64(4)), envs.reset(seed=[np.int64(4), None])\n"
+            "reveal_type(envs.step([0, 1]))\n"
+            "reveal_type(racebeam.envpool.make('Pong-v5', env_type='gymnasium'))\n"
+            "reveal_type(racebeam.envpool.make('Pong-v5', 'dm').reset())\n"
+        )
+        done = subprocess.run(
+            [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(package.VENV.parent / "mypy"), "-c", calls],
+            capture_output=True,
+            text=True,
+            cwd=FOLDER.parent.parent,
+        )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         told = re.findall('Revealed type is "(.*)"', done.stdout)
         self.assertRegex(told[0], r"tuple\[.*ndarray\[.*signedinteger\[numpy._typing._nbit_base._32Bit\].*bool")
@@ -112,7 +148,9 @@ class Structure(unittest.TestCase):
         imports = {}
         for file in FOLDER.rglob("*.py"):
             if file.name != "__init__.py":  # these gather the names of their folders
-                imports[file] = {other for other in self.imported(file) if other.exists() and other.name != "__init__.py"}
+                imports[file] = {
+                    other for other in self.imported(file) if other.exists() and other.name != "__init__.py"
+                }
         while leaves := [file for file, others in imports.items() if not others & imports.keys()]:
             for file in leaves:
                 del imports[file]
@@ -139,9 +177,13 @@ class Program(unittest.TestCase):
             self.assertEqual(session.load("beamfall", seed=1)["game"], "beamfall")
 
     def test_where_there_is_none_a_sentence_says_so(self):
-        done = python("import racebeam.program as p\np._installed = lambda: None\n"
-                      "try: racebeam.launch()\nexcept FileNotFoundError as error: print(error)".replace("racebeam.launch", "p.path"),
-                      PATH="/nowhere")
+        done = python(
+            "import racebeam.program as p\np._installed = lambda: None\n"
+            "try: racebeam.launch()\nexcept FileNotFoundError as error: print(error)".replace(
+                "racebeam.launch", "p.path"
+            ),
+            PATH="/nowhere",
+        )
         self.assertIn("the program racebeam is neither beside this package nor on the PATH", done.stdout)
 
 
@@ -151,7 +193,11 @@ class Readme(unittest.TestCase):
             text = (package.SOURCE / document).read_text()
             for number, example in enumerate(re.findall(r"(?ms)^```python\n(.*?)^```", text)):
                 with self.subTest(document=document, example=number):
-                    needs = {module for module in ("gymnasium", "ale_py", "stable_baselines3", "jax") if re.search(rf"\b(import|from) {module}\b", example)}
+                    needs = {
+                        module
+                        for module in ("gymnasium", "ale_py", "stable_baselines3", "jax")
+                        if re.search(rf"\b(import|from) {module}\b", example)
+                    }
                     needs |= {"gymnasium"} if re.search(r"Atari\w*Env", example) else set()
                     if not all(map(has, needs)) or ("Pong" in example and "pong" not in package.roms()):
                         continue

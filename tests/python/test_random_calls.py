@@ -10,7 +10,6 @@ import package
 package.require("numpy")
 
 import numpy as np
-
 import racebeam
 from racebeam._core import View
 
@@ -22,12 +21,58 @@ options = parser.parse_args()
 
 DOCUMENTED = (TypeError, racebeam.InvalidInput)
 LONGEST = 1000  # frames of an act
-KEYS = ("random_seed", "reward_min", "reward_max", "paddle_min", "paddle_max", "sound_obs", "rules", "max_num_frames_per_episode",
-        "repeat_action_probability", "color_averaging", "truncate_on_loss_of_life")
-VALUES = [0, 1, -1, 2, 5, 17, 18, 99, 2**31 - 1, 2**31, 2**63, -2**70, 0.5, float("nan"), float("inf"), "FIRE", "", b"", b"xx", None,
-          True, (), [1], {}, np.int64(3), np.float32(0.5), "fixed", *KEYS, *racebeam.Action, *View, racebeam.ALEState(),
-          np.zeros(128, np.uint8), np.zeros(512, np.uint8), np.zeros((210, 160), np.uint8), np.zeros((210, 160, 3), np.uint8),
-          np.zeros((420, 160), np.uint8)[::2], np.zeros((210, 160), np.int32)]
+KEYS = (
+    "random_seed",
+    "reward_min",
+    "reward_max",
+    "paddle_min",
+    "paddle_max",
+    "sound_obs",
+    "rules",
+    "max_num_frames_per_episode",
+    "repeat_action_probability",
+    "color_averaging",
+    "truncate_on_loss_of_life",
+)
+VALUES = [
+    0,
+    1,
+    -1,
+    2,
+    5,
+    17,
+    18,
+    99,
+    2**31 - 1,
+    2**31,
+    2**63,
+    -(2**70),
+    0.5,
+    float("nan"),
+    float("inf"),
+    "FIRE",
+    "",
+    b"",
+    b"xx",
+    None,
+    True,
+    (),
+    [1],
+    {},
+    np.int64(3),
+    np.float32(0.5),
+    "fixed",
+    *KEYS,
+    *racebeam.Action,
+    *View,
+    racebeam.ALEState(),
+    np.zeros(128, np.uint8),
+    np.zeros(512, np.uint8),
+    np.zeros((210, 160), np.uint8),
+    np.zeros((210, 160, 3), np.uint8),
+    np.zeros((420, 160), np.uint8)[::2],
+    np.zeros((210, 160), np.int32),
+]
 
 chance = random.Random()
 METHODS = [name for name in dir(racebeam.ALEInterface) if not name.startswith("_") and name != "saveScreenPNG"]
@@ -66,7 +111,10 @@ def run():
             refused += 1
             continue
         if isinstance(value, racebeam.ALEState):
-            states = [*states[-8:], chance.choice([value, racebeam.ALEState(value.serialize()), pickle.loads(pickle.dumps(value))])]
+            states = [
+                *states[-8:],
+                chance.choice([value, racebeam.ALEState(value.serialize()), pickle.loads(pickle.dumps(value))]),
+            ]
         if call % 50 == 0:
             ale = pickle.loads(pickle.dumps(ale))
     return returned, refused

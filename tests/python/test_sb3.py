@@ -9,15 +9,14 @@ package.require("numpy", "gymnasium", "stable_baselines3")
 
 import gymnasium
 import numpy as np
+from racebeam import AtariVectorEnv
+from racebeam.sb3 import VecEnv
 from stable_baselines3 import PPO
 from stable_baselines3.common.env_util import make_atari_env
 from stable_baselines3.common.evaluation import evaluate_policy
 from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env import VecEnv as Base
 from stable_baselines3.common.vec_env import VecMonitor
-
-from racebeam import AtariVectorEnv
-from racebeam.sb3 import VecEnv
 
 
 class Interface(unittest.TestCase):
@@ -26,7 +25,9 @@ class Interface(unittest.TestCase):
 
     def test_it_shows_what_AtariVectorEnv_shows(self):
         self.assertIsInstance(self.envs, Base)
-        other = AtariVectorEnv("beamfall", 2, seed=1, frameskip=60, autoreset_mode="SameStep", start="baselines", lives="end")
+        other = AtariVectorEnv(
+            "beamfall", 2, seed=1, frameskip=60, autoreset_mode="SameStep", start="baselines", lives="end"
+        )
         self.assertTrue(np.array_equal(self.envs.reset(), other.reset()[0]))
         returns, episodes, ends = np.zeros(2), 0, 0
         frames_before = np.zeros(2)
@@ -59,14 +60,19 @@ class Interface(unittest.TestCase):
         class Fire:
             def predict(self, observations, state, **_):
                 return np.ones(len(observations), int), state
+
         mean, deviation = evaluate_policy(Fire(), self.envs, n_eval_episodes=4)
         self.assertGreater(mean, 0)
 
     @unittest.skipIf(importlib.util.find_spec("cv2") is None, "make_atari_env needs OpenCV")
     def test_it_plays_what_make_atari_env_plays(self):
         ours = VecEnv("beamfall", 1, noop_max=0, reward_clipping=False)
-        theirs = make_atari_env(lambda **more: gymnasium.make("racebeam/Beamfall-v5", frameskip=1, repeat_action_probability=0.0, **more), 1,
-                                seed=3, wrapper_kwargs={"noop_max": 0, "clip_reward": False})
+        theirs = make_atari_env(
+            lambda **more: gymnasium.make("racebeam/Beamfall-v5", frameskip=1, repeat_action_probability=0.0, **more),
+            1,
+            seed=3,
+            wrapper_kwargs={"noop_max": 0, "clip_reward": False},
+        )
         ours.seed(3)
         seen, expected, ended = ours.reset()[:, -1:], theirs.reset(), 0
         for step in range(800):
@@ -75,14 +81,22 @@ class Interface(unittest.TestCase):
             seen, rewards, done, infos = ours.step(action)
             expected, *told = theirs.step(action)
             seen = seen[:, -1:]
-            self.assertEqual((rewards.tolist(), done.tolist(), infos[0]["lives"]), (*(part.tolist() for part in told[:2]), told[2][0]["lives"]))
-            parts = [[info["episode"][key] for key in "rl"] if "episode" in info else None for info in (infos[0], told[2][0])]
+            self.assertEqual(
+                (rewards.tolist(), done.tolist(), infos[0]["lives"]),
+                (*(part.tolist() for part in told[:2]), told[2][0]["lives"]),
+            )
+            parts = [
+                [info["episode"][key] for key in "rl"] if "episode" in info else None for info in (infos[0], told[2][0])
+            ]
             self.assertEqual(parts[0], parts[1])
             ended += parts[0] is not None
         self.assertGreater(ended, 0)
 
     def test_each_game_that_ends_is_told(self):
-        for settings in ({"max_num_frames_per_episode": 8}, {"max_num_frames_per_episode": 40, "lives": "restart", "frameskip": 60}):
+        for settings in (
+            {"max_num_frames_per_episode": 8},
+            {"max_num_frames_per_episode": 40, "lives": "restart", "frameskip": 60},
+        ):
             envs = VecEnv("beamfall", 2, seed=1, **settings)
             envs.reset()
             ended = 0
@@ -94,8 +108,11 @@ class Interface(unittest.TestCase):
             self.assertGreater(ended, 20)
 
     def test_settings_that_are_not_those_of_a_VecEnv_are_refused(self):
-        for settings, sentence in (({"autoreset_mode": "NextStep"}, "autoreset_mode is 'NextStep'; VecEnv takes SameStep"),
-                                   ({"lives": "told"}, "VecEnv takes ignored, end, restart"), ({"batch_size": 1}, "batch_size is 1; VecEnv takes 0")):
+        for settings, sentence in (
+            ({"autoreset_mode": "NextStep"}, "autoreset_mode is 'NextStep'; VecEnv takes SameStep"),
+            ({"lives": "told"}, "VecEnv takes ignored, end, restart"),
+            ({"batch_size": 1}, "batch_size is 1; VecEnv takes 0"),
+        ):
             with self.subTest(**settings), self.assertRaisesRegex(ValueError, sentence):
                 VecEnv("beamfall", 2, **settings)
         VecEnv("beamfall", 2, autoreset_mode="SAME_STEP")
@@ -113,7 +130,9 @@ class Interface(unittest.TestCase):
         self.assertEqual(self.envs.get_attr("num_envs", 0), [2])
         self.assertEqual(len(self.envs.env_method("save")), 2)
         self.assertEqual(self.envs.get_images()[1].shape, (210, 160, 3))
-        self.assertEqual((self.envs.render_mode, "rgb_array" in self.envs.metadata["render_modes"]), ("rgb_array", True))
+        self.assertEqual(
+            (self.envs.render_mode, "rgb_array" in self.envs.metadata["render_modes"]), ("rgb_array", True)
+        )
         self.envs.close()
 
     def test_it_learns(self):

@@ -32,9 +32,11 @@ def loaded(**settings):
 def await_work(process):
     """Waits until a process, which does nothing else, has worked for a fifth of a second."""
     until = time.monotonic() + PATIENCE
+
     def ticks():
         fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
         return int(fields[11]) + int(fields[12])
+
     goal = ticks() + os.sysconf("SC_CLK_TCK") // 5
     while ticks() < goal and time.monotonic() < until:
         time.sleep(0.01)
@@ -43,8 +45,16 @@ def await_work(process):
 class Threads(unittest.TestCase):
     def test_two_threads_of_one_game_take_turns(self):
         ale, failures = loaded(), []
-        everything = (lambda: ale.act(1), ale.getScreenRGB, ale.getRAM, lambda: ale.cloneState(True).serialize(), ale.reset_game,
-                      lambda: ale.restoreState(ale.cloneState()), lambda: ale.loadROM("builtin:beamfall"), ale.getMinimalActionSet)
+        everything = (
+            lambda: ale.act(1),
+            ale.getScreenRGB,
+            ale.getRAM,
+            lambda: ale.cloneState(True).serialize(),
+            ale.reset_game,
+            lambda: ale.restoreState(ale.cloneState()),
+            lambda: ale.loadROM("builtin:beamfall"),
+            ale.getMinimalActionSet,
+        )
 
         def work(seed):
             try:
@@ -52,6 +62,7 @@ class Threads(unittest.TestCase):
                     everything[(step * 7 + seed) % len(everything)]()
             except Exception as error:
                 failures.append(error)
+
         threads = [threading.Thread(target=work, args=(seed,)) for seed in range(6)]
         for thread in threads:
             thread.start()
@@ -65,6 +76,7 @@ class Threads(unittest.TestCase):
         def play():
             ale.act(1)
             done.set()
+
         thread = threading.Thread(target=play)
         thread.start()
         while not done.is_set():
@@ -74,13 +86,15 @@ class Threads(unittest.TestCase):
         self.assertGreater(counted[0], 10)
 
     def test_Ctrl_C_ends_a_long_step(self):
-        script = ("import racebeam, signal\n"
-                  "signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it\n"
-                  "env = racebeam.AtariEnv('beamfall', frameskip=10**9)\n"
-                  "env.reset(seed=1); env.ale.setInt('max_num_frames_per_episode', 0)\n"
-                  "print('begins', flush=True)\n"
-                  "try: env.step(1)\n"
-                  "except KeyboardInterrupt: print('ended', env.ale.getFrameNumber() > 0)")
+        script = (
+            "import racebeam, signal\n"
+            "signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it\n"
+            "env = racebeam.AtariEnv('beamfall', frameskip=10**9)\n"
+            "env.reset(seed=1); env.ale.setInt('max_num_frames_per_episode', 0)\n"
+            "print('begins', flush=True)\n"
+            "try: env.step(1)\n"
+            "except KeyboardInterrupt: print('ended', env.ale.getFrameNumber() > 0)"
+        )
         process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
         self.assertEqual(process.stdout.readline(), "begins\n")
         await_work(process)
@@ -89,18 +103,24 @@ class Threads(unittest.TestCase):
 
     def test_Python_ends_while_threads_play(self):
         head = "import racebeam, threading, time\n"
-        makes = ["ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); play = lambda: ale.act(1)",
-                 "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); play = lambda: ale.step(1, 1.0, 10**9, racebeam._core.View.NONE)",
-                 "ale = racebeam.ALEInterface(); play = lambda: ale.loadROM('builtin:beamfall')",
-                 "play = lambda: racebeam.ALEInterface.isSupportedROM('builtin:beamfall')"]
+        makes = [
+            "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); play = lambda: ale.act(1)",
+            "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); play = lambda: ale.step(1, 1.0, 10**9, racebeam._core.View.NONE)",
+            "ale = racebeam.ALEInterface(); play = lambda: ale.loadROM('builtin:beamfall')",
+            "play = lambda: racebeam.ALEInterface.isSupportedROM('builtin:beamfall')",
+        ]
         if package._is_there("gymnasium"):
-            makes += ["envs = racebeam.AtariVectorEnv('beamfall', 8); play = lambda: envs.step([0] * 8)",
-                      "envs = racebeam.AtariVectorEnv('beamfall', 8, frameskip=1000); play = lambda: (envs.send([0] * 8), envs.recv())",
-                      "play = lambda: racebeam.AtariVectorEnv('beamfall', 3)"]
+            makes += [
+                "envs = racebeam.AtariVectorEnv('beamfall', 8); play = lambda: envs.step([0] * 8)",
+                "envs = racebeam.AtariVectorEnv('beamfall', 8, frameskip=1000); play = lambda: (envs.send([0] * 8), envs.recv())",
+                "play = lambda: racebeam.AtariVectorEnv('beamfall', 3)",
+            ]
         for make in makes:
             with self.subTest(make=make):
-                script = (f"{head}{make}\ndef forever():\n    while True:\n        try: play()\n        except Exception: pass\n"
-                          "for _ in range(3): threading.Thread(target=forever, daemon=True).start()\ntime.sleep(0.3)")
+                script = (
+                    f"{head}{make}\ndef forever():\n    while True:\n        try: play()\n        except Exception: pass\n"
+                    "for _ in range(3): threading.Thread(target=forever, daemon=True).start()\ntime.sleep(0.3)"
+                )
                 done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=PATIENCE)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
 
@@ -117,22 +137,27 @@ class Threads(unittest.TestCase):
         os.close(writer)
 
     def test_a_game_that_another_thread_used_at_the_fork_is_refused(self):
-        script = ("import os, racebeam, threading, time\n"
-                  "ale = racebeam.ALEInterface(); ale.setInt('frame_skip', 200_000_000); ale.loadROM('builtin:beamfall')\n"
-                  "thread = threading.Thread(target=ale.act, args=(1,)); thread.start()\n"
-                  "begin = time.process_time()\n"
-                  "while time.process_time() < begin + 0.05 and thread.is_alive(): time.sleep(0.001)\n"  # until it plays
-                  "child = os.fork()\n"
-                  "if child == 0:\n"
-                  "    try: ale.getRAM()\n"
-                  "    except RuntimeError as error: os._exit(7 if 'when the process forked' in str(error) else 8)\n"
-                  "    os._exit(9)\n"
-                  "print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])); thread.join()")
-        done = subprocess.run([sys.executable, "-W", "ignore", "-c", script], capture_output=True, text=True, timeout=PATIENCE)
+        script = (
+            "import os, racebeam, threading, time\n"
+            "ale = racebeam.ALEInterface(); ale.setInt('frame_skip', 200_000_000); ale.loadROM('builtin:beamfall')\n"
+            "thread = threading.Thread(target=ale.act, args=(1,)); thread.start()\n"
+            "begin = time.process_time()\n"
+            "while time.process_time() < begin + 0.05 and thread.is_alive(): time.sleep(0.001)\n"  # until it plays
+            "child = os.fork()\n"
+            "if child == 0:\n"
+            "    try: ale.getRAM()\n"
+            "    except RuntimeError as error: os._exit(7 if 'when the process forked' in str(error) else 8)\n"
+            "    os._exit(9)\n"
+            "print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])); thread.join()"
+        )
+        done = subprocess.run(
+            [sys.executable, "-W", "ignore", "-c", script], capture_output=True, text=True, timeout=PATIENCE
+        )
         self.assertEqual(done.stdout.strip(), "7", done.stderr)
 
     def test_a_pool_of_processes_takes_games_by_pickling(self):
         import multiprocessing
+
         for method in ("forkserver", "spawn"):
             with self.subTest(method=method), multiprocessing.get_context(method).Pool(1) as pool:
                 ale = loaded()
@@ -142,6 +167,7 @@ class Threads(unittest.TestCase):
 class Memory(unittest.TestCase):
     def test_arrays_are_given_back(self):
         import resource
+
         ale = loaded()
 
         def use(times):
@@ -149,6 +175,7 @@ class Memory(unittest.TestCase):
                 ale.getScreenRGB(), ale.getRAM(), ale.cloneState(), ale.step(0, 1.0, 1, racebeam._core.View.RGB)
             gc.collect()
             return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
         use(500)
         self.assertLess(use(5000) - use(0), 20000)  # 5,000 arrays have 500,000 KB
         before = use(0)

@@ -3,7 +3,6 @@
 import copy
 import dataclasses
 import inspect
-import os
 import pathlib
 import pickle
 import resource
@@ -20,16 +19,24 @@ package.require("numpy", "gymnasium")
 
 import gymnasium
 import numpy as np
+import racebeam
 from gymnasium.error import ClosedEnvironmentError, Error
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.wrappers.vector import DictInfoToList, RecordEpisodeStatistics
-
-import racebeam
 from racebeam import AtariVectorEnv, InvalidInput, ale_py
 from racebeam.vector_options import VectorOptions
 
 GYMNASIUM = tuple(map(int, gymnasium.__version__.split(".")[:3]))
-FLAGS = ("full_action_space", "continuous", "grayscale", "maxpool", "episodic_life", "life_loss_info", "reward_clipping", "use_fire_reset")
+FLAGS = (
+    "full_action_space",
+    "continuous",
+    "grayscale",
+    "maxpool",
+    "episodic_life",
+    "life_loss_info",
+    "reward_clipping",
+    "use_fire_reset",
+)
 SHORT = {"max_num_frames_per_episode": 12, "noop_max": 0}  # three steps an episode
 
 
@@ -41,8 +48,11 @@ def play(envs, steps, seed=0):
 
 def same(one, other):
     """Whether two lists of what was shown are equal, their infos included."""
-    return all(np.array_equal(a, b) for shown, expected in zip(one, other)
-               for a, b in zip([*shown[:-1], *shown[-1].values()], [*expected[:-1], *expected[-1].values()]))
+    return all(
+        np.array_equal(a, b)
+        for shown, expected in zip(one, other)
+        for a, b in zip([*shown[:-1], *shown[-1].values()], [*expected[:-1], *expected[-1].values()])
+    )
 
 
 class Seeds(unittest.TestCase):
@@ -68,8 +78,11 @@ class Seeds(unittest.TestCase):
         self.assertTrue(np.array_equal(seen, others.reset(seed=3)[0][info["env_id"]]))
 
     def test_a_seed_of_the_constructor_ends_with_the_first_call_that_plays(self):
-        for play_once in (lambda envs: envs.step([0, 0]), lambda envs: (envs.send([0, 0]), envs.recv()),
-                          lambda envs: envs.restore(0, envs.save(1))):
+        for play_once in (
+            lambda envs: envs.step([0, 0]),
+            lambda envs: (envs.send([0, 0]), envs.recv()),
+            lambda envs: envs.restore(0, envs.save(1)),
+        ):
             envs = AtariVectorEnv("beamfall", 2, seed=3)
             begin = envs.show()[1]["frame_number"]
             play_once(envs)
@@ -114,10 +127,16 @@ class Observations(unittest.TestCase):
                 envs.step(np.ones(2, int), out=wrong)
 
     def test_kinds(self):
-        for settings, shape in (({"obs_type": "grayscale"}, (4, 210, 160)), ({"obs_type": "rgb", "stack_num": 1}, (1, 210, 160, 3)),
-                                ({"obs_type": "ram"}, (128,)), ({"img_height": 20, "img_width": 31}, (4, 20, 31)),
-                                ({"img_height": 224, "img_width": 224}, (4, 224, 224)), ({"img_height": 420, "img_width": 320}, (4, 420, 320)),
-                                ({"grayscale": False}, (4, 84, 84, 3)), ({"img_height": 0, "img_width": 0}, (4, 210, 160))):
+        for settings, shape in (
+            ({"obs_type": "grayscale"}, (4, 210, 160)),
+            ({"obs_type": "rgb", "stack_num": 1}, (1, 210, 160, 3)),
+            ({"obs_type": "ram"}, (128,)),
+            ({"img_height": 20, "img_width": 31}, (4, 20, 31)),
+            ({"img_height": 224, "img_width": 224}, (4, 224, 224)),
+            ({"img_height": 420, "img_width": 320}, (4, 420, 320)),
+            ({"grayscale": False}, (4, 84, 84, 3)),
+            ({"img_height": 0, "img_width": 0}, (4, 210, 160)),
+        ):
             with self.subTest(**settings):
                 envs = AtariVectorEnv("beamfall", 2, **settings)
                 self.assertEqual(envs.reset(seed=1)[0].shape, (2, *shape))
@@ -125,7 +144,9 @@ class Observations(unittest.TestCase):
 
     def test_full_ones_are_those_of_AtariEnv(self):
         for kind in ("rgb", "grayscale", "ram"):
-            envs = AtariVectorEnv("beamfall", 1, obs_type=kind, noop_max=0, use_fire_reset=False, maxpool=False, stack_num=1)
+            envs = AtariVectorEnv(
+                "beamfall", 1, obs_type=kind, noop_max=0, use_fire_reset=False, maxpool=False, stack_num=1
+            )
             env = racebeam.AtariEnv("beamfall", obs_type=kind, repeat_action_probability=0.0)
             envs.reset(seed=3)
             env.ale.setInt("random_seed", 3)
@@ -162,8 +183,17 @@ class Episodes(unittest.TestCase):
             shown = play(envs, 5)
             kind = envs.metadata["autoreset_mode"]
             self.assertIsInstance(kind, AutoresetMode)
-            self.assertEqual([int(one[3][0]) for one in shown], [0, 0, 1, *{
-                AutoresetMode.NEXT_STEP: (0, 0), AutoresetMode.SAME_STEP: (0, 0), AutoresetMode.DISABLED: (1, 1)}[kind]])
+            self.assertEqual(
+                [int(one[3][0]) for one in shown],
+                [
+                    0,
+                    0,
+                    1,
+                    *{AutoresetMode.NEXT_STEP: (0, 0), AutoresetMode.SAME_STEP: (0, 0), AutoresetMode.DISABLED: (1, 1)}[
+                        kind
+                    ],
+                ],
+            )
             frames = [int(one[4]["episode_frame_number"][0]) for one in shown]
             self.assertEqual(frames[3] == frames[2], kind is AutoresetMode.DISABLED)
             self.assertEqual("final_obs" in shown[2][4], kind is AutoresetMode.SAME_STEP)
@@ -172,15 +202,21 @@ class Episodes(unittest.TestCase):
 
     def test_final_observations_are_those_of_the_episode_that_ended(self):
         for kind in (None, "ram"):
-            envs, others = (AtariVectorEnv("beamfall", 3, autoreset_mode=mode, obs_type=kind, noop_max=20,
-                                           max_num_frames_per_episode=40) for mode in ("SameStep", "Disabled"))
+            envs, others = (
+                AtariVectorEnv(
+                    "beamfall", 3, autoreset_mode=mode, obs_type=kind, noop_max=20, max_num_frames_per_episode=40
+                )
+                for mode in ("SameStep", "Disabled")
+            )
             envs.reset(seed=2)
             others.reset(seed=2)
             for (_, _, _, truncated, info), (seen, *_, expected) in zip(play(envs, 10), play(others, 10)):
                 self.assertEqual("final_obs" in info, truncated.any())
                 if not truncated.any():
                     continue
-                self.assertTrue(np.array_equal(info["_final_obs"], truncated) and np.array_equal(info["_final_info"], truncated))
+                self.assertTrue(
+                    np.array_equal(info["_final_obs"], truncated) and np.array_equal(info["_final_info"], truncated)
+                )
                 self.assertEqual(info["final_obs"].dtype, object)
                 for env in range(3):
                     if not truncated[env]:
@@ -218,8 +254,10 @@ class Episodes(unittest.TestCase):
             envs.reset(seed=1)
             shown = [envs.step([1]) for _ in range(40)]
             first = next(step for step, one in enumerate(shown) if one[2][0])
-            frames[lives] = [int(one[4]["lives"][0]) for one in shown[first:first + 2]]
-        self.assertEqual({lives: after for lives, (_, after) in frames.items()}, {"ignored": 4, "told": 3, "end": 3, "restart": 4})
+            frames[lives] = [int(one[4]["lives"][0]) for one in shown[first : first + 2]]
+        self.assertEqual(
+            {lives: after for lives, (_, after) in frames.items()}, {"ignored": 4, "told": 3, "end": 3, "restart": 4}
+        )
 
     def test_presets(self):
         envs = AtariVectorEnv("beamfall", 1, preset="paper2013")
@@ -245,7 +283,10 @@ class Episodes(unittest.TestCase):
 class States(unittest.TestCase):
     def test_an_image_is_given_as_bytes_of_any_kind(self):
         image = (package.SOURCE / "games/homebrew/beamfall.bin").read_bytes()
-        shown = [AtariVectorEnv("beamfall", 1, rom=rom).reset(seed=1)[0] for rom in (image, bytearray(image), memoryview(image))]
+        shown = [
+            AtariVectorEnv("beamfall", 1, rom=rom).reset(seed=1)[0]
+            for rom in (image, bytearray(image), memoryview(image))
+        ]
         self.assertTrue(np.array_equal(shown[0], shown[1]) and np.array_equal(shown[0], shown[2]))
         self.assertRaisesRegex(TypeError, "rom has the type int", AtariVectorEnv, "beamfall", 1, rom=3)
 
@@ -258,7 +299,11 @@ class States(unittest.TestCase):
         seen = envs.show()[0]
         self.assertTrue(np.array_equal(seen[1], before[1]) and np.array_equal(seen[0], first[-1][0][0]))
         second = play(envs, 20)
-        self.assertTrue(all(np.array_equal(one[0][1], other[0][1]) and one[1][1] == other[1][1] for one, other in zip(first, second)))
+        self.assertTrue(
+            all(
+                np.array_equal(one[0][1], other[0][1]) and one[1][1] == other[1][1] for one, other in zip(first, second)
+            )
+        )
         self.assertFalse(np.array_equal(first[-1][0][0], second[-1][0][0]))
 
     def test_a_state_goes_to_another_environment_but_not_to_another_game(self):
@@ -276,12 +321,17 @@ class States(unittest.TestCase):
         with self.assertRaises(TypeError):
             envs.restore(0, None)
 
-
     def test_later_episodes_are_the_same(self):
         for mode in ("NextStep", "SameStep", "Disabled"):
             for sticky in (0.0, 0.25):
-                envs = AtariVectorEnv("beamfall", 2, autoreset_mode=mode, repeat_action_probability=sticky, max_num_frames_per_episode=100,
-                                      seed=1)
+                envs = AtariVectorEnv(
+                    "beamfall",
+                    2,
+                    autoreset_mode=mode,
+                    repeat_action_probability=sticky,
+                    max_num_frames_per_episode=100,
+                    seed=1,
+                )
                 play(envs, 33)
                 states = [envs.save(env) for env in range(2)]
 
@@ -294,6 +344,7 @@ class States(unittest.TestCase):
                             observations, info = envs.reset(options={"reset_mask": ended})
                             shown.append((observations, info))
                     return shown
+
                 first = on()
                 for env in range(2):
                     envs.restore(env, states[env])
@@ -301,27 +352,44 @@ class States(unittest.TestCase):
                 with self.subTest(mode=mode, sticky=sticky):
                     lengths = {int(one[-1]["frame_number"][0]) for one in first}
                     self.assertGreater(len(lengths), 50)
-                    self.assertTrue(all(np.array_equal(a[0], b[0]) and np.array_equal(a[-1]["frame_number"], b[-1]["frame_number"])
-                                        for a, b in zip(first, second)))
+                    self.assertTrue(
+                        all(
+                            np.array_equal(a[0], b[0]) and np.array_equal(a[-1]["frame_number"], b[-1]["frame_number"])
+                            for a, b in zip(first, second)
+                        )
+                    )
 
     def test_a_state_of_other_screens_is_refused(self):
         envs = AtariVectorEnv("beamfall", 1, seed=1)
         before = play(envs, 5)[-1][0]
-        for settings, sentence in (({"stack_num": 2}, "a stack of 2 grey screens of 84 x 84; here, one has a stack of 4 grey screens"),
-                                   ({"img_height": 50}, "84 x 50"), ({"img_width": 42, "img_height": 168}, "42 x 168"),
-                                   ({"grayscale": False}, "4 colour screens"), ({"obs_type": "ram"}, "no stack of screens")):
+        for settings, sentence in (
+            ({"stack_num": 2}, "a stack of 2 grey screens of 84 x 84; here, one has a stack of 4 grey screens"),
+            ({"img_height": 50}, "84 x 50"),
+            ({"img_width": 42, "img_height": 168}, "42 x 168"),
+            ({"grayscale": False}, "4 colour screens"),
+            ({"obs_type": "ram"}, "no stack of screens"),
+        ):
             with self.subTest(**settings), self.assertRaisesRegex(InvalidInput, sentence):
                 envs.restore(0, AtariVectorEnv("beamfall", 1, seed=9, **settings).save(0))
         self.assertTrue(np.array_equal(envs.show()[0], before))
 
     def test_a_state_is_pickled_and_copied(self):
-        for settings in ({}, {"obs_type": "ram"}, {"lives": "end", "grayscale": False}, {"noop_max": 7, "rules": "fixed"}):
+        for settings in (
+            {},
+            {"obs_type": "ram"},
+            {"lives": "end", "grayscale": False},
+            {"noop_max": 7, "rules": "fixed"},
+        ):
             envs = AtariVectorEnv("beamfall", 1, seed=1, max_num_frames_per_episode=90, **settings)
             play(envs, 10)
             state = envs.save(0)
             expected = play(envs, 60)
             others = AtariVectorEnv("beamfall", 1, seed=2, max_num_frames_per_episode=90, **settings)
-            for copied in (pickle.loads(pickle.dumps(state)), copy.deepcopy(state), pickle.loads(pickle.dumps(copy.copy(state)))):
+            for copied in (
+                pickle.loads(pickle.dumps(state)),
+                copy.deepcopy(state),
+                pickle.loads(pickle.dumps(copy.copy(state))),
+            ):
                 others.restore(0, copied)
                 with self.subTest(**settings):
                     self.assertTrue(same(play(others, 60), expected))
@@ -338,8 +406,16 @@ class States(unittest.TestCase):
             copied = kind.__new__(kind)
             copied.__setstate__(data)
             envs.restore(0, copied)
+
         restored(state)
-        for wrong in (b"", b"x" * 100, state[:-1], state + b"x", state[:500] + b"\0\1\2" + state[503:], state[:8] + b"\7" + state[9:]):
+        for wrong in (
+            b"",
+            b"x" * 100,
+            state[:-1],
+            state + b"x",
+            state[:500] + b"\0\1\2" + state[503:],
+            state[:8] + b"\7" + state[9:],
+        ):
             with self.assertRaises(InvalidInput):
                 restored(wrong)
         with self.assertRaises(TypeError):
@@ -350,7 +426,9 @@ class States(unittest.TestCase):
     def test_environments_say_how_they_are_carried(self):
         envs = AtariVectorEnv("beamfall", 1)
         for carry in (pickle.dumps, copy.copy, copy.deepcopy):
-            with self.assertRaisesRegex(TypeError, "AtariVectorEnv cannot be pickled or copied, because it owns threads"):
+            with self.assertRaisesRegex(
+                TypeError, "AtariVectorEnv cannot be pickled or copied, because it owns threads"
+            ):
                 carry(envs)
 
 
@@ -369,6 +447,7 @@ class Halves(unittest.TestCase):
                 if steps[env] <= 20:
                     self.assertTrue(np.array_equal(seen, expected[env][steps[env]]))
                 steps[env] += 1
+
         observations, info = envs.reset(seed=1)
         self.assertEqual(envs.action_space.shape, (2,))
         while min(steps) <= 20:
@@ -399,7 +478,10 @@ class Halves(unittest.TestCase):
 
     def test_a_reset_drops_what_was_not_received(self):
         for settings in ({"batch_size": 2}, {}, {"autoreset_mode": "SameStep", **SHORT}):
-            envs, others = AtariVectorEnv("beamfall", 4, **settings), AtariVectorEnv("beamfall", 4, **{**settings, "batch_size": 0})
+            envs, others = (
+                AtariVectorEnv("beamfall", 4, **settings),
+                AtariVectorEnv("beamfall", 4, **{**settings, "batch_size": 0}),
+            )
             for seed in (1, 2):
                 (seen, info), (expected, _) = envs.reset(seed=seed), others.reset(seed=seed)
                 with self.subTest(seed=seed, **settings):
@@ -423,7 +505,9 @@ class Attributes(unittest.TestCase):
         single = racebeam.AtariEnv("beamfall")
         self.assertEqual(AtariVectorEnv("beamfall", 2).get_action_meanings(), single.get_action_meanings())
         for env in (2, -1):
-            self.assertRaisesRegex(IndexError, f"there is no environment {env}; there are 0 to 1", envs.get_action_meanings, env)
+            self.assertRaisesRegex(
+                IndexError, f"there is no environment {env}; there are 0 to 1", envs.get_action_meanings, env
+            )
 
     def test_attributes_and_calls(self):
         envs = AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)
@@ -435,10 +519,14 @@ class Attributes(unittest.TestCase):
 
     def test_the_text_names_the_game(self):
         self.assertEqual(repr(AtariVectorEnv("beamfall", 2)), "AtariVectorEnv(game='beamfall', num_envs=2)")
-        self.assertEqual(repr(AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)),
-                         "AtariVectorEnv(game=['beamfall', 'updraft'], num_envs=2)")
-        self.assertEqual(repr(racebeam.AtariEnv("beamfall", frameskip=(2, 5))),
-                         "AtariEnv(game='beamfall', obs_type='rgb', frameskip=(2, 5))")
+        self.assertEqual(
+            repr(AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)),
+            "AtariVectorEnv(game=['beamfall', 'updraft'], num_envs=2)",
+        )
+        self.assertEqual(
+            repr(racebeam.AtariEnv("beamfall", frameskip=(2, 5))),
+            "AtariEnv(game='beamfall', obs_type='rgb', frameskip=(2, 5))",
+        )
         self.assertEqual(str(racebeam.AtariEnv("beamfall")), "<AtariEnv<beamfall>>")
         self.assertEqual(str(gymnasium.make("racebeam/Beamfall-v5").unwrapped), "<AtariEnv<racebeam/Beamfall-v5>>")
 
@@ -446,7 +534,9 @@ class Attributes(unittest.TestCase):
 class Options(unittest.TestCase):
     def test_they_are_checked_and_cannot_be_changed(self):
         options = VectorOptions(num_envs=np.int64(4), autoreset_mode="SAME_STEP", seed=np.int64(3))
-        self.assertEqual((type(options.num_envs), options.batch_size, options.autoreset_mode), (int, 4, AutoresetMode.SAME_STEP))
+        self.assertEqual(
+            (type(options.num_envs), options.batch_size, options.autoreset_mode), (int, 4, AutoresetMode.SAME_STEP)
+        )
         with self.assertRaises(dataclasses.FrozenInstanceError):
             options.seed = 4
         self.assertRaisesRegex(Error, "batch_size is 5; it takes 0 to 4", dataclasses.replace, options, batch_size=5)
@@ -456,8 +546,12 @@ class Options(unittest.TestCase):
         self.assertEqual({field.name for field in dataclasses.fields(VectorOptions)} - taken, {"rows"})
 
     def test_the_core_has_what_they_say(self):
-        core = VectorOptions(obs_type="ram", lives="end", max_num_frames_per_episode=7, reward_clipping=False).core_settings()
-        self.assertEqual((core.stack, core.lives.name, core.max_episode_frames, core.reward_max), (0, "END", 7, 2**31 - 1))
+        core = VectorOptions(
+            obs_type="ram", lives="end", max_num_frames_per_episode=7, reward_clipping=False
+        ).core_settings()
+        self.assertEqual(
+            (core.stack, core.lives.name, core.max_episode_frames, core.reward_max), (0, "END", 7, 2**31 - 1)
+        )
 
 
 class Gymnasium(unittest.TestCase):
@@ -487,17 +581,39 @@ class Gymnasium(unittest.TestCase):
 class BadInput(unittest.TestCase):
     def test_arguments(self):
         for name, values in {
-            "num_envs": (0, -1, 2.5, "2", 10**9), "batch_size": (-1, 3), "num_threads": (-1, None), "frameskip": (0, 1001, 2.5, (2, 5)),
-            "img_width": (-1, "84"), "stack_num": (0, 17), "noop_max": (-1, 1001), "repeat_action_probability": (-0.1, 1.1, float("nan"), "x"),
-            "autoreset_mode": ("Never", None, 3), "lives": ("hurts",), "start": ("ale",), "stack_start": ("x",), "obs_type": ("sound",),
-            "rules": ("x",), "render_mode": ("human",), "seed": (-1, 2**32, "x"), "mode": (-1, "x"), "thread_affinity_offset": (-2,),
-            "max_num_frames_per_episode": (-1, 2**31), **{flag: (np.ones(2, bool), np.zeros((2, 3))) for flag in FLAGS},
+            "num_envs": (0, -1, 2.5, "2", 10**9),
+            "batch_size": (-1, 3),
+            "num_threads": (-1, None),
+            "frameskip": (0, 1001, 2.5, (2, 5)),
+            "img_width": (-1, "84"),
+            "stack_num": (0, 17),
+            "noop_max": (-1, 1001),
+            "repeat_action_probability": (-0.1, 1.1, float("nan"), "x"),
+            "autoreset_mode": ("Never", None, 3),
+            "lives": ("hurts",),
+            "start": ("ale",),
+            "stack_start": ("x",),
+            "obs_type": ("sound",),
+            "rules": ("x",),
+            "render_mode": ("human",),
+            "seed": (-1, 2**32, "x"),
+            "mode": (-1, "x"),
+            "thread_affinity_offset": (-2,),
+            "max_num_frames_per_episode": (-1, 2**31),
+            **{flag: (np.ones(2, bool), np.zeros((2, 3))) for flag in FLAGS},
         }.items():
             for value in values:
                 with self.subTest(**{name: value}), self.assertRaisesRegex(Error, name):
                     AtariVectorEnv("beamfall", **{"num_envs": 2, name: value})
-        for arguments in ({"img_width": 321}, {"img_height": 421}, {"img_height": 5}, {"mode": 99}, {"difficulty": 9}, {"rom": b"x" * 6},
-                          {"rom": "/nowhere.bin"}):
+        for arguments in (
+            {"img_width": 321},
+            {"img_height": 421},
+            {"img_height": 5},
+            {"mode": 99},
+            {"difficulty": 9},
+            {"rom": b"x" * 6},
+            {"rom": "/nowhere.bin"},
+        ):
             with self.subTest(**arguments), self.assertRaises(InvalidInput):
                 AtariVectorEnv("beamfall", 2, **arguments)
         with self.assertRaises(racebeam.UnknownGame):
@@ -506,11 +622,13 @@ class BadInput(unittest.TestCase):
     def test_arguments_that_are_wrong_together(self):
         two = ["beamfall", "updraft"]
         for game, arguments, error, sentence in (
-                (["beamfall"], {"num_envs": 3}, ValueError, "game has 1 names, but num_envs is 3"),
-                ("beamfall", {"lives": "end", "episodic_life": True}, ValueError, "episodic_life is True"),
-                (two, {"rom": b"", "full_action_space": True}, ValueError, "rom and server take one"),
-                (["beamfall", ["x"]], {}, TypeError, r"game has \['x'\] in its list; it takes names of games"),
-                (b"beamfall", {}, TypeError, "game has 98 in its list"), (3, {}, TypeError, "game is 3")):
+            (["beamfall"], {"num_envs": 3}, ValueError, "game has 1 names, but num_envs is 3"),
+            ("beamfall", {"lives": "end", "episodic_life": True}, ValueError, "episodic_life is True"),
+            (two, {"rom": b"", "full_action_space": True}, ValueError, "rom and server take one"),
+            (["beamfall", ["x"]], {}, TypeError, r"game has \['x'\] in its list; it takes names of games"),
+            (b"beamfall", {}, TypeError, "game has 98 in its list"),
+            (3, {}, TypeError, "game is 3"),
+        ):
             with self.subTest(sentence=sentence), self.assertRaisesRegex(error, sentence) as raised:
                 AtariVectorEnv(game, **arguments)
             self.assertIsInstance(raised.exception, Error)
@@ -522,15 +640,17 @@ class BadInput(unittest.TestCase):
 
     def test_memory_that_runs_out(self):
         """Where more than the machines take it: thousands of them fail."""
-        script = ("import pathlib, racebeam, resource\n"
-                  "few = racebeam.AtariVectorEnv('beamfall', 2, num_threads=2)\n"
-                  "used = int(pathlib.Path('/proc/self/statm').read_text().split()[0]) * resource.getpagesize()\n"
-                  "resource.setrlimit(resource.RLIMIT_AS, (used + (1000 << 20), -1))\n"
-                  "try: racebeam.AtariVectorEnv('beamfall', 4000, img_height=210, img_width=160, stack_num=16, grayscale=False)\n"
-                  "except MemoryError: print('refused')\n"
-                  "try: racebeam.AtariVectorEnv('beamfall', 50_000)\n"
-                  "except racebeam.InvalidInput as error: print('this process may use' in str(error))\n"
-                  "few.step([0, 0]); print('on')")
+        script = (
+            "import pathlib, racebeam, resource\n"
+            "few = racebeam.AtariVectorEnv('beamfall', 2, num_threads=2)\n"
+            "used = int(pathlib.Path('/proc/self/statm').read_text().split()[0]) * resource.getpagesize()\n"
+            "resource.setrlimit(resource.RLIMIT_AS, (used + (1000 << 20), -1))\n"
+            "try: racebeam.AtariVectorEnv('beamfall', 4000, img_height=210, img_width=160, stack_num=16, grayscale=False)\n"
+            "except MemoryError: print('refused')\n"
+            "try: racebeam.AtariVectorEnv('beamfall', 50_000)\n"
+            "except racebeam.InvalidInput as error: print('this process may use' in str(error))\n"
+            "few.step([0, 0]); print('on')"
+        )
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=Threads.PATIENCE)
         self.assertEqual(done.stdout.split(), ["refused", "True", "on"], done.stderr)
 
@@ -542,11 +662,37 @@ class BadInput(unittest.TestCase):
 
     def test_actions(self):
         envs, sticks = AtariVectorEnv("beamfall", 2, seed=1), AtariVectorEnv("beamfall", 2, continuous=True)
-        for one, cases in ((envs, (([0, 99], IndexError), ([-1, 0], IndexError), ([0, 2**40], IndexError), (np.array([0, 2**64 - 1], np.uint64), IndexError),
-                                   ([0], InvalidInput), ([[0, 0]], InvalidInput), ([[0], [0, 1]], InvalidInput), (0, InvalidInput),
-                                   ([0.5, 1], TypeError), (None, TypeError), (["a", "b"], TypeError), ([True, False], TypeError))),
-                           (sticks, (([[0, 0, 0]], InvalidInput), ([[0, 0]] * 2, InvalidInput), ([0, 0], InvalidInput),
-                                     ([[float("nan"), 0, 0]] * 2, InvalidInput), ([[float("inf"), 0, 0]] * 2, InvalidInput), (None, TypeError), ([["a", "b", "c"]] * 2, TypeError)))):
+        for one, cases in (
+            (
+                envs,
+                (
+                    ([0, 99], IndexError),
+                    ([-1, 0], IndexError),
+                    ([0, 2**40], IndexError),
+                    (np.array([0, 2**64 - 1], np.uint64), IndexError),
+                    ([0], InvalidInput),
+                    ([[0, 0]], InvalidInput),
+                    ([[0], [0, 1]], InvalidInput),
+                    (0, InvalidInput),
+                    ([0.5, 1], TypeError),
+                    (None, TypeError),
+                    (["a", "b"], TypeError),
+                    ([True, False], TypeError),
+                ),
+            ),
+            (
+                sticks,
+                (
+                    ([[0, 0, 0]], InvalidInput),
+                    ([[0, 0]] * 2, InvalidInput),
+                    ([0, 0], InvalidInput),
+                    ([[float("nan"), 0, 0]] * 2, InvalidInput),
+                    ([[float("inf"), 0, 0]] * 2, InvalidInput),
+                    (None, TypeError),
+                    ([["a", "b", "c"]] * 2, TypeError),
+                ),
+            ),
+        ):
             for actions, error in cases:
                 with self.subTest(actions=actions), self.assertRaises(error):
                     one.step(actions)
@@ -567,7 +713,10 @@ class BadInput(unittest.TestCase):
     def test_a_lost_life_has_one_effect(self):
         for flag, others in (("episodic_life", ("end", "told", "ignored")), ("life_loss_info", ("end", "restart"))):
             for lives in others:
-                with self.subTest(flag=flag, lives=lives), self.assertRaisesRegex(Error, f"{flag} is True.* but lives is '{lives}'"):
+                with (
+                    self.subTest(flag=flag, lives=lives),
+                    self.assertRaisesRegex(Error, f"{flag} is True.* but lives is '{lives}'"),
+                ):
                     AtariVectorEnv("beamfall", 2, lives=lives, **{flag: True})
         for lives in (3, np.zeros(2)):
             self.assertRaisesRegex(Error, "lives is", AtariVectorEnv, "beamfall", 2, lives=lives, episodic_life=True)
@@ -576,16 +725,33 @@ class BadInput(unittest.TestCase):
 
     def test_seeds_and_masks(self):
         envs = AtariVectorEnv("beamfall", 2, seed=1)
-        for seed, error in (("12", TypeError), (1.5, TypeError), (-3, InvalidInput), ([1], InvalidInput), ([1, -5], InvalidInput),
-                            (2**32, InvalidInput), ([1, "x"], TypeError), (np.zeros((2, 3)), TypeError)):
+        for seed, error in (
+            ("12", TypeError),
+            (1.5, TypeError),
+            (-3, InvalidInput),
+            ([1], InvalidInput),
+            ([1, -5], InvalidInput),
+            (2**32, InvalidInput),
+            ([1, "x"], TypeError),
+            (np.zeros((2, 3)), TypeError),
+        ):
             with self.subTest(seed=seed), self.assertRaisesRegex(error, "seed"):
                 envs.reset(seed=seed)
-        self.assertRaisesRegex(InvalidInput, r"the seeds have the shape \(2, 1\); they must have \(2,\)", envs.reset, seed=np.zeros((2, 1), int))
+        self.assertRaisesRegex(
+            InvalidInput,
+            r"the seeds have the shape \(2, 1\); they must have \(2,\)",
+            envs.reset,
+            seed=np.zeros((2, 1), int),
+        )
         self.assertTrue(np.array_equal(envs.reset(seed=np.array(3))[0], envs.reset(seed=3)[0]))
         for options in (3, "x", [("reset_mask", None)]):
             with self.assertRaises(TypeError):
                 envs.reset(options=options)
-        for mask, error in (([True, False], TypeError), (np.array([1, 0]), TypeError), (np.array([True]), InvalidInput)):
+        for mask, error in (
+            ([True, False], TypeError),
+            (np.array([1, 0]), TypeError),
+            (np.array([True]), InvalidInput),
+        ):
             with self.subTest(mask=mask), self.assertRaises(error):
                 envs.reset(options={"reset_mask": mask})
 
@@ -593,8 +759,16 @@ class BadInput(unittest.TestCase):
         envs = AtariVectorEnv("beamfall", 2, render_mode="rgb_array")
         envs.close()
         envs.close()
-        for call in (envs.reset, lambda: envs.step([0, 0]), lambda: envs.send([0, 0]), envs.recv, envs.show, envs.render,
-                     lambda: envs.save(0), lambda: envs.restore(0, None)):
+        for call in (
+            envs.reset,
+            lambda: envs.step([0, 0]),
+            lambda: envs.send([0, 0]),
+            envs.recv,
+            envs.show,
+            envs.render,
+            lambda: envs.save(0),
+            lambda: envs.restore(0, None),
+        ):
             with self.assertRaises(ClosedEnvironmentError):
                 call()
 
@@ -612,6 +786,7 @@ class Threads(unittest.TestCase):
                     calls[(first + step) % len(calls)]()
             except Exception as error:
                 failures.append(error)
+
         threads = [threading.Thread(target=work, args=(number,)) for number in range(4)]
         for thread in threads:
             thread.start()
@@ -620,23 +795,28 @@ class Threads(unittest.TestCase):
         self.assertEqual((failures, [thread for thread in threads if thread.is_alive()]), ([], []))
 
     def test_a_child_after_a_fork_is_refused_and_ends(self):
-        script = ("import os, racebeam\n"
-                  "envs = racebeam.AtariVectorEnv('beamfall', 4, num_threads=2, seed=1); envs.step([0] * 4)\n"
-                  "child = os.fork()\n"
-                  "if child == 0:\n"
-                  "    refused = 0\n"
-                  "    for call in (lambda: envs.step([0] * 4), envs.reset, lambda: envs.save(0)):\n"
-                  "        try: call()\n"
-                  "        except RuntimeError as error: refused += 'before the process forked' in str(error)\n"
-                  "    envs.close(); del envs\n"
-                  "    os._exit(refused)\n"
-                  "print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])); envs.step([0] * 4); print('on')")
-        done = subprocess.run([sys.executable, "-W", "ignore", "-c", script], capture_output=True, text=True, timeout=self.PATIENCE)
+        script = (
+            "import os, racebeam\n"
+            "envs = racebeam.AtariVectorEnv('beamfall', 4, num_threads=2, seed=1); envs.step([0] * 4)\n"
+            "child = os.fork()\n"
+            "if child == 0:\n"
+            "    refused = 0\n"
+            "    for call in (lambda: envs.step([0] * 4), envs.reset, lambda: envs.save(0)):\n"
+            "        try: call()\n"
+            "        except RuntimeError as error: refused += 'before the process forked' in str(error)\n"
+            "    envs.close(); del envs\n"
+            "    os._exit(refused)\n"
+            "print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])); envs.step([0] * 4); print('on')"
+        )
+        done = subprocess.run(
+            [sys.executable, "-W", "ignore", "-c", script], capture_output=True, text=True, timeout=self.PATIENCE
+        )
         self.assertEqual(done.stdout.split(), ["3", "on"], done.stderr)
 
     def test_the_memory_of_results_is_given_back(self):
         def resident():
             return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
+
         envs = AtariVectorEnv("beamfall", 8, seed=1)
         play(envs, 20)
         before = resident()
@@ -698,15 +878,26 @@ class Found(unittest.TestCase):
     def test_calls_after_close_extras(self):
         envs = AtariVectorEnv("beamfall", 2)
         envs.close_extras()
-        for call in (lambda: envs.step([0, 0]), envs.reset, envs.show, envs.recv, lambda: envs.send([0, 0]), lambda: envs.save(0)):
+        for call in (
+            lambda: envs.step([0, 0]),
+            envs.reset,
+            envs.show,
+            envs.recv,
+            lambda: envs.send([0, 0]),
+            lambda: envs.save(0),
+        ):
             self.assertRaises(gymnasium.error.ClosedEnvironmentError, call)
         envs.close()
 
     def test_arguments_of_ALEVectorInterface(self):
         envs = ale_py.ALEVectorInterface("builtin:beamfall", 2)
         envs.reset([0, 1], [1, 2])
-        for error, call in ((TypeError, lambda: envs.send([0, 1], "ab")), (ValueError, lambda: envs.send([0, 1], [[1], [2, 3]])),
-                            (TypeError, lambda: envs.reset([0, 1], ["x", None])), (TypeError, lambda: envs.reset(np.ones((2, 2)), [1, 2]))):
+        for error, call in (
+            (TypeError, lambda: envs.send([0, 1], "ab")),
+            (ValueError, lambda: envs.send([0, 1], [[1], [2, 3]])),
+            (TypeError, lambda: envs.reset([0, 1], ["x", None])),
+            (TypeError, lambda: envs.reset(np.ones((2, 2)), [1, 2])),
+        ):
             self.assertRaises(error, call)
 
 

@@ -24,14 +24,15 @@ import ale_py
 import numpy as np
 from ale_py.vector_env import AtariVectorEnv as Reference
 from gymnasium.vector import AutoresetMode
-
 from racebeam.ale_py.vector_env import AtariVectorEnv
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--steps", type=int, default=40, help="of each run (default 40)")
 parser.add_argument("--runs", type=int, default=1, help="runs of each game (default 1)")
 parser.add_argument("--envs", type=int, default=3, help="of each run (default 3)")
-parser.add_argument("--first", type=int, default=datetime.date.today().toordinal(), help="number of the first run (default: of the day)")
+parser.add_argument(
+    "--first", type=int, default=datetime.date.today().toordinal(), help="number of the first run (default: of the day)"
+)
 parser.add_argument("--defaults", action="store_true", help="in the default settings alone")
 parser.add_argument("--games", help="A,B: these alone")
 parser.add_argument("--parts", type=int, default=4, help="of all games, of which one is played, by --first (default 4)")
@@ -51,7 +52,12 @@ SETTINGS = (
     {"autoreset_mode": AutoresetMode.SAME_STEP, "maxpool": False, **SHORT},
     {"continuous": True, "continuous_action_threshold": 0.3, "life_loss_info": True, "noop_max": 3},
     {"use_fire_reset": False, "noop_max": 0, "img_height": 105, "img_width": 160, "stack_num": 1, **SHORT},
-    {"autoreset_mode": AutoresetMode.SAME_STEP, "episodic_life": True, "frameskip": 9, "repeat_action_probability": 0.25},
+    {
+        "autoreset_mode": AutoresetMode.SAME_STEP,
+        "episodic_life": True,
+        "frameskip": 9,
+        "repeat_action_probability": 0.25,
+    },
     {"img_height": 224, "img_width": 224, "stack_num": 1, "grayscale": False},
     {"img_height": 100, "img_width": 320, "stack_num": 2},
 )
@@ -170,8 +176,10 @@ for number in played:
             late = "the reference" if awaits_the_reference[0] else "FAILED: racebeam"
             print(f"{late} did not come back: {game}, seed {1000 * run + number}, {settings}", flush=True)
         runs += 1
-print(f"{len(played)} of {len(games)} games, {runs} runs of {options.steps} steps, {ended} episodes that ended: {failures} differ"
-      + (f"; in {never_back}, the reference did not come back" if never_back else ""))
+print(
+    f"{len(played)} of {len(games)} games, {runs} runs of {options.steps} steps, {ended} episodes that ended: {failures} differ"
+    + (f"; in {never_back}, the reference did not come back" if never_back else "")
+)
 if never_back > max(1, runs // 100):
     sys.exit("that is too often: what is compared is too little")
 sys.exit(failures > 0)

@@ -16,7 +16,6 @@ import gymnasium
 import jax
 import jax.numpy as jnp
 import numpy as np
-
 import racebeam
 import racebeam.ale_py.vector_env
 from racebeam import AtariVectorEnv, InvalidInput
@@ -26,7 +25,10 @@ ACTIONS = np.random.default_rng(1).integers(0, 3, (STEPS, COUNT), dtype=np.int32
 
 
 def both(**settings):
-    return [AtariVectorEnv("beamfall", COUNT, **{"seed": 1, "repeat_action_probability": 0.25, **settings}) for _ in range(2)]
+    return [
+        AtariVectorEnv("beamfall", COUNT, **{"seed": 1, "repeat_action_probability": 0.25, **settings})
+        for _ in range(2)
+    ]
 
 
 class Compiled(unittest.TestCase):
@@ -37,8 +39,12 @@ class Compiled(unittest.TestCase):
             self.assertTrue(np.array_equal(one, other))
 
     def test_step_and_reset_under_jit(self):
-        for settings in ({}, {"obs_type": "ram", "autoreset_mode": "Disabled"}, {"grayscale": False, "stack_num": 1, "reward_clipping": False},
-                         {"max_num_frames_per_episode": 40}):
+        for settings in (
+            {},
+            {"obs_type": "ram", "autoreset_mode": "Disabled"},
+            {"grayscale": False, "stack_num": 1, "reward_clipping": False},
+            {"max_num_frames_per_episode": 40},
+        ):
             with self.subTest(**settings):
                 compiled, plain = both(**settings)
                 handle, reset, step = compiled.xla()
@@ -58,7 +64,12 @@ class Compiled(unittest.TestCase):
         handle, _, step = compiled.xla()
         handle, (observations, rewards, *ends, infos) = jax.lax.scan(step, handle, ACTIONS)
         for index, actions in enumerate(ACTIONS):
-            shown = (observations[index], rewards[index], *(end[index] for end in ends), {key: value[index] for key, value in infos.items()})
+            shown = (
+                observations[index],
+                rewards[index],
+                *(end[index] for end in ends),
+                {key: value[index] for key, value in infos.items()},
+            )
             self.check(shown, plain.step(actions))
 
     def test_fori_loop_with_actions_from_observations(self):
@@ -97,7 +108,7 @@ class Compiled(unittest.TestCase):
         for call in (reset, jax.jit(reset)):
             for _ in range(2):
                 handle, shown = call(handle, jnp.asarray(seeds))
-                self.check(shown, plain.reset(seed=(seeds & 0x7fffffff).astype(np.int64)))
+                self.check(shown, plain.reset(seed=(seeds & 0x7FFFFFFF).astype(np.int64)))
                 handle, shown = call(handle, jnp.uint32(2**32 - 1))  # counts on at 0
                 self.check(shown, plain.reset(seed=[2**31 - 1, 0, 1]))
 
@@ -125,10 +136,14 @@ class Compiled(unittest.TestCase):
                 self.skipTest(f"there is no {name}")
         import ale_py.vector_env
 
-        ours, theirs = (module.AtariVectorEnv("breakout", COUNT) for module in (racebeam.ale_py.vector_env, ale_py.vector_env))
+        ours, theirs = (
+            module.AtariVectorEnv("breakout", COUNT) for module in (racebeam.ale_py.vector_env, ale_py.vector_env)
+        )
         self.assertEqual(ours.is_xla_registered, theirs.is_xla_registered)
         (handle, reset, step), (other, other_reset, other_step) = ours.xla(), theirs.xla()
-        self.assertEqual((ours.is_xla_registered, handle.dtype, handle.shape), (theirs.is_xla_registered, other.dtype, other.shape))
+        self.assertEqual(
+            (ours.is_xla_registered, handle.dtype, handle.shape), (theirs.is_xla_registered, other.dtype, other.shape)
+        )
         for arguments in ({"seed": 3}, {"reset_mask": np.array([True, False, True])}, {"seed": np.array([1, 2, 3])}):
             handle, shown = reset(handle, **arguments)
             other, expected = other_reset(other, **arguments)
@@ -143,11 +158,16 @@ class Refused(unittest.TestCase):
     def test_what_is_said_before_anything_is_compiled(self):
         envs = both()[0]
         handle, reset, step = envs.xla()
-        for error, call in ((TypeError, lambda: step(handle, np.zeros(COUNT))), (InvalidInput, lambda: step(handle, ACTIONS[0][:2])),
-                            (InvalidInput, lambda: reset(handle, np.zeros(2, np.int32))), (TypeError, lambda: reset(handle, 0.5)),
-                            (TypeError, lambda: reset(handle, None, np.zeros(COUNT))), (InvalidInput, lambda: reset(handle, None, np.ones(2, bool))),
-                            (InvalidInput, AtariVectorEnv("beamfall", 2, autoreset_mode="SameStep").xla),
-                            (InvalidInput, AtariVectorEnv("beamfall", 2, batch_size=1).xla)):
+        for error, call in (
+            (TypeError, lambda: step(handle, np.zeros(COUNT))),
+            (InvalidInput, lambda: step(handle, ACTIONS[0][:2])),
+            (InvalidInput, lambda: reset(handle, np.zeros(2, np.int32))),
+            (TypeError, lambda: reset(handle, 0.5)),
+            (TypeError, lambda: reset(handle, None, np.zeros(COUNT))),
+            (InvalidInput, lambda: reset(handle, None, np.ones(2, bool))),
+            (InvalidInput, AtariVectorEnv("beamfall", 2, autoreset_mode="SameStep").xla),
+            (InvalidInput, AtariVectorEnv("beamfall", 2, batch_size=1).xla),
+        ):
             with self.assertRaises(error):
                 call()
         envs.close()
@@ -180,8 +200,18 @@ class Refused(unittest.TestCase):
 
     def test_seeds_that_are_too_large(self):
         handle, reset, _ = both()[0].xla()
-        for seed in (2**31 - COUNT + 1, 2**32 + 5, np.int64(2**32 + 5), np.uint32(3 * 10**9), np.array([1, 2**31, 3]), np.array([1, 2, 2**64 - 1], np.uint64)):
-            with self.subTest(seed=seed), self.assertRaisesRegex(InvalidInput, "the seed is .*; it takes up to 21474836"):
+        for seed in (
+            2**31 - COUNT + 1,
+            2**32 + 5,
+            np.int64(2**32 + 5),
+            np.uint32(3 * 10**9),
+            np.array([1, 2**31, 3]),
+            np.array([1, 2, 2**64 - 1], np.uint64),
+        ):
+            with (
+                self.subTest(seed=seed),
+                self.assertRaisesRegex(InvalidInput, "the seed is .*; it takes up to 21474836"),
+            ):
                 reset(handle, seed)
 
     def test_an_action_is_not_narrowed(self):
@@ -192,8 +222,10 @@ class Refused(unittest.TestCase):
                 jax.block_until_ready(step(handle, actions))
 
     def test_without_jax_it_says_what_is_missing(self):
-        script = ("import sys; sys.modules['jax'] = None\nimport racebeam\n"
-                  "try: racebeam.AtariVectorEnv('beamfall', 2).xla()\nexcept ImportError as error: print(error)")
+        script = (
+            "import sys; sys.modules['jax'] = None\nimport racebeam\n"
+            "try: racebeam.AtariVectorEnv('beamfall', 2).xla()\nexcept ImportError as error: print(error)"
+        )
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
         self.assertEqual(done.stdout, 'xla() needs JAX; install it with: pip install "racebeam[jax]"\n', done.stderr)
 
@@ -210,10 +242,17 @@ STRUCTURES = {
     "Buffers": ("XLA_FFI_Args", "struct_size extension_start size types args"),
     "CallFrame": ("XLA_FFI_CallFrame", "struct_size extension_start api ctx stage args rets"),
 }
-CONSTANTS = {"ErrorCode::kInvalidArgument": "Error_Code_INVALID_ARGUMENT", "ErrorCode::kFailedPrecondition": "Error_Code_FAILED_PRECONDITION",
-             "ErrorCode::kOutOfRange": "Error_Code_OUT_OF_RANGE", "DataType::kBool": "DataType_PRED", "DataType::kInt32": "DataType_S32",
-             "DataType::kUint8": "DataType_U8", "DataType::kFloat32": "DataType_F32", "kMetadataExtension": "Extension_Metadata",
-             "kMajorVersion": "API_MAJOR"}
+CONSTANTS = {
+    "ErrorCode::kInvalidArgument": "Error_Code_INVALID_ARGUMENT",
+    "ErrorCode::kFailedPrecondition": "Error_Code_FAILED_PRECONDITION",
+    "ErrorCode::kOutOfRange": "Error_Code_OUT_OF_RANGE",
+    "DataType::kBool": "DataType_PRED",
+    "DataType::kInt32": "DataType_S32",
+    "DataType::kUint8": "DataType_U8",
+    "DataType::kFloat32": "DataType_F32",
+    "kMetadataExtension": "Extension_Metadata",
+    "kMajorVersion": "API_MAJOR",
+}
 
 
 class Interface(unittest.TestCase):
@@ -227,17 +266,24 @@ class Interface(unittest.TestCase):
             theirs, members = STRUCTURES[name][0], STRUCTURES[name][1].split()
             ours = re.findall(r"(\w+)(?:\)\(.*\))?;", body)
             self.assertEqual(len(ours), len(members), name)
-            checks += [f"offsetof(ours::{name}, {one}) == offsetof({theirs}, {other}) && sizeof(ours::{name}::{one}) == sizeof({theirs}::{other})"
-                       for one, other in zip(ours, members)]
+            checks += [
+                f"offsetof(ours::{name}, {one}) == offsetof({theirs}, {other}) && sizeof(ours::{name}::{one}) == sizeof({theirs}::{other})"
+                for one, other in zip(ours, members)
+            ]
         checks += [f"int(ours::{one}) == int(XLA_FFI_{other})" for one, other in CONSTANTS.items()]
         checks += ["sizeof(XLA_FFI_Rets) == sizeof(XLA_FFI_Args)", "ours::kMinorVersion <= XLA_FFI_API_MINOR"]
-        text = (f'#include "{header}"\n#include "xla/ffi/api/c_api.h"\nnamespace ours = racebeam::python::xla;\n'
-                + "".join(f"static_assert({check});\n" for check in checks))
+        text = (
+            f'#include "{header}"\n#include "xla/ffi/api/c_api.h"\nnamespace ours = racebeam::python::xla;\n'
+            + "".join(f"static_assert({check});\n" for check in checks)
+        )
         with tempfile.TemporaryDirectory() as folder:
             source = pathlib.Path(folder, "check.cpp")
             source.write_text(text)
-            done = subprocess.run(["g++", "-std=c++20", "-fsyntax-only", "-Wno-invalid-offsetof", f"-I{jax.ffi.include_dir()}", source],
-                                  capture_output=True, text=True)
+            done = subprocess.run(
+                ["g++", "-std=c++20", "-fsyntax-only", "-Wno-invalid-offsetof", f"-I{jax.ffi.include_dir()}", source],
+                capture_output=True,
+                text=True,
+            )
         self.assertEqual(done.returncode, 0, done.stderr)
 
 

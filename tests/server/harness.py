@@ -21,8 +21,10 @@ BINARY = os.environ.get("RACEBEAM_BINARY", os.path.join(SOURCE, "build", "releas
 GAME = "builtin:beamfall"
 LOAD = b"load beamfall seed=1 sticky=0 max_episode_frames=0\nsave root\nobserve frame\n"
 TRANSPORTS = ("stdio", "pipes", "tcp", "unix")
-PATIENCE = float(os.environ.get("RACEBEAM_PATIENCE", 60))  # seconds until something counts as hanging; more for slow builds
-SKIPPED = 77     # exit status that ctest reads as "skipped"
+PATIENCE = float(
+    os.environ.get("RACEBEAM_PATIENCE", 60)
+)  # seconds until something counts as hanging; more for slow builds
+SKIPPED = 77  # exit status that ctest reads as "skipped"
 
 
 def rom(name):
@@ -63,8 +65,15 @@ class Server:
         self.errors = open(os.path.join(self.own_folder.name, "stderr"), "w+b")
         pipe = subprocess.PIPE if streams else subprocess.DEVNULL
         self.process = subprocess.Popen(
-            [BINARY, *words], stdin=pipe, stdout=pipe, stderr=errors or self.errors, cwd=self.folder, bufsize=0, preexec_fn=before,
-            env={name: value for name, value in os.environ.items() if name != "RACEBEAM_ROMS"} | environment)
+            [BINARY, *words],
+            stdin=pipe,
+            stdout=pipe,
+            stderr=errors or self.errors,
+            cwd=self.folder,
+            bufsize=0,
+            preexec_fn=before,
+            env={name: value for name, value in os.environ.items() if name != "RACEBEAM_ROMS"} | environment,
+        )
 
     def __enter__(self):
         return self
@@ -130,7 +139,7 @@ class Wire:
 
     def send(self, data):
         while data:
-            data = data[os.write(self.output_fd, data):]
+            data = data[os.write(self.output_fd, data) :]
 
     def read(self, count):
         """Receives up to `count` bytes; none at the end."""
@@ -223,8 +232,12 @@ class Session:
     def __init__(self, transport, *options, image=GAME):
         protocol = ["--classic", "--rom", image] if image else []
         command = ["serve", *protocol, *options]
-        where = {"stdio": ["--stdio"], "pipes": ["--pipes", "p"], "tcp": ["--listen", "tcp://127.0.0.1:0", "--grace", "0"],
-                 "unix": ["--listen", "unix:s", "--grace", "0"]}[transport]
+        where = {
+            "stdio": ["--stdio"],
+            "pipes": ["--pipes", "p"],
+            "tcp": ["--listen", "tcp://127.0.0.1:0", "--grace", "0"],
+            "unix": ["--listen", "unix:s", "--grace", "0"],
+        }[transport]
         self.transport = transport
         self.server = Server(*command, *where, streams=transport == "stdio")
         try:

@@ -2,7 +2,6 @@
 
 import contextlib
 import os
-import select
 import signal
 import socket
 import ssl
@@ -10,7 +9,6 @@ import subprocess
 import tempfile
 import time
 import unittest
-import urllib.request
 
 from harness import GAME, PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, run, sanitized
 
@@ -81,7 +79,7 @@ class Tokens(Folder):
             for number in range(len(delays)):
                 reply = ask(self.connect_from(server, "127.0.0.2"), wrong)
                 self.assertTrue(reply.startswith(b"error unauthorized that token is not"))
-                self.assertGreaterEqual(time.monotonic() - start, sum(delays[:number + 1]))
+                self.assertGreaterEqual(time.monotonic() - start, sum(delays[: number + 1]))
             server.wait_for("client 7: a wrong token from 127.0.0.2, number 7 in a row")
             self.assertTrue(ask(self.connect_from(server, "127.0.0.2"), right).startswith(b"ok "))
             start = time.monotonic()
@@ -191,16 +189,20 @@ class Tokens(Folder):
             self.assertTrue(admits(server, OTHER))
 
     def test_files_without_a_good_token_are_refused(self):
-        for text, hint in (("", "there is no token"), ("# none\n", "there is no token"), ("short\n", "line 1"),
-                           (f"{TOKEN}\ntwo words of a token\n", "line 2")):
+        for text, hint in (
+            ("", "there is no token"),
+            ("# none\n", "there is no token"),
+            ("short\n", "line 1"),
+            (f"{TOKEN}\ntwo words of a token\n", "line 2"),
+        ):
             with self.subTest(text=text):
-                status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--token-file",
-                                        self.write("bad", text))
+                status, _, errors = run(
+                    "serve", "--listen", "tcp://127.0.0.1:0", "--token-file", self.write("bad", text)
+                )
                 self.assertEqual((status, len(errors)), (1, 1), errors)
                 self.assertIn(hint, errors[0])
         status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--token-file", self.path("nothing"))
         self.assertEqual((status, len(errors)), (1, 1), errors)
-
 
     def test_a_file_that_everyone_can_read_is_warned_of(self):
         for mode, warned in ((0o600, False), (0o644, True)):
@@ -227,7 +229,9 @@ class BeyondThisMachine(Folder):
 
     def test_a_warning_names_the_risk_of_plain_TCP(self):
         with Server("serve", "--listen", "tcp://0.0.0.0:0", "--token-file", self.write("tokens", TOKEN)) as server:
-            server.wait_for("warning: tcp://0.0.0.0:[0-9]+ can be reached from other machines, without TLS: tokens can be read")
+            server.wait_for(
+                "warning: tcp://0.0.0.0:[0-9]+ can be reached from other machines, without TLS: tokens can be read"
+            )
             port = int(server.wait_for(r"listening on tcp://0\.0\.0\.0:(\d+)").group(1))
             wire = connect_tcp(port)
             self.assertTrue(ask(wire, b"games").startswith(b"error unauthorized "))
@@ -240,13 +244,44 @@ class Tls(Folder):
         cls.keys = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.keys.cleanup)
         cls.certificate, cls.key = (os.path.join(cls.keys.name, name) for name in ("cert.pem", "key.pem"))
-        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
-                        "-days", "2", "-subj", "/CN=localhost", "-addext", "subjectAltName=IP:127.0.0.1",
-                        "-keyout", cls.key, "-out", cls.certificate], check=True, capture_output=True)
+        subprocess.run(
+            [
+                "openssl",
+                "req",
+                "-x509",
+                "-newkey",
+                "ec",
+                "-pkeyopt",
+                "ec_paramgen_curve:prime256v1",
+                "-nodes",
+                "-days",
+                "2",
+                "-subj",
+                "/CN=localhost",
+                "-addext",
+                "subjectAltName=IP:127.0.0.1",
+                "-keyout",
+                cls.key,
+                "-out",
+                cls.certificate,
+            ],
+            check=True,
+            capture_output=True,
+        )
 
     def serve(self, *options):
-        return Server("serve", "--listen", "tls://127.0.0.1:0", "--tls-cert", self.certificate, "--tls-key", self.key,
-                      "--grace", "0", *options)
+        return Server(
+            "serve",
+            "--listen",
+            "tls://127.0.0.1:0",
+            "--tls-cert",
+            self.certificate,
+            "--tls-key",
+            self.key,
+            "--grace",
+            "0",
+            *options,
+        )
 
     def port(self, server):
         return int(server.wait_for(r"listening on tls://127\.0\.0\.1:(\d+)$").group(1))
@@ -326,18 +361,32 @@ class Tls(Folder):
             self.assertTrue(self.converse(server, b"quit\n").startswith(b"ok"))
 
     def test_the_classic_protocol_can_be_encrypted_too(self):
-        with Server("serve", "--listen", "classic+tls://127.0.0.1:0", "--rom", GAME, "--tls-cert", self.certificate,
-                    "--tls-key", self.key) as server, self.connect(server) as connection:
+        with (
+            Server(
+                "serve",
+                "--listen",
+                "classic+tls://127.0.0.1:0",
+                "--rom",
+                GAME,
+                "--tls-cert",
+                self.certificate,
+                "--tls-key",
+                self.key,
+            ) as server,
+            self.connect(server) as connection,
+        ):
             with connection.makefile("rb") as reader:
                 self.assertEqual(reader.readline(), b"160-210\n")
                 connection.sendall(b"0,0,0,1\n3,18\n")
                 self.assertEqual(reader.readline(), b"0,0:\n")
 
     def test_a_certificate_and_a_key_are_needed(self):
-        for options, status, hint in (([], 1, "needs --tls-cert and --tls-key"),
-                                      (["--tls-cert", self.certificate], 2, "must be given together"),
-                                      (["--tls-cert", self.key, "--tls-key", self.key], 1, "cannot use the certificate"),
-                                      (["--tls-cert", self.certificate, "--tls-key", "nothing"], 1, "cannot use the key")):
+        for options, status, hint in (
+            ([], 1, "needs --tls-cert and --tls-key"),
+            (["--tls-cert", self.certificate], 2, "must be given together"),
+            (["--tls-cert", self.key, "--tls-key", self.key], 1, "cannot use the certificate"),
+            (["--tls-cert", self.certificate, "--tls-key", "nothing"], 1, "cannot use the key"),
+        ):
             with self.subTest(options=options):
                 ended, _, errors = run("serve", "--listen", "tls://127.0.0.1:0", *options)
                 self.assertEqual((ended, len(errors)), (status, 1), errors)
@@ -346,15 +395,27 @@ class Tls(Folder):
     def test_a_key_of_another_kind_than_the_certificate_is_refused(self):
         other = os.path.join(self.keys.name, "rsa.pem")
         subprocess.run(["openssl", "genrsa", "-out", other, "2048"], check=True, capture_output=True)
-        ended, _, errors = run("serve", "--listen", "tls://127.0.0.1:0", "--tls-cert", self.certificate, "--tls-key", other)
+        ended, _, errors = run(
+            "serve", "--listen", "tls://127.0.0.1:0", "--tls-cert", self.certificate, "--tls-key", other
+        )
         self.assertEqual((ended, len(errors)), (1, 1), errors)
         self.assertIn(f"the key {other} does not belong to the certificate {self.certificate}", errors[0])
 
     def test_nobody_is_asked_for_the_password_of_a_key(self):
-        subprocess.run(["openssl", "ec", "-aes256", "-in", self.key, "-passout", "pass:secret", "-out",
-                        self.path("locked.pem")], check=True, capture_output=True)
-        status, _, errors = run("serve", "--listen", "tls://127.0.0.1:0", "--tls-cert", self.certificate, "--tls-key",
-                                self.path("locked.pem"))
+        subprocess.run(
+            ["openssl", "ec", "-aes256", "-in", self.key, "-passout", "pass:secret", "-out", self.path("locked.pem")],
+            check=True,
+            capture_output=True,
+        )
+        status, _, errors = run(
+            "serve",
+            "--listen",
+            "tls://127.0.0.1:0",
+            "--tls-cert",
+            self.certificate,
+            "--tls-key",
+            self.path("locked.pem"),
+        )
         self.assertEqual((status, len(errors)), (1, 1), errors)
         self.assertIn("cannot use the key", errors[0])
 

@@ -33,17 +33,37 @@ def port_of(announced):
 
 class Announced(unittest.TestCase):
     def test_it_says_what_a_client_needs(self):
-        with Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:a \"quoted\" name",
-                    "--listen", "classic+unix:classic", "--rom", "builtin:beamfall", "--announce", "announce") as server:
+        with Server(
+            "serve",
+            "--listen",
+            "tcp://127.0.0.1:0",
+            "--listen",
+            'unix:a "quoted" name',
+            "--listen",
+            "classic+unix:classic",
+            "--rom",
+            "builtin:beamfall",
+            "--announce",
+            "announce",
+        ) as server:
             text = wait_for(server.path("announce"))
             announced = json.loads(text)
             tcp, local = announced["addresses"]
             self.assertRegex(tcp, r"^tcp://127\.0\.0\.1:\d+$")
             self.assertEqual(local, 'unix:a "quoted" name')
             version = run("--version")[1].decode().split()[1]
-            self.assertEqual({**announced, "addresses": [], "token": ""},
-                             {"racebeam_announce": 1, "addresses": [], "host": socket.gethostname(),
-                              "process": server.process.pid, "version": version, "games": ["beamfall", "updraft"], "token": ""})
+            self.assertEqual(
+                {**announced, "addresses": [], "token": ""},
+                {
+                    "racebeam_announce": 1,
+                    "addresses": [],
+                    "host": socket.gethostname(),
+                    "process": server.process.pid,
+                    "version": version,
+                    "games": ["beamfall", "updraft"],
+                    "token": "",
+                },
+            )
             self.assertRegex(announced["token"], "^[0-9a-f]{64}$")
             # The layout that programs without a parser of JSON rely on
             lines = text.splitlines()
@@ -153,10 +173,16 @@ class Life(unittest.TestCase):
     def test_a_full_disk_leaves_nothing_half_written(self):
         def limit():  # a write beyond it fails, as on a full disk
             resource.setrlimit(resource.RLIMIT_FSIZE, (64, 64))
+
         for option, name in (("--announce", "announce file"), ("--ready-file", "ready file")):
             with self.subTest(option=option), tempfile.TemporaryDirectory() as folder:
-                done = subprocess.run([BINARY, "serve", "--listen", "tcp://127.0.0.1:0", "--log-level", "error", option, "file"],
-                                      capture_output=True, cwd=folder, timeout=PATIENCE, preexec_fn=limit)
+                done = subprocess.run(
+                    [BINARY, "serve", "--listen", "tcp://127.0.0.1:0", "--log-level", "error", option, "file"],
+                    capture_output=True,
+                    cwd=folder,
+                    timeout=PATIENCE,
+                    preexec_fn=limit,
+                )
                 self.assertEqual((done.returncode, os.listdir(folder)), (1, []), done.stderr)
                 self.assertEqual(done.stderr.decode(), f"racebeam: cannot write the {name} file: File too large\n")
 

@@ -43,8 +43,18 @@ class Classic(unittest.TestCase):
         self.assertEqual(self.play(*FIFO, GAME)[0], b"160-210\n" + b"0,0:\n" * 21 + b"DIE\n")
 
     def test_options_that_nobody_knows_are_ignored(self):
-        old = ("-disable_colour_averaging", "true", "-disable_color_averaging", "true", "-max_num_episodes", "0",
-               "-player_agent", "keyboard_agent", "-use_environment_distribution", "-game_controller")
+        old = (
+            "-disable_colour_averaging",
+            "true",
+            "-disable_color_averaging",
+            "true",
+            "-max_num_episodes",
+            "0",
+            "-player_agent",
+            "keyboard_agent",
+            "-use_environment_distribution",
+            "-game_controller",
+        )
         self.assertEqual(self.play(*old, *FIFO, GAME), self.play(*FIFO, GAME))
 
     def test_words_after_the_image_are_ignored(self):
@@ -53,8 +63,10 @@ class Classic(unittest.TestCase):
     def test_options_for_windows_and_sound_are_mentioned(self):
         options = ("-display_screen", "true", "-record_sound_filename", "it.wav", "-sound", "false")
         errors = self.play(*FIFO, *options, GAME)[1]
-        self.assertEqual([line for line in errors if "ignored" in line],
-                         ["racebeam: -display_screen is ignored", "racebeam: -record_sound_filename is ignored"])
+        self.assertEqual(
+            [line for line in errors if "ignored" in line],
+            ["racebeam: -display_screen is ignored", "racebeam: -record_sound_filename is ignored"],
+        )
 
     def test_screens_are_recorded_as_numbered_pictures(self):
         os.mkdir(os.path.join(self.folder, "shots"))
@@ -66,8 +78,10 @@ class Classic(unittest.TestCase):
         for number, line in ((0, 1), (3, 2), (6, 3)):  # before an act: what the line before it showed
             screen = plain.split(b"\n")[line]
             run("png", "line.png", data=screen + b"\n", cwd=self.folder)
-            with open(os.path.join(self.folder, "line.png"), "rb") as expected, \
-                    open(os.path.join(self.folder, f"shots/{number:06}.png"), "rb") as recorded:
+            with (
+                open(os.path.join(self.folder, "line.png"), "rb") as expected,
+                open(os.path.join(self.folder, f"shots/{number:06}.png"), "rb") as recorded,
+            ):
                 self.assertEqual(expected.read(), recorded.read(), number)
 
     def test_a_folder_that_cannot_be_written_to_costs_the_pictures_alone(self):
@@ -82,15 +96,21 @@ class Classic(unittest.TestCase):
     def test_numbers_that_make_no_sense_are_refused(self):
         whole = f"it takes a whole number from 0 to {2**32 - 1}, or time"
         for key, value, hint in (
-                ("random_seed", "-5", f"-random_seed is '-5'; {whole}"), ("random_seed", "now", whole),
-                ("frame_skip", "x", f"-frame_skip is 'x'; it takes a whole number from {-2**31} to {2**31 - 1}"), ("frame_skip", "2.5", "'2.5'"),
-                ("max_num_frames", "1e3", "'1e3'"), ("max_num_frames_per_episode", "99999999999", "'99999999999'"),
-                ("repeat_action_probability", "often", "-repeat_action_probability is 'often'; it takes a number")):
+            ("random_seed", "-5", f"-random_seed is '-5'; {whole}"),
+            ("random_seed", "now", whole),
+            ("frame_skip", "x", f"-frame_skip is 'x'; it takes a whole number from {-(2**31)} to {2**31 - 1}"),
+            ("frame_skip", "2.5", "'2.5'"),
+            ("max_num_frames", "1e3", "'1e3'"),
+            ("max_num_frames_per_episode", "99999999999", "'99999999999'"),
+            ("repeat_action_probability", "often", "-repeat_action_probability is 'often'; it takes a number"),
+        ):
             with self.subTest(key=key, value=value):
                 self.refuse("-game_controller", "fifo", "-" + key, value, GAME, hint=hint)
         self.put("ale.cfg", "frame_skip = many\n")
         self.refuse(*FIFO, GAME, hint="-frame_skip is 'many'")
-        self.assertEqual(self.play("-game_controller", "fifo", "-random_seed", "time", "-frame_skip", "1", GAME)[0][:8], b"160-210\n")
+        self.assertEqual(
+            self.play("-game_controller", "fifo", "-random_seed", "time", "-frame_skip", "1", GAME)[0][:8], b"160-210\n"
+        )
 
     def test_a_program_called_ale_is_this_one(self):
         expected = self.play(*FIFO, GAME)[0]

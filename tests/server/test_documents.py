@@ -78,15 +78,17 @@ class Documents(unittest.TestCase):
                     heard += answer
             wire.stop_sending()
             return heard + wire.rest()
+
         self.check_lines(in_turn)
 
     def test_they_are_when_the_input_comes_one_byte_at_a_time(self):
         def byte_by_byte(wire, lines):
             for line in lines:
                 for at in range(len(line)):
-                    wire.send(line[at:at + 1])
+                    wire.send(line[at : at + 1])
             wire.stop_sending()
             return wire.rest()
+
         self.check_lines(byte_by_byte)
 
     def test_they_are_when_all_is_sent_ahead_in_one_write(self):
@@ -94,6 +96,7 @@ class Documents(unittest.TestCase):
             wire.send(b"".join(lines))
             wire.stop_sending()
             return wire.rest()
+
         self.check_lines(ahead)
 
 

@@ -8,7 +8,6 @@ import re
 import select
 import signal
 import tempfile
-import time
 import unittest
 import urllib.error
 import urllib.request
@@ -34,8 +33,10 @@ class Http(unittest.TestCase):
     def metrics(self, server):
         status, text = get(self.address(server) + "/metrics")
         self.assertEqual(status, 200)
-        return {key: float(value) for key, value in
-                (line.rsplit(" ", 1) for line in text.splitlines() if not line.startswith("#"))}
+        return {
+            key: float(value)
+            for key, value in (line.rsplit(" ", 1) for line in text.splitlines() if not line.startswith("#"))
+        }
 
     def test_health_and_readiness(self):
         with serve("--http", "127.0.0.1:0", "--grace", "60") as server:
@@ -62,13 +63,19 @@ class Http(unittest.TestCase):
             refused.close()
             found = self.metrics(server)
             sent = len(LOAD) + len(b"act NOOP*7\nact 99\nnonsense\n")
-            expected = {"sessions_open": 1, 'sessions_total{protocol="line"}': 1,
-                        'sessions_refused_total{reason="busy"}': 1, "frames_total": 7,
-                        'requests_total{command="act",outcome="ok"}': 1,
-                        'requests_total{command="act",outcome="error"}': 1,
-                        'requests_total{command="none",outcome="error"}': 1,
-                        "request_seconds_count": 6, 'request_seconds_bucket{le="+Inf"}': 6,
-                        "received_bytes_total": sent, "sent_bytes_total": replies}
+            expected = {
+                "sessions_open": 1,
+                'sessions_total{protocol="line"}': 1,
+                'sessions_refused_total{reason="busy"}': 1,
+                "frames_total": 7,
+                'requests_total{command="act",outcome="ok"}': 1,
+                'requests_total{command="act",outcome="error"}': 1,
+                'requests_total{command="none",outcome="error"}': 1,
+                "request_seconds_count": 6,
+                'request_seconds_bucket{le="+Inf"}': 6,
+                "received_bytes_total": sent,
+                "sent_bytes_total": replies,
+            }
             self.assertEqual({key: found["racebeam_" + key] for key in expected}, expected)
             buckets = [value for key, value in found.items() if "_bucket" in key]
             self.assertEqual(buckets, sorted(buckets))
@@ -110,8 +117,12 @@ class Http(unittest.TestCase):
     def test_what_is_no_HTTP_harms_nobody(self):
         with serve("--http", "127.0.0.1:0") as server:
             address = self.address(server)
-            for nonsense in (b"\0" * 1000, b"hello\n\n", b"POST / HTTP/1.1\r\nContent-Length: 99999999\r\n\r\n",
-                             b"GET / HTTP/1.1\r\nX: " + b"x" * 100000):
+            for nonsense in (
+                b"\0" * 1000,
+                b"hello\n\n",
+                b"POST / HTTP/1.1\r\nContent-Length: 99999999\r\n\r\n",
+                b"GET / HTTP/1.1\r\nX: " + b"x" * 100000,
+            ):
                 wire = connect_tcp(int(address.rsplit(":", 1)[1]))
                 try:
                     wire.send(nonsense)
@@ -132,8 +143,9 @@ class Log(unittest.TestCase):
             wire.close()
             server.wait_for("1 requests")
             events = [json.loads(line) for line in server.log()]
-            self.assertEqual([event["event"] for event in events], ["threads", "memory", "caches", "listening", "came",
-                                                                    "left"])
+            self.assertEqual(
+                [event["event"] for event in events], ["threads", "memory", "caches", "listening", "came", "left"]
+            )
             for event in events:
                 self.assertRegex(event["time"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$")
                 self.assertEqual(event["level"], "info")
@@ -144,9 +156,10 @@ class Log(unittest.TestCase):
             with open(image, "wb") as file:
                 file.write(bytes(range(256)) * 16)
             for words, status, level, hint in (
-                    (["--classic", "--stdio", "--rom", image], 0, "warning", "is not in the catalogue"),
-                    (["--classic", "--stdio", "--rom", image + "x"], 1, "error", "there is no such file"),
-                    (["--listen", "unix:/nowhere/s"], 3, "error", "cannot listen on unix:/nowhere/s")):
+                (["--classic", "--stdio", "--rom", image], 0, "warning", "is not in the catalogue"),
+                (["--classic", "--stdio", "--rom", image + "x"], 1, "error", "there is no such file"),
+                (["--listen", "unix:/nowhere/s"], 3, "error", "cannot listen on unix:/nowhere/s"),
+            ):
                 ended, _, errors = run("serve", "--log-format", "json", *words)
                 first = [json.loads(line) for line in errors][0]
                 self.assertEqual((ended, first["level"]), (status, level))
@@ -156,8 +169,17 @@ class Log(unittest.TestCase):
         for log_format in ("text", "json"):
             reading, writing = os.pipe()
             fcntl.fcntl(writing, F_SETPIPE_SZ, 4096)
-            with serve("--http", "127.0.0.1:0", "--ready-file", "ready", "--log-format", log_format, "--grace", "0",
-                       errors=writing) as server:
+            with serve(
+                "--http",
+                "127.0.0.1:0",
+                "--ready-file",
+                "ready",
+                "--log-format",
+                log_format,
+                "--grace",
+                "0",
+                errors=writing,
+            ) as server:
                 os.close(writing)
                 addresses = server.addresses("ready")
                 for _ in range(700):  # each comes and leaves: more than wait, and than fit into the pipe

@@ -38,7 +38,10 @@ LONG_REQUESTS = {
     "machines that power on": ([NO_OPS], b"open 256"),
     "machines that act": ([SKIPPING, b"open 256"], b"step NOOP"),
     "machines that begin again": ([NO_OPS, b"open 256"], b"restart"),
-    "machines whose episodes end": ([b"load beamfall max_episode_frames=1 noop_max=1000", b"open 256 autoreset=same-step"], b"step NOOP"),
+    "machines whose episodes end": (
+        [b"load beamfall max_episode_frames=1 noop_max=1000", b"open 256 autoreset=same-step"],
+        b"step NOOP",
+    ),
     "a search": ([ENDLESS, b"save root"], b"branch root" + b" NOOP*90000" * 20),
 }
 
@@ -123,6 +126,7 @@ def add_long_request(name, first, request):
         begin(self.connect(), first, request)
         time.sleep(0.05)
         self.check_that_others_are_answered()
+
     setattr(OneThread, "test_others_are_answered_beside_" + name.replace(" ", "_").replace("-", "_"), test)
 
 
@@ -135,7 +139,10 @@ class Limits(Case):
         self.start(serve())
         wire = self.connect()
         begun = time.monotonic()
-        self.assertRegex(ask(wire, MODE.replace(b"=1000", b"=200")), b"^error bad-value mode 1 of adventure could not be set up on this image: ")
+        self.assertRegex(
+            ask(wire, MODE.replace(b"=1000", b"=200")),
+            b"^error bad-value mode 1 of adventure could not be set up on this image: ",
+        )
         self.assertLess(time.monotonic() - begun, PATIENCE)
         self.assertRegex(ask(wire, b"look"), b"^error no-game ")
 
@@ -143,7 +150,10 @@ class Limits(Case):
         self.start(serve("--max-request-frames", "1000"))
         wire = self.connect()
         ask(wire, ENDLESS + b" frame_skip=100")
-        for machines, answer in ((10, b"^ok "), (11, b"^error limit the request asks for 1100 frames; it may ask for 1000")):
+        for machines, answer in (
+            (10, b"^ok "),
+            (11, b"^error limit the request asks for 1100 frames; it may ask for 1000"),
+        ):
             self.assertRegex(ask(wire, b"open %d" % machines), b"^ok ")
             self.assertRegex(ask(wire, b"step NOOP"), answer)
 
@@ -152,7 +162,9 @@ class Limits(Case):
         wire = self.connect()
         ask(wire, ENDLESS)
         before = ask(wire, b"look ram reward lives")
-        self.assertRegex(ask(wire, MODE), b"^error limit the request would run more than 2000 frames; ")  # 1,000 are free
+        self.assertRegex(
+            ask(wire, MODE), b"^error limit the request would run more than 2000 frames; "
+        )  # 1,000 are free
         self.assertEqual(ask(wire, b"look ram reward lives"), before)
 
 
@@ -231,11 +243,18 @@ class End(unittest.TestCase):
     """SIGTERM in the middle of a request that would take an hour, or of a mode that takes long."""
 
     GRACE = 1
-    REQUESTS = {"act": ([ENDLESS], HOUR), "mode": ([], MODE), "open": ([ENDLESS + b" frame_skip=1000 noop_max=1000"], b"open 256")}
+    REQUESTS = {
+        "act": ([ENDLESS], HOUR),
+        "mode": ([], MODE),
+        "open": ([ENDLESS + b" frame_skip=1000 noop_max=1000"], b"open 256"),
+    }
 
     def check_that_it_ends(self, *listen, connect, streams=False):
         for name, (first, request) in self.REQUESTS.items():
-            with self.subTest(name), Server("serve", *listen, "--grace", str(self.GRACE), *MANY_FRAMES, streams=streams) as server:
+            with (
+                self.subTest(name),
+                Server("serve", *listen, "--grace", str(self.GRACE), *MANY_FRAMES, streams=streams) as server,
+            ):
                 wire = connect(server)
                 begin(wire, first, request)
                 time.sleep(0.1)
@@ -252,17 +271,20 @@ class End(unittest.TestCase):
         def connect(server):
             server.wait_for("listening on unix:s")
             return connect_unix(server.path("s"))
+
         self.check_that_it_ends("--listen", "unix:s", connect=connect)
 
     def test_over_pipes(self):
         def connect(server):
             server.wait_for("for a client that opens")
             return open_pipes(server, "p")
+
         self.check_that_it_ends("--pipes", "p", connect=connect)
 
     def test_over_standard_streams(self):
         def connect(server):
             return Wire(os.dup(server.process.stdout.fileno()), os.dup(server.process.stdin.fileno()))
+
         self.check_that_it_ends("--stdio", connect=connect, streams=True)
 
 

@@ -26,21 +26,25 @@ class Strict(unittest.TestCase):
     """--strict: the first error is the last reply, and the program ends with status 1."""
 
     def test_nothing_is_carried_out_after_the_first_error(self):
-        for requests, replies in ((b"load beamfall\nact 99\nact FIRE\nquit\n", [b"ok", b"error"]),
-                                  (b"load beamfall\nact FIRE\nhello", [b"ok", b"ok", b"error"]),
-                                  (b"x" * 5000 + b"\nhello\n", [b"error"]),
-                                  (b"load beamfall\nsave a\nbranch a FIRE,99\nhello\n", [b"ok", b"ok", b"error"])):
+        for requests, replies in (
+            (b"load beamfall\nact 99\nact FIRE\nquit\n", [b"ok", b"error"]),
+            (b"load beamfall\nact FIRE\nhello", [b"ok", b"ok", b"error"]),
+            (b"x" * 5000 + b"\nhello\n", [b"error"]),
+            (b"load beamfall\nsave a\nbranch a FIRE,99\nhello\n", [b"ok", b"ok", b"error"]),
+        ):
             for ahead in (True, False):
                 for transport in ("stdio", "pipes"):
-                    with self.subTest(requests=requests[:60], ahead=ahead, transport=transport), \
-                            Session(transport, "--strict", "--max-line", "4096", image=None) as session:
+                    with (
+                        self.subTest(requests=requests[:60], ahead=ahead, transport=transport),
+                        Session(transport, "--strict", "--max-line", "4096", image=None) as session,
+                    ):
                         if ahead:
                             session.wire.send(requests)
                             session.wire.stop_sending()
                             heard = session.wire.rest().splitlines()
                         else:  # the input stays open
                             heard = []
-                            for request in requests.splitlines(True)[:len(replies)]:
+                            for request in requests.splitlines(True)[: len(replies)]:
                                 session.wire.send(request)
                                 if request.endswith(b"\n"):
                                     heard.append(session.wire.line())
@@ -58,8 +62,11 @@ class Strict(unittest.TestCase):
         self.assertEqual(run("serve", "--stdio", data=b"nonsense\n")[0], 0)
 
     def test_it_is_refused_where_one_error_would_end_the_sessions_of_others(self):
-        for words in (("--listen", "tcp://127.0.0.1:0"), ("--stdio", "--listen", "unix:s"),
-                      ("--classic", "--stdio", "--rom", GAME)):
+        for words in (
+            ("--listen", "tcp://127.0.0.1:0"),
+            ("--stdio", "--listen", "unix:s"),
+            ("--classic", "--stdio", "--rom", GAME),
+        ):
             status, output, errors = run("serve", "--strict", *words)
             self.assertEqual((status, output, len(errors)), (2, b"", 1), errors)
             self.assertIn("--strict: requires --stdio or --pipes, and the line protocol", errors[0])
@@ -85,8 +92,12 @@ class Pieces(unittest.TestCase):
 
     def test_pieces_are_acknowledged_at_once(self):
         for request in ((b"act ", b"NOOP\n"), (b"a", b"c", b"t NOOP", b"\n")):
-            with self.subTest(request=request), serve() as server, \
-                    socket.create_connection(("127.0.0.1", server.port()), PATIENCE) as connection, connection.makefile("rb") as reader:
+            with (
+                self.subTest(request=request),
+                serve() as server,
+                socket.create_connection(("127.0.0.1", server.port()), PATIENCE) as connection,
+                connection.makefile("rb") as reader,
+            ):
                 connection.sendall(b"load beamfall\n")
                 reader.readline()
                 self.assertLess(self.median_step(connection, reader, request), self.MOST)
@@ -215,6 +226,7 @@ class Sessions(unittest.TestCase):
                 wire.send(LOAD + b"open 8\n" + b"step FIRE\n" * 50)
                 answers[number] = lines(wire, 54)[-1]
                 wire.close()
+
             threads = [threading.Thread(target=play, args=(number,)) for number in range(4)]
             for thread in threads:
                 thread.start()

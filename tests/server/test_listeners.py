@@ -108,8 +108,20 @@ class Addresses(unittest.TestCase):
             self.assertEqual(os.path.getsize(server.path("notes")), 10)
 
     def test_what_is_no_address_is_refused(self):
-        for address in ("", "tcp", "tcp://", "tcp://127.0.0.1", "tcp://127.0.0.1:", "tcp://127.0.0.1:x", "unix:",
-                        "tcp://127.0.0.1:65536", "tcp://127.0.0.1:-1", "tcp://no body:1", "tcp://127.0.1:1", "udp://127.0.0.1:1"):
+        for address in (
+            "",
+            "tcp",
+            "tcp://",
+            "tcp://127.0.0.1",
+            "tcp://127.0.0.1:",
+            "tcp://127.0.0.1:x",
+            "unix:",
+            "tcp://127.0.0.1:65536",
+            "tcp://127.0.0.1:-1",
+            "tcp://no body:1",
+            "tcp://127.0.1:1",
+            "udp://127.0.0.1:1",
+        ):
             with self.subTest(address=address):
                 self.refuse(address, 2, "is not an address")
 
@@ -176,7 +188,6 @@ class Clients(unittest.TestCase):
             wire.close()
             self.assertTrue(play(connect_tcp(server.port())).endswith(b"DIE\n"))
 
-
     @unittest.skipIf(sanitized(), "the sanitizer's own checks fail when there are no descriptors left")
     def test_a_server_that_has_too_many_clients_takes_others_later(self):
         with listening("unix:s") as server:
@@ -203,7 +214,10 @@ class Signals(unittest.TestCase):
 
     def test_pipes_that_the_server_has_made_are_removed_at_its_end(self):
         for own, end in ((True, "signal"), (True, "client"), (False, "signal")):
-            with self.subTest(own=own, end=end), Server(*SERVE, "--pipes", "p", before=None if own else self.make_pipes) as server:
+            with (
+                self.subTest(own=own, end=end),
+                Server(*SERVE, "--pipes", "p", before=None if own else self.make_pipes) as server,
+            ):
                 server.wait_for("for a client that opens")
                 if end == "client":
                     wire = open_pipes(server, "p")
@@ -227,7 +241,9 @@ class Signals(unittest.TestCase):
                 files, early = f"/proc/{server.process.pid}/fd", False
                 while not early and server.alive():
                     with contextlib.suppress(OSError):
-                        early = any(os.readlink(os.path.join(files, file)).startswith(folder) for file in os.listdir(files))
+                        early = any(
+                            os.readlink(os.path.join(files, file)).startswith(folder) for file in os.listdir(files)
+                        )
                 for _ in range(3):
                     server.process.send_signal(signal.SIGHUP)
                 server.wait_for("listening on unix:s")

@@ -34,7 +34,13 @@ def ask_at_length(wire, line):
 
 def fill(wire, states=40):
     """Machines and states, as many as the server admits. Returns whether it has refused something, or ended the session."""
-    lines = [LONG, b"observe grey84x4:hex", b"open 16", b"step NOOP", *[b"save s%d" % number for number in range(states)]]
+    lines = [
+        LONG,
+        b"observe grey84x4:hex",
+        b"open 16",
+        b"step NOOP",
+        *[b"save s%d" % number for number in range(states)],
+    ]
     try:
         return any([ask_at_length(wire, line).startswith((b"error limit ", b"error busy ")) for line in lines])
     except (AssertionError, OSError):
@@ -82,7 +88,9 @@ class Memory(unittest.TestCase):
         """In MiB."""
         with urllib.request.urlopen(f"http://127.0.0.1:{self.http}/metrics") as page:
             text = page.read().decode()
-        return int(re.search(rf'^racebeam_memory_bytes{{kind="{kind}"}} (\d+)$', text, re.MULTILINE).group(1)) / (1 << 20)
+        return int(re.search(rf'^racebeam_memory_bytes{{kind="{kind}"}} (\d+)$', text, re.MULTILINE).group(1)) / (
+            1 << 20
+        )
 
     def check_newcomers(self, port, count=5, address="127.0.0.1"):
         """Each connects, loads a game and plays, and has done so within a second."""

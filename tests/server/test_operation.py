@@ -9,8 +9,22 @@ import tempfile
 import time
 import unittest
 
-from harness import BINARY, GAME, LOAD, PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, run, \
-    sanitized, serve, thread_sanitized
+from harness import (
+    BINARY,
+    GAME,
+    LOAD,
+    PATIENCE,
+    Server,
+    Wire,
+    ask,
+    connect_tcp,
+    connect_unix,
+    main,
+    run,
+    sanitized,
+    serve,
+    thread_sanitized,
+)
 
 FRAMES = 100 if thread_sanitized() else 1000
 LONG = b"branch root " + b"NOOP*%d " % FRAMES * 100 + b"\n"  # 100,000 frames, or fewer where they take longer: a second
@@ -74,11 +88,20 @@ class Limits(unittest.TestCase):
                 wire.close()
 
     def test_each_limit_of_a_session_can_be_set_and_is_told(self):
-        limits = {"--max-line": 300, "--max-machines": 2, "--max-states": 1, "--max-request-frames": 50,
-                  "--max-reply": 2000000}
+        limits = {
+            "--max-line": 300,
+            "--max-machines": 2,
+            "--max-states": 1,
+            "--max-request-frames": 50,
+            "--max-reply": 2000000,
+        }
         words = [word for name, value in limits.items() for word in (name, str(value))]
-        requests = (b"hello\nload beamfall sticky=0\nopen 3\nsave a\nsave b\nact NOOP*51\nact NOOP*50\n" +
-                    b"act " + b"x" * 300 + b"\n")
+        requests = (
+            b"hello\nload beamfall sticky=0\nopen 3\nsave a\nsave b\nact NOOP*51\nact NOOP*50\n"
+            + b"act "
+            + b"x" * 300
+            + b"\n"
+        )
         lines = run("serve", "--stdio", *words, data=requests)[1].splitlines()
         self.assertIn(b"max_line=300 max_machines=2 max_states=1 max_request_frames=50 max_reply=2000000", lines[0])
         codes = [line.split()[1] if line.startswith(b"error") else b"ok" for line in lines]
@@ -87,7 +110,9 @@ class Limits(unittest.TestCase):
     def test_nothing_that_is_there_is_replaced(self):
         with tempfile.TemporaryDirectory() as folder:
             os.symlink("/nowhere/file", os.path.join(folder, "link.gif"))
-            lines = run("serve", "--stdio", "--record-dir", folder, data=b"load beamfall\nrecord gif link\n")[1].splitlines()
+            lines = run("serve", "--stdio", "--record-dir", folder, data=b"load beamfall\nrecord gif link\n")[
+                1
+            ].splitlines()
             self.assertIn(b"error recording link.gif exists", lines[1])
 
     def test_there_is_no_way_to_a_path(self):
@@ -139,7 +164,9 @@ class Stopping(unittest.TestCase):
     def test_who_is_in_the_middle_of_a_request_on_streams_is_told_too(self):
         with Server("serve", "--stdio", "--grace", "0", "--max-request-frames", "1000000000", streams=True) as server:
             wire = Wire(server.process.stdout.fileno(), server.process.stdin.fileno())
-            load(wire, b"branch root " + b"NOOP*20000 " * 300 + b"\n")  # short enough to be read with what comes before it
+            load(
+                wire, b"branch root " + b"NOOP*20000 " * 300 + b"\n"
+            )  # short enough to be read with what comes before it
             server.process.send_signal(signal.SIGTERM)
             self.assertEqual(wire.rest(), b"error stopping the server stops\n")
             self.assertEqual(server.wait(), 0)
@@ -164,10 +191,15 @@ class Stopping(unittest.TestCase):
 
     def test_a_recording_is_kept(self):
         for transport in ("--stdio", "--listen=unix:s"):
-            with self.subTest(transport=transport), Server("serve", transport, "--record-dir", ".", "--grace", "0",
-                                                           streams=True) as server:
-                wire = (Wire(os.dup(server.process.stdout.fileno()), os.dup(server.process.stdin.fileno()))
-                        if transport == "--stdio" else server.wait_for("listening") and connect_unix(server.path("s")))
+            with (
+                self.subTest(transport=transport),
+                Server("serve", transport, "--record-dir", ".", "--grace", "0", streams=True) as server,
+            ):
+                wire = (
+                    Wire(os.dup(server.process.stdout.fileno()), os.dup(server.process.stdin.fileno()))
+                    if transport == "--stdio"
+                    else server.wait_for("listening") and connect_unix(server.path("s"))
+                )
                 wire.send(b"load beamfall\nrecord y4m film\nact NOOP*10\n")
                 for _ in range(3):
                     wire.line()
@@ -178,8 +210,21 @@ class Stopping(unittest.TestCase):
 
 class Together(unittest.TestCase):
     def test_both_protocols_on_streams_and_sockets(self):
-        with Server("serve", "--stdio", "--listen", "unix:line", "--listen", "classic+unix:classic", "--rom", GAME,
-                    "--pipes", "p", "--ready-file", "ready", streams=True) as server:
+        with Server(
+            "serve",
+            "--stdio",
+            "--listen",
+            "unix:line",
+            "--listen",
+            "classic+unix:classic",
+            "--rom",
+            GAME,
+            "--pipes",
+            "p",
+            "--ready-file",
+            "ready",
+            streams=True,
+        ) as server:
             server.wait_for("listening on unix:classic")
             self.assertEqual(server.addresses("ready"), ["unix:line", "classic+unix:classic", "stdio", "pipes:p"])
             line, classic = connect_unix(server.path("line")), connect_unix(server.path("classic"))
@@ -198,7 +243,7 @@ class Together(unittest.TestCase):
             streams.close()
 
 
-FIRST_LINE = ("# racebeam ready file: the addresses of a server, one a line; lines that begin with # are comments\n")
+FIRST_LINE = "# racebeam ready file: the addresses of a server, one a line; lines that begin with # are comments\n"
 
 
 class ReadyFile(unittest.TestCase):
@@ -207,11 +252,18 @@ class ReadyFile(unittest.TestCase):
             with open(path, "w") as notes:
                 notes.write(text)
 
-        kinds = {"notes": lambda path: file(path, "tcp://127.0.0.1:1\n"), "empty": lambda path: file(path, ""),
-                 "near": lambda path: file(path, FIRST_LINE[:15]),
-                 "other": lambda path: file(path, "# racebeam ready file: x\n"),
-                 "long": lambda path: file(path, FIRST_LINE[:-1] + " of a kind\n"), "pipe": os.mkfifo, "folder": os.mkdir,
-                 "device": lambda path: os.symlink("/dev/null", path), "link": lambda path: os.symlink("ready", path)}
+        kinds = {
+            "notes": lambda path: file(path, "tcp://127.0.0.1:1\n"),
+            "empty": lambda path: file(path, ""),
+            "near": lambda path: file(path, FIRST_LINE[:15]),
+            "other": lambda path: file(path, "# racebeam ready file: x\n"),
+            "long": lambda path: file(path, FIRST_LINE[:-1] + " of a kind\n"),
+            "pipe": os.mkfifo,
+            "folder": os.mkdir,
+            "device": lambda path: os.symlink("/dev/null", path),
+            "link": lambda path: os.symlink("ready", path),
+        }
+
         def marks(path):  # all but the time of the last access
             found = os.lstat(path)
             return found.st_ino, found.st_mode, found.st_size, found.st_mtime_ns
@@ -266,7 +318,9 @@ class ReadyFile(unittest.TestCase):
             path = os.path.join(folder, "ready")
             with open(path, "w") as stale:
                 stale.write(FIRST_LINE + "tcp://127.0.0.1:1\n")
-            with Server("serve", "--listen", "tcp://127.0.0.1:0", "--http", "127.0.0.1:0", "--ready-file", path) as server:
+            with Server(
+                "serve", "--listen", "tcp://127.0.0.1:0", "--http", "127.0.0.1:0", "--ready-file", path
+            ) as server:
                 port = server.port()
                 server.wait_for("health and metrics")
                 lines = server.addresses(path)
@@ -292,8 +346,9 @@ class ReadyFile(unittest.TestCase):
                                     break
                         except FileNotFoundError:
                             pass
-                    status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--http", f"127.0.0.1:{mine}",
-                                            "--ready-file", path)
+                    status, _, errors = run(
+                        "serve", "--listen", "tcp://127.0.0.1:0", "--http", f"127.0.0.1:{mine}", "--ready-file", path
+                    )
                     self.assertEqual((status, os.path.exists(path)), (3, True), errors)
                     self.assertEqual(server.stop(), 0)
                     self.assertTrue(os.path.exists(path))
@@ -340,8 +395,11 @@ class Memory(unittest.TestCase):
 
     @unittest.skipIf(sanitized() or thread_sanitized(), "a sanitizer needs more memory")
     def test_a_server_with_little_memory_has_small_caches(self):
-        for memory, caches in (("64M", "28 resets, 699050 bytes"), ("512M", "128 resets, 4194304 bytes"),
-                               ("16M", "7 resets, 174762 bytes")):
+        for memory, caches in (
+            ("64M", "28 resets, 699050 bytes"),
+            ("512M", "128 resets, 4194304 bytes"),
+            ("16M", "7 resets, 174762 bytes"),
+        ):
             with self.subTest(memory=memory), serve("--max-memory", memory) as server:
                 server.wait_for(f"caches: {caches} of code for an image, [0-9]+ for all$")
                 wire = connect_tcp(server.port())
@@ -356,8 +414,16 @@ class Files(unittest.TestCase):
     FILES = 80
 
     def setUp(self):
-        self.server = Server("serve", "--listen", "tcp://127.0.0.1:0", "--http", "127.0.0.1:0", "--grace", "0",
-                             before=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (self.FILES, self.FILES)))
+        self.server = Server(
+            "serve",
+            "--listen",
+            "tcp://127.0.0.1:0",
+            "--http",
+            "127.0.0.1:0",
+            "--grace",
+            "0",
+            before=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (self.FILES, self.FILES)),
+        )
         self.addCleanup(self.server.__exit__)
         self.port = self.server.port()
         self.http = int(self.server.wait_for(r"health and metrics on http://127\.0\.0\.1:(\d+)$").group(1))
@@ -409,8 +475,14 @@ class Allowance(unittest.TestCase):
     def log_of(self, join):
         """The log of a server whose process calls `join` first."""
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([BINARY, "serve", "--listen", "unix:s", "--until-idle", "1"], cwd=folder, capture_output=True, text=True,
-                                  timeout=PATIENCE, preexec_fn=join)
+            done = subprocess.run(
+                [BINARY, "serve", "--listen", "unix:s", "--until-idle", "1"],
+                cwd=folder,
+                capture_output=True,
+                text=True,
+                timeout=PATIENCE,
+                preexec_fn=join,
+            )
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stderr
 
@@ -435,7 +507,9 @@ class Allowance(unittest.TestCase):
 
     def test_the_affinity_limits_the_threads(self):
         processor = min(os.sched_getaffinity(0))
-        self.assertIn("threads: 1, limited by the affinity\n", self.log_of(lambda: os.sched_setaffinity(0, {processor})))
+        self.assertIn(
+            "threads: 1, limited by the affinity\n", self.log_of(lambda: os.sched_setaffinity(0, {processor}))
+        )
 
     def test_a_control_group_limits_the_threads(self):
         processes = self.group("cpu", (("cpu.cfs_quota_us", "100000"), ("cpu.max", "100000 100000")))
@@ -461,22 +535,30 @@ class Systemd(unittest.TestCase):
         fds = [listener.fileno() for listener in sockets]
         script = "".join(f"os.dup2({fd}, {20 + place}); " for place, fd in enumerate(fds))
         script += "".join(f"os.dup2({20 + place}, {3 + place}); " for place in range(2))
-        script = f"import os, sys; {script} os.environ['LISTEN_PID'] = str(os.getpid()); os.execv(sys.argv[1], sys.argv[1:])"
+        script = (
+            f"import os, sys; {script} os.environ['LISTEN_PID'] = str(os.getpid()); os.execv(sys.argv[1], sys.argv[1:])"
+        )
         notify = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
         notify.bind(os.path.join(folder, "notify"))
         notify.settimeout(PATIENCE)
-        environment = {**os.environ, "LISTEN_FDS": "2", "LISTEN_FDNAMES": names,
-                       "NOTIFY_SOCKET": os.path.join(folder, "notify")}
-        process = subprocess.Popen(["python3", "-c", script, BINARY, "serve", *options], env=environment, pass_fds=fds,
-                                   stderr=subprocess.PIPE)
+        environment = {
+            **os.environ,
+            "LISTEN_FDS": "2",
+            "LISTEN_FDNAMES": names,
+            "NOTIFY_SOCKET": os.path.join(folder, "notify"),
+        }
+        process = subprocess.Popen(
+            ["python3", "-c", script, BINARY, "serve", *options], env=environment, pass_fds=fds, stderr=subprocess.PIPE
+        )
         for listener in sockets:
             listener.close()
         return process, notify
 
     def test_its_sockets_are_served_and_it_is_notified(self):
         with tempfile.TemporaryDirectory() as folder:
-            process, notify = self.start(folder, ["--listen", "systemd:line", "--listen", "classic+systemd:classic",
-                                                  "--rom", GAME])
+            process, notify = self.start(
+                folder, ["--listen", "systemd:line", "--listen", "classic+systemd:classic", "--rom", GAME]
+            )
             self.assertEqual(notify.recv(100), b"READY=1")
             line, classic = (connect_unix(os.path.join(folder, name)) for name in ("s0", "s1"))
             self.assertTrue(ask(line, b"hello").startswith(b"ok "))

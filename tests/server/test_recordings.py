@@ -12,45 +12,78 @@ import threading
 import time
 import unittest
 
-from harness import BINARY, PATIENCE, ask, connect_tcp, connect_unix, main, run, sanitized, serve, \
-    thread_sanitized, Server
+from harness import (
+    BINARY,
+    PATIENCE,
+    Server,
+    ask,
+    connect_tcp,
+    connect_unix,
+    main,
+    run,
+    sanitized,
+    serve,
+    thread_sanitized,
+)
 
 LIMIT = 1000000
 SLACK = 2  # seconds, for a busy machine
-KINDS = {"y4m": ["film.y4m"], "gif": ["film.gif"], "wav": ["film.wav"], "png": ["film"], "y4m,wav": ["film.wav", "film.y4m"]}
+KINDS = {
+    "y4m": ["film.y4m"],
+    "gif": ["film.gif"],
+    "wav": ["film.wav"],
+    "png": ["film"],
+    "y4m,wav": ["film.wav", "film.y4m"],
+}
 
 
 def requests(kind):
     """A recording of more than LIMIT bytes, of any kind."""
-    return (b"load beamfall sticky=0 max_episode_frames=0\nsave root\nrecord %s film\n" % kind.encode() +
-            b"act FIRE*1000\nrestore root\n" * 4 + b"record stop\nact NOOP\n")
+    return (
+        b"load beamfall sticky=0 max_episode_frames=0\nsave root\nrecord %s film\n" % kind.encode()
+        + b"act FIRE*1000\nrestore root\n" * 4
+        + b"record stop\nact NOOP\n"
+    )
 
 
 class Limits(unittest.TestCase):
     def check(self, kind, lines, folder, reason):
         told = [line for line in lines if line.startswith(b"ok recording_ended=" + reason + b" ")]
         self.assertEqual(len(told), 1, lines)
-        self.assertRegex(lines[-2], b"^ok recorded=film.* frames=[1-9][0-9]* .* complete=0 recording_ended=" + reason + b"$")
+        self.assertRegex(
+            lines[-2], b"^ok recorded=film.* frames=[1-9][0-9]* .* complete=0 recording_ended=" + reason + b"$"
+        )
         self.assertTrue(lines[-1].startswith(b"ok "))
         self.assertEqual(sorted(os.listdir(folder)), KINDS[kind])
 
     def test_what_fits_is_kept(self):
         for kind in KINDS:
             with self.subTest(kind=kind), tempfile.TemporaryDirectory() as folder:
-                lines = run("serve", "--stdio", "--record-dir", folder, "--record-limit", str(LIMIT),
-                            data=requests(kind))[1].splitlines()
+                lines = run(
+                    "serve", "--stdio", "--record-dir", folder, "--record-limit", str(LIMIT), data=requests(kind)
+                )[1].splitlines()
                 self.check(kind, lines, folder, b"limit")
                 size = int(lines[-2].split(b"bytes=")[1].split()[0])
                 self.assertLessEqual(size, LIMIT)
-                self.assertEqual(size, sum(os.path.getsize(os.path.join(path, name))
-                                           for path, _, names in os.walk(folder) for name in names))
+                self.assertEqual(
+                    size,
+                    sum(
+                        os.path.getsize(os.path.join(path, name))
+                        for path, _, names in os.walk(folder)
+                        for name in names
+                    ),
+                )
 
     def test_what_the_disk_takes_is_kept(self):
         for kind, most in {"y4m": LIMIT, "gif": LIMIT // 10, "wav": LIMIT // 10, "y4m,wav": LIMIT}.items():
             with self.subTest(kind=kind), tempfile.TemporaryDirectory() as folder:
-                done = subprocess.run([BINARY, "serve", "--stdio", "--record-dir", folder], input=requests(kind),
-                                      capture_output=True, timeout=PATIENCE,
-                                      preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)))
+                done = subprocess.run(
+                    [BINARY, "serve", "--stdio", "--record-dir", folder],
+                    input=requests(kind),
+                    capture_output=True,
+                    timeout=PATIENCE,
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)),
+                )
                 self.check(kind, done.stdout.splitlines(), folder, b"disk")
                 self.assertEqual(done.returncode, 0)
                 with open(os.path.join(folder, KINDS[kind][-1]), "rb") as file:
@@ -65,8 +98,15 @@ class Limits(unittest.TestCase):
 
     def test_where_nothing_fits_there_is_nothing(self):
         with tempfile.TemporaryDirectory() as folder:
-            lines = run("serve", "--stdio", "--record-dir", folder, "--record-limit", "30",
-                        data=b"load beamfall\nrecord gif film\nact NOOP\nrecord stop\n")[1].splitlines()
+            lines = run(
+                "serve",
+                "--stdio",
+                "--record-dir",
+                folder,
+                "--record-limit",
+                "30",
+                data=b"load beamfall\nrecord gif film\nact NOOP\nrecord stop\n",
+            )[1].splitlines()
             self.assertIn(b"error recording the recording has reached its limit of 30 bytes", lines[1])
             self.assertEqual(lines[3], b"error recording nothing is being recorded")
             self.assertEqual(os.listdir(folder), [])
@@ -116,6 +156,7 @@ class Others(unittest.TestCase):
             def play(number):
                 for line in (b"load beamfall sticky=0", b"record wav,gif film%d" % number, b"act FIRE*100"):
                     ask(wires[number], line)
+
             threads = [threading.Thread(target=play, args=(number,)) for number in range(len(wires))]
             for thread in threads:
                 thread.start()
@@ -153,14 +194,24 @@ class Encoded(unittest.TestCase):
         os.chmod(path, 0o755)
 
     def record(self, requests, *options, before=None, path=None):
-        done = subprocess.run([BINARY, "serve", "--stdio", "--record-dir", self.films, *options], input=requests, capture_output=True,
-                              timeout=PATIENCE, preexec_fn=before, env=os.environ | {"PATH": path or f"{self.tools}:{os.environ['PATH']}"})
+        done = subprocess.run(
+            [BINARY, "serve", "--stdio", "--record-dir", self.films, *options],
+            input=requests,
+            capture_output=True,
+            timeout=PATIENCE,
+            preexec_fn=before,
+            env=os.environ | {"PATH": path or f"{self.tools}:{os.environ['PATH']}"},
+        )
         self.assertEqual(done.returncode, 0)
         return done.stdout.splitlines()
 
     def decoded(self, name, *options):
-        return subprocess.run(["ffmpeg", "-v", "error", "-i", os.path.join(self.films, name), *options, "pipe:1"], capture_output=True,
-                              check=True, timeout=PATIENCE).stdout
+        return subprocess.run(
+            ["ffmpeg", "-v", "error", "-i", os.path.join(self.films, name), *options, "pipe:1"],
+            capture_output=True,
+            check=True,
+            timeout=PATIENCE,
+        ).stdout
 
     def frames(self, name):
         """How many frames a film has."""
@@ -168,7 +219,7 @@ class Encoded(unittest.TestCase):
 
     def last_frame(self, name):
         """The last frame of a film, decoded: 640 x 420 pixels of red, green and blue."""
-        return self.decoded(name, "-f", "rawvideo", "-pix_fmt", "rgb24")[-3 * 640 * 420:]
+        return self.decoded(name, "-f", "rawvideo", "-pix_fmt", "rgb24")[-3 * 640 * 420 :]
 
     def test_ffmpeg_gets_every_frame_and_writes_only_the_file(self):
         self.install('echo "$@" > "$(dirname "$0")/words"; ' + COPY)
@@ -209,8 +260,16 @@ class Encoded(unittest.TestCase):
 
     def test_an_encoder_that_never_ends_delays_no_other_and_is_killed(self):
         self.install('cd "$(dirname "$0")"; echo $$ > pid.part; mv pid.part pid; exec sleep 1000')
-        with Server("serve", "--listen", "unix:s", "--record-dir", self.films, "--grace", "0",
-                    PATH=f"{self.tools}:{os.environ['PATH']}") as server:
+        with Server(
+            "serve",
+            "--listen",
+            "unix:s",
+            "--record-dir",
+            self.films,
+            "--grace",
+            "0",
+            PATH=f"{self.tools}:{os.environ['PATH']}",
+        ) as server:
             server.wait_for("listening")
             recorder, other = connect_unix(server.path("s")), connect_unix(server.path("s"))
             for wire in (recorder, other):
@@ -238,8 +297,12 @@ class Encoded(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual(self.frames(name), 60)
                 frame = self.last_frame(name)
-                shown = [frame[3 * (640 * (2 * row) + 4 * column + 1) + part]
-                         for row in range(210) for column in range(160) for part in range(3)]
+                shown = [
+                    frame[3 * (640 * (2 * row) + 4 * column + 1) + part]
+                    for row in range(210)
+                    for column in range(160)
+                    for part in range(3)
+                ]
                 self.assertLess(statistics.mean(abs(a - b) for a, b in zip(shown, seen)), 8)
                 sound = self.decoded(name, "-f", "u8", "-ar", "30720")
                 self.assertAlmostEqual(len(sound) / 30720, 1, delta=0.1)
@@ -248,8 +311,13 @@ class Encoded(unittest.TestCase):
     @WITH_FFMPEG
     def test_what_fits_is_a_whole_film(self):
         for kind in ("webm", "mp4"):
-            lines = self.record(b"load beamfall sticky=0 max_episode_frames=0\nsave root\nrecord %s film\n" % kind.encode() +
-                                b"act FIRE*400\nrestore root\n" * 4 + b"record stop\n", "--record-limit", "400000")
+            lines = self.record(
+                b"load beamfall sticky=0 max_episode_frames=0\nsave root\nrecord %s film\n" % kind.encode()
+                + b"act FIRE*400\nrestore root\n" * 4
+                + b"record stop\n",
+                "--record-limit",
+                "400000",
+            )
             self.assertIn(b" recording_ended=limit", lines[-1])
             size = os.path.getsize(os.path.join(self.films, f"film.{kind}"))
             self.assertLessEqual(size, 400000)
@@ -258,8 +326,10 @@ class Encoded(unittest.TestCase):
 
     @WITH_FFMPEG
     def test_a_full_disk_is_an_error_that_leaves_nothing(self):
-        lines = self.record(b"load beamfall sticky=0\nrecord mp4 film\n" + b"act FIRE*200\n" * 10 + b"record stop\nact NOOP\n",
-                            before=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000)))
+        lines = self.record(
+            b"load beamfall sticky=0\nrecord mp4 film\n" + b"act FIRE*200\n" * 10 + b"record stop\nact NOOP\n",
+            before=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000)),
+        )
         self.assertRegex(lines[-2], b"^error recording ffmpeg failed: .*; nothing was kept$")
         self.assertTrue(lines[-1].startswith(b"ok "))
         self.assertEqual(os.listdir(self.films), [])
@@ -272,8 +342,19 @@ class HangingDisk(unittest.TestCase):
     def serve(self, *options):
         hanging_disk = os.environ["RACEBEAM_HANGING_DISK"]
         self.assertTrue(os.path.exists(hanging_disk), hanging_disk)  # else the loader ignores it
-        return Server("serve", "--threads", "1", "--listen", "unix:s", "--record-dir", ".", "--grace", "1", *options,
-                      LD_PRELOAD=hanging_disk)
+        return Server(
+            "serve",
+            "--threads",
+            "1",
+            "--listen",
+            "unix:s",
+            "--record-dir",
+            ".",
+            "--grace",
+            "1",
+            *options,
+            LD_PRELOAD=hanging_disk,
+        )
 
     def begin(self, server, kind):
         wire = connect_unix(server.path("s"))

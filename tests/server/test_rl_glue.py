@@ -14,8 +14,10 @@ INIT, START, STEP, CLEANUP, MESSAGE, TERMINATE = 11, 12, 13, 14, 19, 35
 SMALL, SMALL_SET = "builtin:updraft", [0, 1, 3, 4, 11, 12]  # a game with a minimal set
 SCREEN = 160 * 210
 ACTIONS = [1, 3, 3, 4, 0, 11, 12, 3, 99, -1] * 6
-TASK = (b"VERSION RL-Glue-3.0 PROBLEMTYPE episodic DISCOUNTFACTOR 1 OBSERVATIONS INTS (128 0 255)%s ACTIONS INTS (0 %d) "
-        b"REWARDS (UNSPEC UNSPEC) EXTRA Name: Arcade Learning Environment ")
+TASK = (
+    b"VERSION RL-Glue-3.0 PROBLEMTYPE episodic DISCOUNTFACTOR 1 OBSERVATIONS INTS (128 0 255)%s ACTIONS INTS (0 %d) "
+    b"REWARDS (UNSPEC UNSPEC) EXTRA Name: Arcade Learning Environment "
+)
 
 
 class Core:
@@ -27,8 +29,11 @@ class Core:
         self.listener.settimeout(PATIENCE)
         test.addCleanup(self.listener.close)
         self.environment = subprocess.Popen(
-            [BINARY, "classic", "-game_controller", "rlglue", *SETTINGS, *options, game], stderr=subprocess.PIPE, text=True,
-            env={**os.environ, "RLGLUE_PORT": str(self.listener.getsockname()[1])})
+            [BINARY, "classic", "-game_controller", "rlglue", *SETTINGS, *options, game],
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "RLGLUE_PORT": str(self.listener.getsockname()[1])},
+        )
         test.addCleanup(self.environment.stderr.close)
         test.addCleanup(self.environment.wait)
         test.addCleanup(self.environment.kill)
@@ -112,7 +117,7 @@ class RlGlue(unittest.TestCase):
         indices = observation(plain.ask(START))[1]
         colours = observation(core.ask(START))[1]
         self.assertEqual(len(colours), 3 * SCREEN)
-        pixels = {(index, colours[3 * at:3 * at + 3]) for at, index in enumerate(indices)}
+        pixels = {(index, colours[3 * at : 3 * at + 3]) for at, index in enumerate(indices)}
         self.assertEqual(len(pixels), len(set(indices)))  # each index has one colour
         for index, action in [*enumerate(SMALL_SET)] * 5:
             self.assertEqual(core.step(index)[2][0], plain.step(action)[2][0])
@@ -139,8 +144,12 @@ class RlGlue(unittest.TestCase):
         listener.settimeout(PATIENCE)
         listener.bind(("127.0.0.1", 0))  # no other program gets the port, and nothing listens yet
         port = listener.getsockname()[1]
-        environment = subprocess.Popen([BINARY, "classic", "-game_controller", "rlglue", *SETTINGS, GAME], text=True,
-                                       stderr=subprocess.PIPE, env={**os.environ, "RLGLUE_PORT": str(port)})
+        environment = subprocess.Popen(
+            [BINARY, "classic", "-game_controller", "rlglue", *SETTINGS, GAME],
+            text=True,
+            stderr=subprocess.PIPE,
+            env={**os.environ, "RLGLUE_PORT": str(port)},
+        )
         with environment:
             self.addCleanup(environment.kill)
             waiting = next(line for line in environment.stderr if "waiting" in line)
@@ -169,8 +178,13 @@ class RlGlue(unittest.TestCase):
     def test_a_port_and_a_screen_that_do_not_fit_are_refused(self):
         for port in ("0", "65536", "x"):
             environment = {**os.environ, "RLGLUE_PORT": port}
-            refused = subprocess.run([BINARY, "classic", "-game_controller", "rlglue", GAME], env=environment, text=True,
-                                     capture_output=True, timeout=PATIENCE)
+            refused = subprocess.run(
+                [BINARY, "classic", "-game_controller", "rlglue", GAME],
+                env=environment,
+                text=True,
+                capture_output=True,
+                timeout=PATIENCE,
+            )
             self.assertEqual(refused.returncode, 1)
             self.assertIn(f"RLGLUE_PORT is '{port}'", refused.stderr)
 

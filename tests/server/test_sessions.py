@@ -42,8 +42,12 @@ class SmallCases(unittest.TestCase):
         self.check(b"0,0,0,1\n" + b"3,18\n" * 6, ["0,0:"] * 2 + ["DIE"], "--max-frames", "5", "--frame-skip", "4")
 
     def test_an_episode_ends_after_its_frames_until_a_reset(self):
-        self.check(b"0,0,0,1\n" + b"3,18\n" * 5 + b"45,18\n3,18\n",
-                   ["0,0:"] * 3 + ["1,0:"] * 3 + ["0,0:"] * 2 + ["DIE"], "--max-episode-frames", "3")
+        self.check(
+            b"0,0,0,1\n" + b"3,18\n" * 5 + b"45,18\n3,18\n",
+            ["0,0:"] * 3 + ["1,0:"] * 3 + ["0,0:"] * 2 + ["DIE"],
+            "--max-episode-frames",
+            "3",
+        )
 
     @unittest.skipUnless(rom("breakout"), "there is no image of breakout")
     def test_a_paddle_game_takes_every_number_for_nothing(self):
@@ -56,6 +60,7 @@ class SmallCases(unittest.TestCase):
             with Session("stdio", *words, image=rom("seaquest")) as session:
                 session.wire.send(b"0,1,0,0\n")
                 return session.wire.receive(len(b"160-210\n") + 258)
+
         self.assertEqual(memory("1", "1"), memory("1", "2"))
         self.assertNotEqual(memory("1", "1"), memory("2", "1"))
 

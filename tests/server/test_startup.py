@@ -26,7 +26,9 @@ class PipeNames(Refusals):
     def test_two_endpoints_cannot_have_the_same_pipes(self):
         with tempfile.TemporaryDirectory() as folder:
             pipes = f"pipes:{folder}/q"
-            self.check(["serve", "--listen", pipes, "--listen", pipes], 2, f"{pipes} can serve only one session: give it once")
+            self.check(
+                ["serve", "--listen", pipes, "--listen", pipes], 2, f"{pipes} can serve only one session: give it once"
+            )
             self.assertEqual(os.listdir(folder), [])
 
     def test_pipes_beside_another_file_of_their_name_are_not_made(self):
@@ -92,16 +94,34 @@ class CommandLine(Refusals):
         self.check([*SERVE, *words], 2, hint)
 
     def test_flags_that_are_not_numbers_are_refused(self):
-        for flag in ("--seed", "--system-seed", "--frame-skip", "--sticky", "--max-frames", "--max-episode-frames",
-                     "--mode", "--difficulty"):
+        for flag in (
+            "--seed",
+            "--system-seed",
+            "--frame-skip",
+            "--sticky",
+            "--max-frames",
+            "--max-episode-frames",
+            "--mode",
+            "--difficulty",
+        ):
             for value in ("fire", "", "1x", "0x10", " 1", "1,5"):
                 with self.subTest(flag=flag, value=value):
                     self.refuse(flag, value, hint=flag)
 
     def test_flags_that_are_out_of_range_are_refused(self):
-        for flag, value in (("--seed", "-1"), ("--seed", "4294967296"), ("--frame-skip", "0"), ("--frame-skip", "-4"),
-                            ("--sticky", "1.01"), ("--sticky", "-0.1"), ("--sticky", "nan"), ("--sticky", "inf"),
-                            ("--max-frames", "-1"), ("--max-frames", "99999999999"), ("--max-episode-frames", "-1")):
+        for flag, value in (
+            ("--seed", "-1"),
+            ("--seed", "4294967296"),
+            ("--frame-skip", "0"),
+            ("--frame-skip", "-4"),
+            ("--sticky", "1.01"),
+            ("--sticky", "-0.1"),
+            ("--sticky", "nan"),
+            ("--sticky", "inf"),
+            ("--max-frames", "-1"),
+            ("--max-frames", "99999999999"),
+            ("--max-episode-frames", "-1"),
+        ):
             with self.subTest(flag=flag, value=value):
                 self.refuse(flag, value, hint=f"'{value}' is not a")
 
@@ -141,37 +161,66 @@ class CommandLine(Refusals):
             with open(path, "w") as tokens:
                 tokens.write("0123456789abcdef\n" * 900_000)  # 15 MB, and more for their digests
             os.chmod(path, 0o600)
+
             def limit():
                 resource.setrlimit(resource.RLIMIT_DATA, (30 << 20, 30 << 20))
-            done = subprocess.run([BINARY, "serve", "--listen", "unix:s", "--threads", "1", "--token-file", path],
-                                  capture_output=True, cwd=folder, timeout=PATIENCE, preexec_fn=limit)
+
+            done = subprocess.run(
+                [BINARY, "serve", "--listen", "unix:s", "--threads", "1", "--token-file", path],
+                capture_output=True,
+                cwd=folder,
+                timeout=PATIENCE,
+                preexec_fn=limit,
+            )
             self.assertEqual((done.returncode, done.stderr), (5, b"racebeam: the system gives no more memory\n"))
 
     @unittest.skipIf(sanitized(), "a sanitizer needs more address space")
     def test_a_thread_that_the_system_does_not_give_has_the_same_status(self):
         reason = "the system gives no more memory for a thread, or allows no more threads"
         for kibibytes in (20000, 26000):  # without room for the stack of a thread
+
             def limit():
                 resource.setrlimit(resource.RLIMIT_AS, (kibibytes << 10, kibibytes << 10))
+
             for form in ("text", "json"):
                 with self.subTest(kibibytes=kibibytes, form=form):
-                    done = subprocess.run([BINARY, "serve", "--listen", "tcp://127.0.0.1:0", "--threads", "2",
-                                           "--log-level", "error", "--log-format", form],
-                                          capture_output=True, text=True, timeout=PATIENCE, preexec_fn=limit)
+                    done = subprocess.run(
+                        [
+                            BINARY,
+                            "serve",
+                            "--listen",
+                            "tcp://127.0.0.1:0",
+                            "--threads",
+                            "2",
+                            "--log-level",
+                            "error",
+                            "--log-format",
+                            form,
+                        ],
+                        capture_output=True,
+                        text=True,
+                        timeout=PATIENCE,
+                        preexec_fn=limit,
+                    )
                     self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (5, "", 1), done.stderr)
                     self.assertIn(reason, done.stderr)
 
     def test_a_limit_of_memory_is_a_size(self):
         for size in ("-1", "99999999999999999999", "1.5G", "2x", "", "i", "G"):
             with self.subTest(size=size):
-                self.check(["serve", "--stdio", "--max-memory", size], 2,
-                           f"--max-memory: '{size}' is not a size; accepted are bytes, or 512M, 2G and the like, up to {1 << 60}")
+                self.check(
+                    ["serve", "--stdio", "--max-memory", size],
+                    2,
+                    f"--max-memory: '{size}' is not a size; accepted are bytes, or 512M, 2G and the like, up to {1 << 60}",
+                )
 
     def test_an_image_has_to_be_named(self):
         self.check(["serve", "--classic", "--stdio"], 2, "--rom is required")
 
     def test_an_unknown_subcommand_is_answered_by_those_there_are(self):
-        self.check(["emulate"], 2, "'emulate' is not a subcommand", "serve, with, config, classic, connect, play, watch")
+        self.check(
+            ["emulate"], 2, "'emulate' is not a subcommand", "serve, with, config, classic, connect, play, watch"
+        )
         self.check([], 2, "serve, with, config, classic, connect")
 
 
@@ -194,6 +243,7 @@ class Folders(unittest.TestCase):
             for name, data in (("empty.bin", b""), ("large.bin", bytes(1 << 20)), ("cut.bin.gz", b"\x1f\x8b\x08")):
                 with open(path(name), "wb") as file:
                     file.write(data)
+
         self.assertEqual(self.games(prepare)[0], "ok count=2 games=beamfall,updraft")
 
     def test_the_name_of_an_unknown_image_means_nothing_else(self):
@@ -217,6 +267,7 @@ class Folders(unittest.TestCase):
         def prepare(path):
             with open(HOMEBREW, "rb") as image, open(path("My own, game (1).bin"), "wb") as changed:
                 changed.write(bytes(reversed(image.read())))
+
         listed, loaded = self.games(prepare)
         self.assertEqual(listed, "ok count=3 games=beamfall,my_own__game__1_,updraft")
         self.assertTrue(loaded.startswith("ok game=my_own__game__1_ md5="), loaded)
@@ -226,16 +277,22 @@ class Descriptors(unittest.TestCase):
     def test_standard_ones_that_are_closed_are_not_taken_by_others(self):
         for redirection, status in (("<&-", 0), (">&-", 1), ("2>&-", 0), ("<&- >&- 2>&-", 0)):
             with self.subTest(redirection=redirection):
-                done = subprocess.run(["bash", "-c", f"printf 'hello\\n' | '{BINARY}' serve --stdio {redirection}"],
-                                      capture_output=True, timeout=PATIENCE)
+                done = subprocess.run(
+                    ["bash", "-c", f"printf 'hello\\n' | '{BINARY}' serve --stdio {redirection}"],
+                    capture_output=True,
+                    timeout=PATIENCE,
+                )
                 self.assertEqual(done.returncode, status, done)
                 self.assertEqual(done.stdout.startswith(b"ok server="), redirection == "2>&-", done)
 
 
 class Help(unittest.TestCase):
     def test_help_and_version_go_to_standard_output(self):
-        for words, hint in ((["--version"], b"racebeam 0."), (["--help"], b"Try first"),
-                            (["serve", "--help"], b"Examples")):
+        for words, hint in (
+            (["--version"], b"racebeam 0."),
+            (["--help"], b"Try first"),
+            (["serve", "--help"], b"Examples"),
+        ):
             status, output, errors = run(*words)
             self.assertEqual((status, errors), (0, []))
             self.assertIn(hint, output)

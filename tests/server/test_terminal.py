@@ -18,7 +18,9 @@ def said_on_a_terminal(requests):
     """All output of `racebeam serve --stdio` on a terminal of COLUMNS columns."""
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, COLUMNS, 0, 0))
-    server = subprocess.Popen([BINARY, "serve", "--stdio"], stdin=subprocess.PIPE, stdout=theirs, stderr=subprocess.DEVNULL)
+    server = subprocess.Popen(
+        [BINARY, "serve", "--stdio"], stdin=subprocess.PIPE, stdout=theirs, stderr=subprocess.DEVNULL
+    )
     os.close(theirs)
     server.stdin.write(requests)
     server.stdin.close()
@@ -35,7 +37,9 @@ def said_on_a_terminal(requests):
 
 
 def said_to_a_program(requests):
-    return subprocess.run([BINARY, "serve", "--stdio"], input=requests, capture_output=True, timeout=PATIENCE).stdout.decode()
+    return subprocess.run(
+        [BINARY, "serve", "--stdio"], input=requests, capture_output=True, timeout=PATIENCE
+    ).stdout.decode()
 
 
 class Terminal(unittest.TestCase):

@@ -64,7 +64,8 @@ def whole(wire, conversation):
 def byte_by_byte(wire, conversation):
     def send(line):
         for at in range(len(line)):
-            wire.send(line[at:at + 1])
+            wire.send(line[at : at + 1])
+
     return in_turn(wire, conversation, send)
 
 

@@ -11,15 +11,20 @@ class NamedRun:
 
     @property
     def name(self):
-        told = [field for field in dataclasses.fields(self)[1:]
-                if getattr(self, field.name) != field.default or field.name in self.ALWAYS]
+        told = [
+            field
+            for field in dataclasses.fields(self)[1:]
+            if getattr(self, field.name) != field.default or field.name in self.ALWAYS
+        ]
         return f"{self.game}:" + ",".join(f"{field.name}={getattr(self, field.name)}" for field in told)
 
     @classmethod
     def parse(cls, text):
         """The run of that name. Raises ValueError with a sentence."""
         game, _, settings = text.partition(":")
-        kinds = {field.name: float if isinstance(field.default, float) else int for field in dataclasses.fields(cls)[1:]}
+        kinds = {
+            field.name: float if isinstance(field.default, float) else int for field in dataclasses.fields(cls)[1:]
+        }
         values = {}
         for word in filter(None, settings.split(",")):
             key, _, value = word.partition("=")

@@ -16,8 +16,14 @@ from concurrent.futures import ThreadPoolExecutor
 from harness import BINARY, SKIPPED, SOURCE, rom
 
 TRACES = os.path.join(os.environ.get("RACEBEAM_SHARED", os.path.join(os.path.dirname(SOURCE), "shared")), "traces")
-OPTIONS = {"skip": "--frame-skip", "sticky": "--sticky", "rseed": "--seed", "mode": "--mode", "diff": "--difficulty",
-           "maxf": "--max-frames"}
+OPTIONS = {
+    "skip": "--frame-skip",
+    "sticky": "--sticky",
+    "rseed": "--seed",
+    "mode": "--mode",
+    "diff": "--difficulty",
+    "maxf": "--max-frames",
+}
 FLAGS = {"avg": "--color-averaging", "audio": "--audio", "ram": "--ram"}
 NO_MEANING = {"rom", "width", "height", "frames", "action_seed", "every"}  # for a replay
 
@@ -57,8 +63,12 @@ def replay(game):
     if image is None:
         return "skipped", "there is no image"
     settings, expected = read_trace(path)
-    run = subprocess.run([BINARY, "trace", "--rom", image, "--actions", path, *options_of(settings)],
-                         capture_output=True, text=True, timeout=250)
+    run = subprocess.run(
+        [BINARY, "trace", "--rom", image, "--actions", path, *options_of(settings)],
+        capture_output=True,
+        text=True,
+        timeout=250,
+    )
     printed = run.stdout.splitlines()
     if run.returncode != 0:
         return "DIFFERENT", f"status {run.returncode} after {len(printed)} lines: {run.stderr.strip()}"
@@ -71,7 +81,9 @@ def main():
     if not os.path.isdir(TRACES):
         print("skipped: there are no recordings of the reference here")
         return SKIPPED
-    games = sys.argv[1:] or sorted(name.removesuffix(".trace.gz") for name in os.listdir(TRACES) if name.endswith(".gz"))
+    games = sys.argv[1:] or sorted(
+        name.removesuffix(".trace.gz") for name in os.listdir(TRACES) if name.endswith(".gz")
+    )
     counts = {"reproduced": 0, "DIFFERENT": 0, "skipped": 0}
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for game, (verdict, sentence) in zip(games, pool.map(replay, games)):

@@ -60,8 +60,15 @@ class Reading(unittest.TestCase):
         self.assertEqual(self.counts.functions, {"draw": 18, callgrind.MADE_AT_RUN_TIME: 20, "memset": 9})
 
     def test_what_is_inlined_counts_for_its_file_and_the_standard_library_for_its_user(self):
-        self.assertEqual(self.counts.files, {"emulator/tia/tia.cpp": 16, "emulator/tia/beam.hpp": 2,
-                                             callgrind.MADE_AT_RUN_TIME: 20, "libc.so.6 (not in the tree)": 9})
+        self.assertEqual(
+            self.counts.files,
+            {
+                "emulator/tia/tia.cpp": 16,
+                "emulator/tia/beam.hpp": 2,
+                callgrind.MADE_AT_RUN_TIME: 20,
+                "libc.so.6 (not in the tree)": 9,
+            },
+        )
 
 
 @unittest.skipUnless(callgrind.available(), "valgrind is missing; scripts/setup installs it")
@@ -81,8 +88,12 @@ class Checking(unittest.TestCase):
 
     @classmethod
     def run_tool(cls, *words, **environment):
-        return subprocess.run([sys.executable, "-B", TOOL, "--games", "ours", "--binary", BINARY,
-                               "--baseline", cls.path, *words], capture_output=True, text=True, env=os.environ | environment)
+        return subprocess.run(
+            [sys.executable, "-B", TOOL, "--games", "ours", "--binary", BINARY, "--baseline", cls.path, *words],
+            capture_output=True,
+            text=True,
+            env=os.environ | environment,
+        )
 
     def check_against(self, change, **environment):
         changed = json.loads(json.dumps(self.kept))
@@ -93,6 +104,7 @@ class Checking(unittest.TestCase):
     def scaled(self, factor):
         def change(baseline):
             baseline["translator"]["beamfall"] = round(baseline["translator"]["beamfall"] * factor)
+
         return self.check_against(change)
 
     def test_a_second_count_is_the_same(self):

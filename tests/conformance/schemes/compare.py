@@ -126,7 +126,7 @@ def random_slots(rng, scheme):
             slots += ram_code(rng, scheme)
         else:
             slots += [random_slot(rng, scheme)]
-    return slots[:images.SLOTS]
+    return slots[: images.SLOTS]
 
 
 def pokes_of(slots):

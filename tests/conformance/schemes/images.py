@@ -16,8 +16,24 @@ SLOTS, SLOT_SIZE = 10, 7
 NOP_ABSOLUTE = 0x0C
 COUNTER = 0x60  # RAM index of the number of frames so far
 RESULTS = 0x66  # RAM index of the first result; behind the loop and in front of the stack
-LOOP = bytes([0xA2, 0x02, 0x86, 0x40, 0x86, 0x42, 0x86, 0x42, 0xA2, 0x00, 0x86, 0x40,  # VSYNC on, two lines, off
-              0xE6, 0x80 + COUNTER])
+LOOP = bytes(
+    [
+        0xA2,
+        0x02,
+        0x86,
+        0x40,
+        0x86,
+        0x42,
+        0x86,
+        0x42,
+        0xA2,
+        0x00,
+        0x86,
+        0x40,  # VSYNC on, two lines, off
+        0xE6,
+        0x80 + COUNTER,
+    ]
+)
 FIRST_SLOT = len(LOOP)
 
 
@@ -36,7 +52,7 @@ def boot_program(origin):
 
 
 def plant(image, at, data):
-    image[at:at + len(data)] = data
+    image[at : at + len(data)] = data
 
 
 def planted(size, rng):
@@ -50,7 +66,7 @@ def planted(size, rng):
 
 def with_ports(image, size):
     for bank in range(0, len(image), 4096):
-        image[bank:bank + size] = bytes([image[bank]]) * size
+        image[bank : bank + size] = bytes([image[bank]]) * size
     return image
 
 
@@ -121,7 +137,9 @@ LIVELY = {
 # Cartridge RAM that can hold code: an address whose access selects it, write port, read port, size.
 SC_PORTS = [(0x1FF9, 0x1000, 0x1080, 128)]
 RAM_CODE = {
-    "F8SC": SC_PORTS, "F6SC": SC_PORTS, "F4SC": SC_PORTS,
+    "F8SC": SC_PORTS,
+    "F6SC": SC_PORTS,
+    "F4SC": SC_PORTS,
     "FASC": [(0x1FF9, 0x1000, 0x1100, 256)],
     "E7": [(0x1FE7, 0x1000, 0x1400, 1024), (0x1FE9, 0x1800, 0x1900, 256)],
     "3E": [(0x003E, 0x1400, 0x1000, 1024), (0x003E, 0x1400, 0x1400, 1024)],

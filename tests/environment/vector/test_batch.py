@@ -19,11 +19,22 @@ from ale_py.vector_env import AtariVectorEnv  # noqa: E402
 from gymnasium.vector import AutoresetMode  # noqa: E402
 
 # Our names of the reference's settings.
-NAMES = {"frameskip": "frame_skip", "repeat_action_probability": "sticky", "noop_max": "noop_max",
-         "use_fire_reset": "fire", "reward_clipping": "clip", "episodic_life": "life_loss_ends",
-         "life_loss_info": "life_loss_is_told", "stack_num": "stack", "maxpool": "max_pool",
-         "max_num_frames_per_episode": "max_episode_frames", "full_action_space": "all_legal_actions",
-         "img_width": "width", "img_height": "height", "continuous": "continuous"}
+NAMES = {
+    "frameskip": "frame_skip",
+    "repeat_action_probability": "sticky",
+    "noop_max": "noop_max",
+    "use_fire_reset": "fire",
+    "reward_clipping": "clip",
+    "episodic_life": "life_loss_ends",
+    "life_loss_info": "life_loss_is_told",
+    "stack_num": "stack",
+    "maxpool": "max_pool",
+    "max_num_frames_per_episode": "max_episode_frames",
+    "full_action_space": "all_legal_actions",
+    "img_width": "width",
+    "img_height": "height",
+    "continuous": "continuous",
+}
 MACHINES = 3
 
 
@@ -35,9 +46,17 @@ class Probe:
         if options.get("continuous"):
             settings.append("all_legal_actions=1")
         images = ",".join([str(roms.get_rom_path(game))] * MACHINES)
-        self.process = subprocess.Popen([PROBE, images, f"{start}={seed}", f"same_step={int(same_step)}", "threads=2", *settings],
-                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        self.shape = (MACHINES, options.get("stack_num", 4), options.get("img_height", 84), options.get("img_width", 84))
+        self.process = subprocess.Popen(
+            [PROBE, images, f"{start}={seed}", f"same_step={int(same_step)}", "threads=2", *settings],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+        )
+        self.shape = (
+            MACHINES,
+            options.get("stack_num", 4),
+            options.get("img_height", 84),
+            options.get("img_width", 84),
+        )
         self.shape += () if grayscale else (3,)
         self.same_step = same_step
 
@@ -121,39 +140,80 @@ class Batch(unittest.TestCase):
         self.check([(game, 400, {}) for game in ("breakout", "pong", "ms_pacman", "seaquest", "air_raid")], 3)
 
     def test_skips_stacks_noops_and_stickiness(self):
-        self.check([("breakout", 500, {"frameskip": 1, "repeat_action_probability": 0.25}),
-                    ("breakout", 300, {"frameskip": 3, "stack_num": 2, "noop_max": 0}),
-                    ("assault", 250, {"frameskip": 2, "stack_num": 1, "maxpool": False, "noop_max": 1}),
-                    ("qbert", 300, {"frameskip": 5, "repeat_action_probability": 0.25, "use_fire_reset": False}),
-                    ("freeway", 200, {"reward_clipping": False, "full_action_space": True})], 1)
+        self.check(
+            [
+                ("breakout", 500, {"frameskip": 1, "repeat_action_probability": 0.25}),
+                ("breakout", 300, {"frameskip": 3, "stack_num": 2, "noop_max": 0}),
+                ("assault", 250, {"frameskip": 2, "stack_num": 1, "maxpool": False, "noop_max": 1}),
+                ("qbert", 300, {"frameskip": 5, "repeat_action_probability": 0.25, "use_fire_reset": False}),
+                ("freeway", 200, {"reward_clipping": False, "full_action_space": True}),
+            ],
+            1,
+        )
 
     def test_ends_in_the_middle_of_a_step(self):
-        self.check([("breakout", 150, {"max_num_frames_per_episode": limit, "frameskip": skip, "maxpool": pool})
-                    for limit, skip, pool in ((50, 4, True), (51, 4, True), (49, 4, False), (60, 7, True), (30, 1, True))], 50)
+        self.check(
+            [
+                ("breakout", 150, {"max_num_frames_per_episode": limit, "frameskip": skip, "maxpool": pool})
+                for limit, skip, pool in ((50, 4, True), (51, 4, True), (49, 4, False), (60, 7, True), (30, 1, True))
+            ],
+            50,
+        )
 
     def test_lost_lives(self):
-        self.check([("breakout", 350, {"episodic_life": True}), ("breakout", 350, {"life_loss_info": True}),
-                    ("ms_pacman", 350, {"episodic_life": True, "frameskip": 3}),
-                    ("seaquest", 350, {"episodic_life": True, "repeat_action_probability": 0.25})], 10)
+        self.check(
+            [
+                ("breakout", 350, {"episodic_life": True}),
+                ("breakout", 350, {"life_loss_info": True}),
+                ("ms_pacman", 350, {"episodic_life": True, "frameskip": 3}),
+                ("seaquest", 350, {"episodic_life": True, "repeat_action_probability": 0.25}),
+            ],
+            10,
+        )
 
     def test_resets_in_the_same_step(self):
-        self.check([("breakout", 350, {"same_step": True}), ("breakout", 350, {"same_step": True, "episodic_life": True}),
-                    ("pong", 200, {"same_step": True, "max_num_frames_per_episode": 101})], 10)
+        self.check(
+            [
+                ("breakout", 350, {"same_step": True}),
+                ("breakout", 350, {"same_step": True, "episodic_life": True}),
+                ("pong", 200, {"same_step": True, "max_num_frames_per_episode": 101}),
+            ],
+            10,
+        )
 
     def test_sizes_and_colours(self):
-        sizes = [{"img_width": 100, "img_height": 50}, {"img_width": 160, "img_height": 210, "stack_num": 1},
-                 {"img_width": 64, "img_height": 64, "maxpool": False}, {"img_width": 160, "img_height": 105}]
-        self.check([("breakout", 60, {"grayscale": grayscale, **size}) for size in sizes for grayscale in (True, False)]
-                   + [("air_raid", 60, {"grayscale": False}), ("pong", 120, {"grayscale": False, "same_step": True,
-                                                                             "max_num_frames_per_episode": 50})], 10)
+        sizes = [
+            {"img_width": 100, "img_height": 50},
+            {"img_width": 160, "img_height": 210, "stack_num": 1},
+            {"img_width": 64, "img_height": 64, "maxpool": False},
+            {"img_width": 160, "img_height": 105},
+        ]
+        self.check(
+            [("breakout", 60, {"grayscale": grayscale, **size}) for size in sizes for grayscale in (True, False)]
+            + [
+                ("air_raid", 60, {"grayscale": False}),
+                ("pong", 120, {"grayscale": False, "same_step": True, "max_num_frames_per_episode": 50}),
+            ],
+            10,
+        )
 
     def test_a_reset_with_a_seed(self):
-        self.check([(game, 150, {"start": "reset", "repeat_action_probability": 0.25, "max_num_frames_per_episode": 200})
-                    for game in ("breakout", "seaquest", "pong")], 3)
+        self.check(
+            [
+                (game, 150, {"start": "reset", "repeat_action_probability": 0.25, "max_num_frames_per_episode": 200})
+                for game in ("breakout", "seaquest", "pong")
+            ],
+            3,
+        )
 
     def test_continuous_actions(self):
-        self.check([(game, 300, {"continuous": True, "max_num_frames_per_episode": 500, "repeat_action_probability": 0.25})
-                    for game in ("breakout", "pong", "ms_pacman")], 3)
+        self.check(
+            [
+                (game, 300, {"continuous": True, "max_num_frames_per_episode": 500, "repeat_action_probability": 0.25})
+                for game in ("breakout", "pong", "ms_pacman")
+            ],
+            3,
+        )
 
 
 if __name__ == "__main__":

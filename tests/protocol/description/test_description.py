@@ -39,23 +39,31 @@ class Rows(unittest.TestCase):
         self.assertEqual(changed(""), {})
 
     def test_a_field_of_bytes_reaches_every_client(self):
-        files = changed('[[field]]\nname = "shadow"\nshape = ["height", 160]\nencoding = "delta"\nsummary = "what was"\n')
+        files = changed(
+            '[[field]]\nname = "shadow"\nshape = ["height", 160]\nencoding = "delta"\nsummary = "what was"\n'
+        )
         self.assertEqual(folders(files), set(CLIENTS))
         for path, text in files.items():
             self.assertIn("shadow", text, path)
         self.assertIn("| `shadow` | what was | delta |\n", files["protocol/PROTOCOL.md"])
 
     def test_a_command_has_a_method_in_every_client_with_methods(self):
-        files = changed('[[command]]\nname = "rewind"\nneeds = "game"\nsummary = "go back"\nreturns = "first"\n'
-                        'arguments = [{ word = "count", text = "N", type = "int" }]\n')
+        files = changed(
+            '[[command]]\nname = "rewind"\nneeds = "game"\nsummary = "go back"\nreturns = "first"\n'
+            'arguments = [{ word = "count", text = "N", type = "int" }]\n'
+        )
         self.assertEqual(folders(files), set(CLIENTS) - {"shell"})
-        self.assertIn('def rewind(self, count: int) -> Values:', files["clients/python/racebeam/wire/commands.py"])
-        self.assertIn('public Group rewind(long count) throws', files["clients/java/src/main/java/racebeam/Commands.java"])
+        self.assertIn("def rewind(self, count: int) -> Values:", files["clients/python/racebeam/wire/commands.py"])
+        self.assertIn(
+            "public Group rewind(long count) throws", files["clients/java/src/main/java/racebeam/Commands.java"]
+        )
         self.assertIn("run_rewind},", files["protocol/description/command_rows.inc"])
 
     def test_a_setting_and_an_error_code_reach_the_program_and_the_document(self):
-        for text in ('[[setting]]\nname = "tint"\ntype = "flag"\naccepted = "0 or 1"\ndefault = "0"\nsummary = "colours"\n',
-                     '[[error]]\ncode = "too-dark"\nmeaning = "nothing is seen"\n'):
+        for text in (
+            '[[setting]]\nname = "tint"\ntype = "flag"\naccepted = "0 or 1"\ndefault = "0"\nsummary = "colours"\n',
+            '[[error]]\ncode = "too-dark"\nmeaning = "nothing is seen"\n',
+        ):
             files = changed(text)
             self.assertIn("protocol/PROTOCOL.md", files)
             self.assertIn("protocol/description/tables.hpp", files)
@@ -69,10 +77,18 @@ class Rows(unittest.TestCase):
 
 class Mistakes(unittest.TestCase):
     def test_a_mistake_in_the_description_is_named(self):
-        for text, sentence in (('[[error]]\ncode = "a"\nmeening = "b"\n', "rows of error have no meening; they have code, deprecated, meaning, since"),
-                               ('[[encoding]]\nname = "hex"\nsummary = ""\n', r"a name is there twice: \['hex', 'hex'\]"),
-                               ('[[field]]\nname = "x"\nsummary = ""\nshape = [1]\n', "field x: a field of bytes has a shape and an encoding"),
-                               ('[[command]]\nname = "x"\nneeds = "luck"\nsummary = ""\nreturns = "own"\n', "needs is 'luck'")):
+        for text, sentence in (
+            (
+                '[[error]]\ncode = "a"\nmeening = "b"\n',
+                "rows of error have no meening; they have code, deprecated, meaning, since",
+            ),
+            ('[[encoding]]\nname = "hex"\nsummary = ""\n', r"a name is there twice: \['hex', 'hex'\]"),
+            (
+                '[[field]]\nname = "x"\nsummary = ""\nshape = [1]\n',
+                "field x: a field of bytes has a shape and an encoding",
+            ),
+            ('[[command]]\nname = "x"\nneeds = "luck"\nsummary = ""\nreturns = "own"\n', "needs is 'luck'"),
+        ):
             with self.assertRaisesRegex(ValueError, sentence):
                 changed(text)
 
@@ -83,8 +99,12 @@ class Mistakes(unittest.TestCase):
 
 class SingleFile(unittest.TestCase):
     def test_it_has_the_definitions_of_the_modules_and_the_imports_of_all(self):
-        text = python_single_file.joined({"one": 'import re\n\nA = re.compile("a")\n',
-                                          "client": '"""What it is."""\n\nfrom typing import Any\n\nfrom .one import A\n\nB: Any = A\n\n__all__ = ["B"]\n'})
+        text = python_single_file.joined(
+            {
+                "one": 'import re\n\nA = re.compile("a")\n',
+                "client": '"""What it is."""\n\nfrom typing import Any\n\nfrom .one import A\n\nB: Any = A\n\n__all__ = ["B"]\n',
+            }
+        )
         names = {}
         exec(text, names)
         self.assertIs(names["B"], names["A"])
@@ -98,7 +118,14 @@ class SingleFile(unittest.TestCase):
 class Versions(unittest.TestCase):
     def test_every_row_says_since_when_it_is_there(self):
         protocol = description.read()
-        for table in (protocol.commands, protocol.settings, protocol.presets, protocol.fields, protocol.encodings, protocol.errors):
+        for table in (
+            protocol.commands,
+            protocol.settings,
+            protocol.presets,
+            protocol.fields,
+            protocol.encodings,
+            protocol.errors,
+        ):
             for row in table:
                 self.assertRegex(dataclasses.asdict(row)["since"], r"^\d+\.\d+\.\d+$")
 

@@ -22,7 +22,9 @@ FIELDS = ("reward", "ends", "screen:delta", "grey84x4:raw", "ram:raw")
 
 
 def plain(values):
-    return [{key: value.tolist() if hasattr(value, "tolist") else value for key, value in group.items()} for group in values]
+    return [
+        {key: value.tolist() if hasattr(value, "tolist") else value for key, value in group.items()} for group in values
+    ]
 
 
 def children():
@@ -48,7 +50,9 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
         self.assertEqual([plain(answer) for answer in answers], [plain(answer) for answer in expected])
 
     async def test_a_refusal_is_its_requests_alone(self):
-        good, bad, after = await asyncio.gather(*(self.session.request("act", action) for action in (1, 99, 1)), return_exceptions=True)
+        good, bad, after = await asyncio.gather(
+            *(self.session.request("act", action) for action in (1, 99, 1)), return_exceptions=True
+        )
         self.assertEqual((bad.code, set(good[0])), ("bad-action", set(after[0])))
 
     async def test_help_is_a_text(self):
@@ -57,7 +61,9 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
                 self.assertEqual(await self.session.help(*words), other.help(*words))
             with self.assertRaisesRegex(racebeam.Refused, "there is no help on 'bogus'"):
                 other.help("bogus")
-        bad, after = await asyncio.gather(self.session.help("bogus"), self.session.request("act", 1), return_exceptions=True)
+        bad, after = await asyncio.gather(
+            self.session.help("bogus"), self.session.request("act", 1), return_exceptions=True
+        )
         self.assertEqual(bad.code, "bad-arguments")
         self.assertIn("reward", after[0])
 
@@ -84,7 +90,9 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
             del session
         gc.collect()
         until = asyncio.get_running_loop().time() + 60
-        while (now := (children(), len(os.listdir("/proc/self/fd")))) != before and asyncio.get_running_loop().time() < until:
+        while (
+            now := (children(), len(os.listdir("/proc/self/fd")))
+        ) != before and asyncio.get_running_loop().time() < until:
             await asyncio.sleep(0.01)
         self.assertEqual(now, before)
 
@@ -101,6 +109,7 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
 class Ends(unittest.IsolatedAsyncioTestCase):
     async def check(self, said, *expected, **settings):
         """A server that says this after the greeting, and closes."""
+
         async def answer(reader, writer):
             await reader.readline()
             writer.write(b"ok protocol=1\n")
@@ -108,6 +117,7 @@ class Ends(unittest.IsolatedAsyncioTestCase):
             writer.write(said)
             await writer.drain()
             writer.close()
+
         async with await asyncio.start_server(answer, "127.0.0.1", 0) as server:
             port = server.sockets[0].getsockname()[1]
             async with await aio.connect(f"tcp://127.0.0.1:{port}", **settings) as session:
@@ -115,8 +125,16 @@ class Ends(unittest.IsolatedAsyncioTestCase):
                     await session.request("look", "ram:raw")
 
     async def test_a_server_that_goes_is_a_ConnectionError(self):
-        for said in (b"", b"ok ram=12", b"ok ram=4 raw=4\nab", b"no\n", b"ok ram=9 raw=3\nabc", b"ok ram=x raw=3\nabc", b"ok ram=1 raw=3\nabc",
-                     b"ok ram=1 raw=99999999999\n"):
+        for said in (
+            b"",
+            b"ok ram=12",
+            b"ok ram=4 raw=4\nab",
+            b"no\n",
+            b"ok ram=9 raw=3\nabc",
+            b"ok ram=x raw=3\nabc",
+            b"ok ram=1 raw=3\nabc",
+            b"ok ram=1 raw=99999999999\n",
+        ):
             with self.subTest(said=said):
                 await self.check(said, ConnectionError, "has ended")
 
@@ -138,7 +156,9 @@ class Ends(unittest.IsolatedAsyncioTestCase):
             address = f"tcp://127.0.0.1:{server.sockets[0].getsockname()[1]}"
             session = await aio.connect(address, timeout=0.5)
             begin = asyncio.get_running_loop().time()
-            first, second, third = await asyncio.gather(*(session.request("act", 1) for _ in range(3)), return_exceptions=True)
+            first, second, third = await asyncio.gather(
+                *(session.request("act", 1) for _ in range(3)), return_exceptions=True
+            )
             self.assertEqual(first, [{"reward": 1}])
             self.assertRegex(str(second), "did not answer in time")
             self.assertEqual((type(second), type(third)), (TimeoutError, TimeoutError))
@@ -153,6 +173,7 @@ class Ends(unittest.IsolatedAsyncioTestCase):
         async def mute(reader, writer):
             await reader.read()
             writer.close()
+
         async with await asyncio.start_server(mute, "127.0.0.1", 0) as server:
             with self.assertRaises(TimeoutError):
                 await aio.connect(f"tcp://127.0.0.1:{server.sockets[0].getsockname()[1]}", timeout=0.2)

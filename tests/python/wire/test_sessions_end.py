@@ -17,10 +17,9 @@ import package
 package.require("gymnasium", "numpy")
 
 import numpy as np
-from vector_servers import halt, server
-
 import racebeam
 from racebeam import AtariEnv, AtariVectorEnv
+from vector_servers import halt, server
 
 PATIENCE = 60  # seconds
 WIRE = str(pathlib.Path(racebeam.__file__).parent / "wire")
@@ -88,7 +87,12 @@ class Interrupted(unittest.TestCase):
     def test_a_step_that_is_cut_off_anywhere(self):
         with server() as (self.address, _):
             self.check(lambda where: AtariEnv("beamfall", server=where, obs_type="ram"), 1)
-            self.check(lambda where: AtariEnv("beamfall", server=where, obs_type="ram", max_num_frames_per_episode=10, frameskip=9), 1)
+            self.check(
+                lambda where: AtariEnv(
+                    "beamfall", server=where, obs_type="ram", max_num_frames_per_episode=10, frameskip=9
+                ),
+                1,
+            )
             self.check(lambda where: AtariVectorEnv("beamfall", 2, server=where, obs_type="ram"), [1, 1])
 
     def test_a_step_of_several_servers_that_is_cut_off_anywhere(self):
@@ -105,8 +109,10 @@ class Interrupted(unittest.TestCase):
                 def with_lost(**arguments):
                     observations, info = reset(**arguments)
                     return observations, {**info, "lost": np.zeros(2, np.bool_)}
+
                 envs.reset = with_lost
                 return envs
+
             self.check(make, [1, 1])
 
     def test_a_session_that_is_cut_off_says_so(self):
@@ -114,8 +120,16 @@ class Interrupted(unittest.TestCase):
             session.load("beamfall", seed=1)
             session.reader = unittest.mock.Mock(readline=unittest.mock.Mock(side_effect=KeyboardInterrupt))
             self.assertRaises(KeyboardInterrupt, session.act, 1)
-            for call in (session.flush, session.receive, lambda: session.send("act", 1), lambda: session.act(1), lambda: session.help()):
-                with self.assertRaisesRegex(ConnectionError, "it was interrupted between a request and the end of its reply"):
+            for call in (
+                session.flush,
+                session.receive,
+                lambda: session.send("act", 1),
+                lambda: session.act(1),
+                lambda: session.help(),
+            ):
+                with self.assertRaisesRegex(
+                    ConnectionError, "it was interrupted between a request and the end of its reply"
+                ):
                     call()
 
     def test_a_request_waits_for_the_replies_of_those_before_it(self):
@@ -153,6 +167,7 @@ class Blocked(unittest.TestCase):
                 with contextlib.suppress(ConnectionError):
                     while True:
                         session.send("act", "0" * 100000)
+
             threads = [threading.Thread(target=call, daemon=True) for call in (send, session.close_connection)]
             for thread in threads:
                 thread.start()
@@ -178,6 +193,7 @@ class Blocked(unittest.TestCase):
                     env.step(1)
                 except Exception as error:
                     failures.append(type(error))
+
             thread = threading.Thread(target=step, daemon=True)
             thread.start()
             time.sleep(0.2)
@@ -217,11 +233,23 @@ class Shared(unittest.TestCase):
 
     def test_a_child_process_is_refused_and_the_parent_goes_on(self):
         with server() as (address, _):
-            env, envs, session = AtariEnv("beamfall", server=address), AtariVectorEnv("beamfall", 2, server=address), racebeam.connect(address)
+            env, envs, session = (
+                AtariEnv("beamfall", server=address),
+                AtariVectorEnv("beamfall", 2, server=address),
+                racebeam.connect(address),
+            )
             env.reset(seed=1)
             session.load("beamfall")
-            for call in (lambda: env.step(0), env.reset, env.clone_state, env.ale.lives, lambda: envs.step([0, 0]), envs.reset,
-                         lambda: session.act(1), lambda: session.send("act", 1)):
+            for call in (
+                lambda: env.step(0),
+                env.reset,
+                env.clone_state,
+                env.ale.lives,
+                lambda: envs.step([0, 0]),
+                envs.reset,
+                lambda: session.act(1),
+                lambda: session.send("act", 1),
+            ):
                 self.assertIn("before the process forked", self.in_child(call))
             for close in (env.close, envs.close, session.close_connection):
                 self.assertEqual(self.in_child(close), "")
@@ -233,7 +261,14 @@ class Shared(unittest.TestCase):
         with server() as (address, _):
             env, failures = AtariEnv("beamfall", server=address), []
             env.reset(seed=1)
-            calls = (lambda: env.step(1), env.ale.getScreenRGB, env.ale.getRAM, env.clone_state, env.ale.lives, env.ale.game_over)
+            calls = (
+                lambda: env.step(1),
+                env.ale.getScreenRGB,
+                env.ale.getRAM,
+                env.clone_state,
+                env.ale.lives,
+                env.ale.game_over,
+            )
 
             def work(number):
                 try:
@@ -241,6 +276,7 @@ class Shared(unittest.TestCase):
                         calls[(step + number) % len(calls)]()
                 except Exception as error:
                     failures.append(error)
+
             threads = [threading.Thread(target=work, args=(number,), daemon=True) for number in range(4)]
             for thread in threads:
                 thread.start()

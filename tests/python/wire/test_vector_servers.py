@@ -8,7 +8,6 @@ import sys
 import tempfile
 import threading
 import time
-import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
@@ -16,9 +15,8 @@ import package
 package.require("gymnasium", "numpy")
 
 import numpy as np
-from vector_servers import Compared, halt, server
-
 from racebeam import AtariEnv, AtariVectorEnv, InvalidInput, connect
+from vector_servers import Compared, halt, server
 
 COUNT = 5  # of which the first server plays three
 FIRST, SECOND = np.arange(COUNT) < 3, np.arange(COUNT) >= 3
@@ -30,7 +28,9 @@ class Servers(Compared):
     def setUp(self):
         self.servers = contextlib.ExitStack()
         self.addCleanup(self.servers.close)
-        (self.one, self.first), (self.two, self.second) = (self.servers.enter_context(server("--grace", "1")) for _ in range(2))
+        (self.one, self.first), (self.two, self.second) = (
+            self.servers.enter_context(server("--grace", "1")) for _ in range(2)
+        )
 
     def both(self, count=COUNT, servers=None, **settings):
         settings = {"seed": 5, "repeat_action_probability": 0.25, **settings}
@@ -59,13 +59,19 @@ class Same(Servers):
         here, there = self.both(max_num_frames_per_episode=60, obs_type="ram")
         self.assertGreater(self.play(here, there, 40), COUNT)
         mask = np.array([True, False, False, True, False])
-        for arguments in ({"seed": 2**32 - 3}, {"options": {"reset_mask": mask}}, {"seed": [1, None, -1, 9, 2], "options": {"reset_mask": mask}}):
+        for arguments in (
+            {"seed": 2**32 - 3},
+            {"options": {"reset_mask": mask}},
+            {"seed": [1, None, -1, 9, 2], "options": {"reset_mask": mask}},
+        ):
             self.check(there.reset(**arguments), here.reset(**arguments))
             self.play(here, there, 5)
         self.check(there.show(), here.show())
 
     def test_continuous_actions_and_pictures(self):
-        here, there = self.both(continuous=True, render_mode="rgb_array", autoreset_mode="SameStep", max_num_frames_per_episode=30)
+        here, there = self.both(
+            continuous=True, render_mode="rgb_array", autoreset_mode="SameStep", max_num_frames_per_episode=30
+        )
         self.assertTrue(all(map(np.array_equal, there.render(), here.render())))
         self.play(here, there, 20)
         self.assertTrue(all(map(np.array_equal, there.render(), here.render())))
@@ -125,7 +131,6 @@ class Halves(Servers):
         self.assertTrue(shown[3][SECOND].all() and np.array_equal(shown[0][SECOND], before[SECOND]))
         self.check(shown, here.recv(), FIRST, lost=SECOND)
         self.check(there.step([0] * COUNT), here.step([0] * COUNT), FIRST)
-
 
     def test_a_server_that_is_lost_before_a_reset_is_told(self):
         here, there = self.both()
@@ -194,7 +199,11 @@ class Lost(Servers):
         here.step([1] * COUNT)
         self.kill(self.second)
         begun, rewards, terminated, truncated, info = there.step([0] * COUNT)
-        self.assertTrue(np.array_equal(info["lost"], SECOND) and np.array_equal(truncated, SECOND) and np.array_equal(info["_final_obs"], SECOND))
+        self.assertTrue(
+            np.array_equal(info["lost"], SECOND)
+            and np.array_equal(truncated, SECOND)
+            and np.array_equal(info["_final_obs"], SECOND)
+        )
         for env in np.flatnonzero(SECOND):
             self.assertTrue(np.array_equal(info["final_obs"][env], before[env]))
             self.assertEqual(info["final_info"]["frame_number"][env], told["frame_number"][env])
@@ -235,7 +244,9 @@ class Lost(Servers):
         self.play(here, there, 5)
 
     def test_spare_servers_come_first(self):
-        here, there = self.both(count=2, servers=[self.one, self.two, self.servers.enter_context(server("--max-machines", "1"))[0]])
+        here, there = self.both(
+            count=2, servers=[self.one, self.two, self.servers.enter_context(server("--max-machines", "1"))[0]]
+        )
         self.kill(self.first)
         there.step([0, 0])
         self.kill(self.second)  # the spare one plays the first environment, and may play the other, too
@@ -251,9 +262,13 @@ class Lost(Servers):
             addresses = [f"file:{file}?wait=60", "tcp://127.0.0.1:1", never]
             with self.assertWarns(RuntimeWarning) as warned:
                 here, there = self.both(count=6, servers=addresses)
-        self.assertEqual([str(each.message).replace(folder, "") for each in warned.warnings], [
-            f"environments 2 to 3 begin on file:/late?wait=60: no server answers at tcp://127.0.0.1:1: Connection refused",
-            "environments 4 to 5 begin on file:/late?wait=60: no server answers at file:/never: No such file or directory"])
+        self.assertEqual(
+            [str(each.message).replace(folder, "") for each in warned.warnings],
+            [
+                "environments 2 to 3 begin on file:/late?wait=60: no server answers at tcp://127.0.0.1:1: Connection refused",
+                "environments 4 to 5 begin on file:/late?wait=60: no server answers at file:/never: No such file or directory",
+            ],
+        )
         self.assertEqual([each.filename for each in warned.warnings], [__file__] * 2)
         self.check(there.reset(), here.reset(), lost=[False] * 2 + [True] * 4)
         self.play(here, there, 20)  # with the seeds that they would have had
@@ -271,8 +286,11 @@ class Lost(Servers):
 
     def test_without_any_server_the_addresses_are_named(self):
         absent = ["tcp://127.0.0.1:1", "unix:/nonexistent", "file:/nonexistent"]  # the last one is spare
-        with self.assertRaisesRegex(ConnectionError, "no server is left for environments 0 to 0: " + "; ".join(
-                f"no server answers at {address}: [^;]*" for address in absent)):
+        with self.assertRaisesRegex(
+            ConnectionError,
+            "no server is left for environments 0 to 0: "
+            + "; ".join(f"no server answers at {address}: [^;]*" for address in absent),
+        ):
             AtariVectorEnv("beamfall", 2, server=absent)
         for make in (lambda **how: AtariVectorEnv("beamfall", 2, **how), lambda **how: AtariEnv("beamfall", **how)):
             with self.assertRaisesRegex(ConnectionError, "no server answers at tcp://127.0.0.1:1: .*refused"):

@@ -15,17 +15,41 @@ package.require("gymnasium", "numpy")
 
 import gymnasium
 import numpy as np
-from vector_servers import Compared, server
-
 from racebeam import AtariVectorEnv, InvalidInput
 from racebeam.wire.remote_machines import RemoteMachines
+from vector_servers import Compared, server
 
 SETTINGS = (
     {},
-    {"obs_type": "ram", "autoreset_mode": "SameStep", "max_num_frames_per_episode": 40, "repeat_action_probability": 0.25},
-    {"grayscale": False, "img_height": 40, "img_width": 51, "stack_num": 2, "autoreset_mode": "SameStep", "max_num_frames_per_episode": 41},
-    {"obs_type": "grayscale", "stack_num": 1, "lives": "end", "frameskip": 30, "reward_clipping": False, "full_action_space": True},
-    {"continuous": True, "continuous_action_threshold": 0.3, "difficulty": 1, "start": "baselines", "stack_start": "repeats"},
+    {
+        "obs_type": "ram",
+        "autoreset_mode": "SameStep",
+        "max_num_frames_per_episode": 40,
+        "repeat_action_probability": 0.25,
+    },
+    {
+        "grayscale": False,
+        "img_height": 40,
+        "img_width": 51,
+        "stack_num": 2,
+        "autoreset_mode": "SameStep",
+        "max_num_frames_per_episode": 41,
+    },
+    {
+        "obs_type": "grayscale",
+        "stack_num": 1,
+        "lives": "end",
+        "frameskip": 30,
+        "reward_clipping": False,
+        "full_action_space": True,
+    },
+    {
+        "continuous": True,
+        "continuous_action_threshold": 0.3,
+        "difficulty": 1,
+        "start": "baselines",
+        "stack_start": "repeats",
+    },
     {"preset": "dqn2015", "autoreset_mode": "Disabled", "maxpool": False, "frameskip": 60, "rules": "fixed"},
     {"use_fire_reset": False, "start": "fire-noops", "lives": "told", "frameskip": 60, "seed": 0},
 )
@@ -42,7 +66,9 @@ class Same(Compared):
             for settings in SETTINGS:
                 with self.subTest(**settings):
                     here, there = both(address, **{"seed": 5, **settings})
-                    self.assertEqual((there.observation_space, there.action_space), (here.observation_space, here.action_space))
+                    self.assertEqual(
+                        (there.observation_space, there.action_space), (here.observation_space, here.action_space)
+                    )
                     ended += self.play(here, there, 10)
                     self.check(there.reset(seed=9), here.reset(seed=9))
                     ended += self.play(here, there, 40)
@@ -53,16 +79,28 @@ class Same(Compared):
         with server() as (address, _):
             here, there = both(address, count=4, seed=1, repeat_action_probability=0.25)
             mask = np.array([True, False, False, True])
-            for arguments in ({"seed": [7, 8, 3, 2**32 - 1]}, {"options": {"reset_mask": mask}},
-                              {"options": {"reset_mask": mask & False}}, {"seed": [1, None, -1, 9]},
-                              {"seed": 2**32 - 2, "options": {"reset_mask": mask}}, {}):
+            for arguments in (
+                {"seed": [7, 8, 3, 2**32 - 1]},
+                {"options": {"reset_mask": mask}},
+                {"options": {"reset_mask": mask & False}},
+                {"seed": [1, None, -1, 9]},
+                {"seed": 2**32 - 2, "options": {"reset_mask": mask}},
+                {},
+            ):
                 with self.subTest(**arguments):
                     self.check(there.reset(**arguments), here.reset(**arguments))
                     self.play(here, there, 5)
 
     def test_a_reply_without_ends_is_read_as_a_whole(self):
-        with server() as (address, _), unittest.mock.patch.object(RemoteMachines, "_fill_each", side_effect=AssertionError):
-            for settings in ({}, {"obs_type": "ram", "autoreset_mode": "SameStep"}, {"grayscale": False, "stack_num": 2}):
+        with (
+            server() as (address, _),
+            unittest.mock.patch.object(RemoteMachines, "_fill_each", side_effect=AssertionError),
+        ):
+            for settings in (
+                {},
+                {"obs_type": "ram", "autoreset_mode": "SameStep"},
+                {"grayscale": False, "stack_num": 2},
+            ):
                 with self.subTest(**settings):
                     here, there = both(address, seed=5, **settings)
                     self.play(here, there, 5)
@@ -122,8 +160,14 @@ class Halves(Compared):
                 envs.reset(seed=1)
                 state = envs.save(0)
                 envs.send([0, 0])
-                for call in (envs.show, envs.render, lambda: envs.save(0), lambda: envs.restore(0, state),
-                             lambda: envs.step([0, 0]), lambda: envs.send([0, 0])):
+                for call in (
+                    envs.show,
+                    envs.render,
+                    lambda: envs.save(0),
+                    lambda: envs.restore(0, state),
+                    lambda: envs.step([0, 0]),
+                    lambda: envs.send([0, 0]),
+                ):
                     with self.assertRaisesRegex(InvalidInput, "receive"):
                         call()
                 self.assertEqual(envs.recv()[4]["frame_number"].shape, (2,))
@@ -142,7 +186,9 @@ class Halves(Compared):
                     for envs in (here, there):
                         envs.send([1, 0, 1])
                     (seen, told), (expected, info) = there.reset(seed=seed), here.reset(seed=seed)
-                    self.assertTrue(np.array_equal(seen, expected) and np.array_equal(told["frame_number"], info["frame_number"]))
+                    self.assertTrue(
+                        np.array_equal(seen, expected) and np.array_equal(told["frame_number"], info["frame_number"])
+                    )
 
     def test_a_server_that_dies_between_the_halves_is_a_ConnectionError(self):
         with server() as (address, process):
@@ -162,7 +208,9 @@ class States(Compared):
         with server() as (address, _):
             for settings in SETTINGS:
                 with self.subTest(**settings):
-                    here, there = both(address, **{"seed": 5, "max_num_frames_per_episode": 90, **settings}, render_mode="rgb_array")
+                    here, there = both(
+                        address, **{"seed": 5, "max_num_frames_per_episode": 90, **settings}, render_mode="rgb_array"
+                    )
                     self.play(here, there, 10)
                     for one, other in ((here, there), (there, here)):
                         states = [one.save(env) for env in range(3)]
@@ -172,8 +220,10 @@ class States(Compared):
                             other.restore(env, pickle.loads(pickle.dumps(state)))
                         self.assertTrue(all(map(np.array_equal, there.render(), here.render())))
                         self.check(there.show(), here.show())
-                        self.assertEqual([there.save(env).__getstate__() for env in range(3)],
-                                         [state.__getstate__() for state in expected])
+                        self.assertEqual(
+                            [there.save(env).__getstate__() for env in range(3)],
+                            [state.__getstate__() for state in expected],
+                        )
                         ended += self.play(here, there, 30)
                     there.close()
         self.assertGreater(ended, 50)
@@ -195,10 +245,17 @@ class States(Compared):
             other = AtariVectorEnv("beamfall", 1, stack_num=2).save(0)
             foreign = AtariVectorEnv("updraft", 1).save(0)
             for env, state, error, sentence in (
-                    (0, other, InvalidInput, "the state has a stack of 2 grey screens of 84 x 84; here, one has a stack of 4 grey screens"),
-                    (0, foreign, InvalidInput, "the state is of the image"), (0, None, TypeError, ""),
-                    (2, here.save(0), IndexError, "there is no environment 2; there are 0 to 1"),
-                    (-1, here.save(0), IndexError, "there is no environment -1; there are 0 to 1")):
+                (
+                    0,
+                    other,
+                    InvalidInput,
+                    "the state has a stack of 2 grey screens of 84 x 84; here, one has a stack of 4 grey screens",
+                ),
+                (0, foreign, InvalidInput, "the state is of the image"),
+                (0, None, TypeError, ""),
+                (2, here.save(0), IndexError, "there is no environment 2; there are 0 to 1"),
+                (-1, here.save(0), IndexError, "there is no environment -1; there are 0 to 1"),
+            ):
                 for envs in (here, there):
                     with self.subTest(sentence=sentence, envs=envs), self.assertRaisesRegex(error, sentence):
                         envs.restore(env, state)
@@ -212,7 +269,12 @@ class Refused(unittest.TestCase):
     def test_bad_input_is_what_it_is_here(self):
         with server() as (address, _):
             for envs in both(address, count=2, seed=1):
-                for actions, error in (([0, 99], IndexError), ([-1, 0], IndexError), ([0], InvalidInput), ([0.5, 1], TypeError)):
+                for actions, error in (
+                    ([0, 99], IndexError),
+                    ([-1, 0], IndexError),
+                    ([0], InvalidInput),
+                    ([0.5, 1], TypeError),
+                ):
                     with self.subTest(actions=actions), self.assertRaises(error):
                         envs.step(actions)
                 self.assertEqual(envs.step([0, 0])[0].shape, (2, 4, 84, 84))

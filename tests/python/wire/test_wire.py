@@ -20,7 +20,6 @@ import package
 package.require("gymnasium", "numpy")
 
 import numpy as np
-
 import racebeam
 import racebeam.program
 
@@ -38,8 +37,17 @@ def server(*options):
     """A server that serves a Unix socket, and its process."""
     with tempfile.TemporaryDirectory() as folder:
         ready = pathlib.Path(folder, "ready")
-        command = [racebeam.program.path(), "serve", "--listen", f"unix:{folder}/s", "--listen", "tcp://127.0.0.1:0", "--ready-file",
-                   str(ready), *options]
+        command = [
+            racebeam.program.path(),
+            "serve",
+            "--listen",
+            f"unix:{folder}/s",
+            "--listen",
+            "tcp://127.0.0.1:0",
+            "--ready-file",
+            str(ready),
+            *options,
+        ]
         process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
         try:
             while not ready.exists():
@@ -75,7 +83,9 @@ class Environment(unittest.TestCase):
             for address in addresses:
                 for settings in SETTINGS:
                     with self.subTest(address=address, settings=settings):
-                        here, there = (racebeam.AtariEnv("beamfall", server=where, **settings) for where in (None, address))
+                        here, there = (
+                            racebeam.AtariEnv("beamfall", server=where, **settings) for where in (None, address)
+                        )
                         self.assertEqual(there.observation_space, here.observation_space)
                         self.assertEqual(played(there, 300), played(here, 300))
                         there.close()
@@ -86,7 +96,9 @@ class Environment(unittest.TestCase):
         with server() as (addresses, _):
             for settings in ({}, {"continuous": True}, {"two_player": True}, {"mode": 1, "difficulty": 2}):
                 with self.subTest(settings=settings):
-                    here, there = (racebeam.AtariEnv("pong", server=where, **settings) for where in (None, addresses[0]))
+                    here, there = (
+                        racebeam.AtariEnv("pong", server=where, **settings) for where in (None, addresses[0])
+                    )
                     self.assertEqual(played(there, 100), played(here, 100))
 
     def test_states_go_from_here_to_there(self):
@@ -105,8 +117,12 @@ class Environment(unittest.TestCase):
 
     def test_bad_input_is_what_it_is_here(self):
         with server() as (addresses, _):
-            for arguments, error in (({"mode": 7}, RuntimeError), ({"difficulty": 9}, RuntimeError), ({"rules": "x"}, ValueError),
-                                     ({"rom": b"x" * 600000}, racebeam.InvalidInput)):
+            for arguments, error in (
+                ({"mode": 7}, RuntimeError),
+                ({"difficulty": 9}, RuntimeError),
+                ({"rules": "x"}, ValueError),
+                ({"rom": b"x" * 600000}, racebeam.InvalidInput),
+            ):
                 with self.subTest(arguments=arguments), self.assertRaises(error):
                     racebeam.AtariEnv("beamfall", server=addresses[0], **arguments)
             with self.assertRaises(racebeam.UnknownGame):
@@ -129,8 +145,10 @@ class Environment(unittest.TestCase):
         calls += [("act", words) for words in ((racebeam.Action.FIRE,), (18,), (1, True), (1, "x"), (1, float("nan")))]
         calls += [("saveScreenPNG", (5,))]
         usual = [1, 1.0, 1, 2, 18, 0.0]
-        calls += [("step", (*usual[:at], value, *usual[at + 1:])) for at in (0, 3, 4) for value in wrong]
-        calls += [("step", words) for words in ((1, "x", 1, 2), (1, 1.0, "x", 2), (1, 1.0, 1, 2, 18, "x"), (1, True, 1, 2))]
+        calls += [("step", (*usual[:at], value, *usual[at + 1 :])) for at in (0, 3, 4) for value in wrong]
+        calls += [
+            ("step", words) for words in ((1, "x", 1, 2), (1, 1.0, "x", 2), (1, 1.0, 1, 2, 18, "x"), (1, True, 1, 2))
+        ]
         shapes = {"getScreen": (210, 160), "getScreenRGB": (210, 160, 3), "getRAM": (128,), "getAudio": (512,)}
         for name, shape in shapes.items():
             count = int(np.prod(shape))
@@ -146,6 +164,7 @@ class Environment(unittest.TestCase):
                 return type(error)
             written = zlib.crc32(bytes(words[0])) if name.startswith("get") else 0
             return "a state" if isinstance(value, racebeam.ALEState) else str(value), written
+
         with server() as (addresses, _):
             here, there = (racebeam.AtariEnv("beamfall", server=where).ale for where in (None, addresses[0]))
             for ale in (here, there):
@@ -180,9 +199,17 @@ class Sessions(unittest.TestCase):
         with racebeam.launch(arrays=True) as session:
             session.load("beamfall", seed=1, sound=1)
             shown = session.look("screen", "rgb", "grey", "ram", "palette", "audio")
-            self.assertEqual({name: value.shape for name, value in shown.items()},
-                             {"screen": (210, 160), "rgb": (210, 160, 3), "grey": (210, 160), "ram": (128,), "palette": (256, 3),
-                              "audio": (512,)})
+            self.assertEqual(
+                {name: value.shape for name, value in shown.items()},
+                {
+                    "screen": (210, 160),
+                    "rgb": (210, 160, 3),
+                    "grey": (210, 160),
+                    "ram": (128,),
+                    "palette": (256, 3),
+                    "audio": (512,),
+                },
+            )
             self.assertTrue(np.array_equal(shown["palette"][shown["screen"]], shown["rgb"]))
             session.observe("grey84x4", "screen:delta")
             self.assertEqual([session.act(1)[name].shape for name in ("grey84x4", "screen")], [(4, 84, 84), (210, 160)])
@@ -237,12 +264,14 @@ class Sessions(unittest.TestCase):
     @contextlib.contextmanager
     def server_of(self, *replies):
         """The address of a server that sends these replies, one a request, and then closes."""
+
         def answer():
             connection, _ = listener.accept()
             for reply in replies:
                 connection.recv(100)
                 connection.sendall(reply)
             connection.close()
+
         with socket.create_server(("127.0.0.1", 0)) as listener:
             thread = threading.Thread(target=answer)
             thread.start()
@@ -271,6 +300,7 @@ class Sessions(unittest.TestCase):
         def held():
             children = pathlib.Path(f"/proc/self/task/{os.getpid()}/children").read_text().split()
             return children, len(os.listdir("/proc/self/fd"))
+
         gc.collect()
         before = held()
         for _ in range(3):
@@ -290,11 +320,20 @@ class Sessions(unittest.TestCase):
 
     def test_the_file_can_be_copied_alone(self):
         with tempfile.TemporaryDirectory() as folder:
-            pathlib.Path(folder, "client.py").write_bytes((package.SOURCE / "clients/python/single_file/client.py").read_bytes())
-            script = "import client; s = client.launch(); print(s.load('beamfall', seed=1)['seed']); s.close_connection()"
+            pathlib.Path(folder, "client.py").write_bytes(
+                (package.SOURCE / "clients/python/single_file/client.py").read_bytes()
+            )
+            script = (
+                "import client; s = client.launch(); print(s.load('beamfall', seed=1)['seed']); s.close_connection()"
+            )
             path = os.path.dirname(racebeam.program.path()) + ":" + os.environ["PATH"]
-            done = subprocess.run([sys.executable, "-S", "-c", script], cwd=folder, capture_output=True, text=True,
-                                  env={**os.environ, "PATH": path})
+            done = subprocess.run(
+                [sys.executable, "-S", "-c", script],
+                cwd=folder,
+                capture_output=True,
+                text=True,
+                env={**os.environ, "PATH": path},
+            )
             self.assertEqual(done.stdout, "1\n", done.stderr)
 
 

@@ -9,7 +9,6 @@ import time
 import unittest
 
 import numpy as np
-
 import racebeam.program
 
 
@@ -18,8 +17,10 @@ def server(*options):
     """The address of a server that serves a Unix socket, and its process."""
     with tempfile.TemporaryDirectory() as folder:
         ready = pathlib.Path(folder, "ready")
-        process = subprocess.Popen([racebeam.program.path(), "serve", "--listen", f"unix:{folder}/s", "--ready-file", str(ready), *options],
-                                   stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(
+            [racebeam.program.path(), "serve", "--listen", f"unix:{folder}/s", "--ready-file", str(ready), *options],
+            stderr=subprocess.DEVNULL,
+        )
         try:
             while not ready.exists():
                 time.sleep(0.01)
@@ -51,7 +52,9 @@ class Compared(unittest.TestCase):
             if isinstance(value, dict):
                 self.check_told(told[key], value)
             elif value.dtype == object:
-                self.assertTrue(all(one is other is None or np.array_equal(one, other) for one, other in zip(told[key], value)), key)
+                self.assertTrue(
+                    all(one is other is None or np.array_equal(one, other) for one, other in zip(told[key], value)), key
+                )
             else:
                 self.assertEqual(told[key].dtype, value.dtype)
                 self.assertTrue(np.array_equal(told[key], value), key)

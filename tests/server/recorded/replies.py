@@ -15,9 +15,18 @@ FIELDS = {field.name: field for field in PROTOCOL.fields}
 STACK = re.compile(r"grey84(x\d+)?|(grey|rgb)(\d+x\d+x\d+)")
 
 INT, LIST = r"-?\d+", r"[^,\s]*(,[^,\s]+)*"
-FORMS = {"int": INT, "real": r"-?\d+(\.\d+)?(e-?\d+)?", "text": r"\S*", "flag": "[01]", "ints": rf"({INT}(,{INT})*)?", "texts": LIST,
-         "hex": "([0-9A-F]{2})*", "base64": r"[A-Za-z0-9+/]*={0,2}", "rewards": rf"{INT}(\*\d+)?(,{INT}(\*\d+)?)*",
-         "names": r"(\d+:\w+(,\d+:\w+)*)?"}
+FORMS = {
+    "int": INT,
+    "real": r"-?\d+(\.\d+)?(e-?\d+)?",
+    "text": r"\S*",
+    "flag": "[01]",
+    "ints": rf"({INT}(,{INT})*)?",
+    "texts": LIST,
+    "hex": "([0-9A-F]{2})*",
+    "base64": r"[A-Za-z0-9+/]*={0,2}",
+    "rewards": rf"{INT}(\*\d+)?(,{INT}(\*\d+)?)*",
+    "names": r"(\d+:\w+(,\d+:\w+)*)?",
+}
 
 
 class Undescribed(AssertionError):
@@ -49,7 +58,9 @@ def check_group(request, types, others, words):
     for key, _, value in pairs:
         form = FORMS[plain[key]] if key in plain else others(key)
         expect(form, request, f"has the key {key}, which is not described")
-        expect(re.fullmatch(form, value), request, f"has {key}={value[:60]}, which is not {plain.get(key, 'as described')}")
+        expect(
+            re.fullmatch(form, value), request, f"has {key}={value[:60]}, which is not {plain.get(key, 'as described')}"
+        )
 
 
 def check(request, reply):
@@ -72,4 +83,5 @@ def check(request, reply):
                 return INT
             setting = SETTINGS.get(key) if command.echoes else None
             return FORMS[setting] if setting else form_of_field(key) if shows else None
+
         check_group(request, types, others, group.split())

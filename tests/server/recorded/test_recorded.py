@@ -19,7 +19,16 @@ from harness import SOURCE, main, run  # noqa: E402
 CONVERSATION = pathlib.Path(SOURCE) / "clients/conformance/conversation.txt"
 IMAGE = base64.b64encode((pathlib.Path(SOURCE) / "games/homebrew/updraft.bin").read_bytes()).decode()
 SHOWN = 40  # characters of a value; of a longer one, the length and the Adler-32 are recorded
-CHANGES = {"server", "threads", "bytes_in", "bytes_out", "bytes", "fps", "encodings", "presets"}  # from run to run, or by additions
+CHANGES = {
+    "server",
+    "threads",
+    "bytes_in",
+    "bytes_out",
+    "bytes",
+    "fps",
+    "encodings",
+    "presets",
+}  # from run to run, or by additions
 
 
 def short(value):
@@ -47,7 +56,7 @@ def replies(output):
         line, _, output = output.partition(b"\n")
         found.append(line.decode("latin-1"))
         raw = re.search(rb" raw=(\d+)$", line)
-        output = output[int(raw[1]):] if raw else output
+        output = output[int(raw[1]) :] if raw else output
     return found
 
 
@@ -55,7 +64,9 @@ def hold(requests):
     """The replies to the requests of one session."""
     text = "".join(f"{request}\n" for request in requests).replace("$IMAGE", IMAGE)
     with tempfile.TemporaryDirectory() as folder:
-        _, output, _ = run("serve", "--stdio", "--record-dir", ".", "--log-level", "error", data=text.encode(), cwd=folder)
+        _, output, _ = run(
+            "serve", "--stdio", "--record-dir", ".", "--log-level", "error", data=text.encode(), cwd=folder
+        )
     return replies(output)
 
 
@@ -100,8 +111,16 @@ class Recorded(unittest.TestCase):
         heard = hold(requests)
         self.assertEqual(len(heard), len(expected))
         for request, reply, line in zip(requests, heard, expected):
-            now, then = parsed(reply), [line.split()[0], *({key: value for key, _, value in (word.partition("=") for word in group.split())
-                                                            if key} for group in f" {line.partition(' ')[2]}".split(" |"))]
+            now, then = (
+                parsed(reply),
+                [
+                    line.split()[0],
+                    *(
+                        {key: value for key, _, value in (word.partition("=") for word in group.split()) if key}
+                        for group in f" {line.partition(' ')[2]}".split(" |")
+                    ),
+                ],
+            )
             self.assertEqual([now[0], len(now)], [then[0], len(then)], request)
             for group, before in zip(now[1:], then[1:]):
                 kept = {key: group.get(key) for key in before}

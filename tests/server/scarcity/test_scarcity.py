@@ -5,9 +5,7 @@ RACEBEAM_SCARCE_LIBRARY names the library that makes allocations and threads fai
 
 import mmap
 import os
-import re
 import resource
-import signal
 import socket
 import struct
 import subprocess
@@ -74,8 +72,23 @@ class Scarce(unittest.TestCase):
         self.scarcity = Scarcity(os.path.join(folder.name, "scarcity"))
 
     def serve(self, *options):
-        server = Server("serve", "--listen", "tcp://127.0.0.1:0", "--threads", "1", "--http", "127.0.0.1:0", "--log-level",
-                        "warning", "--ready-file", "ready", "--grace", "0", *options, **self.scarcity.environment)
+        server = Server(
+            "serve",
+            "--listen",
+            "tcp://127.0.0.1:0",
+            "--threads",
+            "1",
+            "--http",
+            "127.0.0.1:0",
+            "--log-level",
+            "warning",
+            "--ready-file",
+            "ready",
+            "--grace",
+            "0",
+            *options,
+            **self.scarcity.environment,
+        )
         self.addCleanup(server.__exit__)
         lines = server.addresses("ready")
         self.ports = [int(line.rsplit(":", 1)[1]) for line in lines]
@@ -160,8 +173,22 @@ class Threads(Scarce):
             with tempfile.TemporaryDirectory() as folder:
                 ready = os.path.join(folder, "ready")
                 process = subprocess.Popen(
-                    [BINARY, "serve", "--listen", f"unix:{folder}/s", "--stdio", "--threads", "4", "--ready-file", ready],
-                    env=os.environ | self.scarcity.environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                    [
+                        BINARY,
+                        "serve",
+                        "--listen",
+                        f"unix:{folder}/s",
+                        "--stdio",
+                        "--threads",
+                        "4",
+                        "--ready-file",
+                        ready,
+                    ],
+                    env=os.environ | self.scarcity.environment,
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.PIPE,
+                )
                 with process:
                     was_ready = False
                     deadline = time.monotonic() + PATIENCE
@@ -185,6 +212,7 @@ class Stack(unittest.TestCase):
     def test_a_stack_of_256_KiB_is_enough(self):
         def limit():
             resource.setrlimit(resource.RLIMIT_STACK, (256 << 10, 256 << 10))
+
         with Server("serve", "--listen", "tcp://127.0.0.1:0", "--http", "127.0.0.1:0", before=limit) as server:
             wire = connect_tcp(server.port())
             self.assertTrue(ask(wire, b"load beamfall").startswith(b"ok "))
@@ -207,8 +235,19 @@ class Files(unittest.TestCase):
     def check(self, files, folder, served):
         def limit():
             resource.setrlimit(resource.RLIMIT_NOFILE, (files, files))
-        with Server("serve", "--listen", f"unix:{folder}/s", "--threads", "2", "--http", "127.0.0.1:0", "--grace", "0",
-                    before=limit) as server:
+
+        with Server(
+            "serve",
+            "--listen",
+            f"unix:{folder}/s",
+            "--threads",
+            "2",
+            "--http",
+            "127.0.0.1:0",
+            "--grace",
+            "0",
+            before=limit,
+        ) as server:
             deadline = time.monotonic() + PATIENCE
             while server.alive() and not any("health" in line for line in server.log()) and time.monotonic() < deadline:
                 time.sleep(0.005)

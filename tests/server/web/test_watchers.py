@@ -88,7 +88,9 @@ def ask_ahead(port, count, ahead, seconds, begun, seen):
 
 class Watchers(unittest.TestCase):
     def serve(self, *options):
-        server = Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "ws://127.0.0.1:0", "--grace", "0", *options)
+        server = Server(
+            "serve", "--listen", "tcp://127.0.0.1:0", "--listen", "ws://127.0.0.1:0", "--grace", "0", *options
+        )
         self.addCleanup(server.__exit__)
         self.process = server.process.pid
         self.port = int(server.wait_for(r"listening on ws://127\.0\.0\.1:(\d+)$")[1])
@@ -180,7 +182,9 @@ class Watchers(unittest.TestCase):
     def acts_for_each_picture(self, agent, watchers, seconds):
         """How many acts the agent gets in the time in which each of many watchers that ask ahead gets a picture."""
         begun, seen = multiprocessing.Event(), multiprocessing.Value("q")
-        crowd = multiprocessing.Process(target=ask_ahead, args=(self.port, watchers, 30, seconds, begun, seen), daemon=True)
+        crowd = multiprocessing.Process(
+            target=ask_ahead, args=(self.port, watchers, 30, seconds, begun, seen), daemon=True
+        )
         crowd.start()
         self.assertTrue(begun.wait(PATIENCE))
         before = agent.acts
@@ -197,5 +201,7 @@ class Watchers(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    resource.setrlimit(resource.RLIMIT_NOFILE, (4096, resource.getrlimit(resource.RLIMIT_NOFILE)[1]))  # the server inherits it
+    resource.setrlimit(
+        resource.RLIMIT_NOFILE, (4096, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
+    )  # the server inherits it
     main()

@@ -65,7 +65,10 @@ class Conversation(Case):
             options = [word for word in command[2:] if word != "--stdio"]
             if "--strict" in options:  # on streams only
                 continue
-            with self.subTest(command=command, said=said), Server("serve", "--listen", "ws://127.0.0.1:0", *options) as server:
+            with (
+                self.subTest(command=command, said=said),
+                Server("serve", "--listen", "ws://127.0.0.1:0", *options) as server,
+            ):
                 wire = WebSocket(port_of(server))
                 found = b""
                 for line in said:
@@ -84,12 +87,21 @@ class Conversation(Case):
     def test_a_message_is_one_line_or_several_in_any_number_of_frames(self):
         self.start()
         wire = self.connect()
-        for text, replies in ((b"hello", 1), (b"hello\n", 1), (b"hello\r\n", 1), (b"hello\nhelp\n# no reply\nhelp load", 3)):
+        for text, replies in (
+            (b"hello", 1),
+            (b"hello\n", 1),
+            (b"hello\r\n", 1),
+            (b"hello\nhelp\n# no reply\nhelp load", 3),
+        ):
             wire.send(text)
             for _ in range(replies):
                 self.assertTrue(wire.line().startswith(b"ok "), text)
-        wire.write(frame(TEXT, b"help", final=False) + frame(PING, b"between") + b"".join(
-            frame(0, bytes([byte]), final=False) for byte in b" load") + frame(0, b""))
+        wire.write(
+            frame(TEXT, b"help", final=False)
+            + frame(PING, b"between")
+            + b"".join(frame(0, bytes([byte]), final=False) for byte in b" load")
+            + frame(0, b"")
+        )
         self.assertEqual(wire.message(), (PONG, b"between"))
         self.assertTrue(wire.line().startswith(b"ok load "))
         self.assertEqual(wire.ask(b""), b"error bad-line the line is empty; help lists the commands")
@@ -109,7 +121,11 @@ class Conversation(Case):
     def test_requests_sent_ahead_are_answered_in_order(self):
         self.start()
         wire = self.connect()
-        wire.write(b"".join(frame(TEXT, line) for line in [ENDLESS, b"observe acts"] + [b"act NOOP*%d" % n for n in range(1, 300)]))
+        wire.write(
+            b"".join(
+                frame(TEXT, line) for line in [ENDLESS, b"observe acts"] + [b"act NOOP*%d" % n for n in range(1, 300)]
+            )
+        )
         wire.line(), wire.line()
         self.assertEqual([wire.line() for _ in range(1, 300)], [b"ok acts=%d" % n for n in range(1, 300)])
 
@@ -185,12 +201,16 @@ class Page(Case):
     def test_every_file_is_there_compressed_and_cached(self):
         self.start()
         folder = os.path.join(SOURCE, "viewer", "dist")
-        names = [os.path.relpath(os.path.join(path, name), folder) for path, _, files in os.walk(folder) for name in files]
+        names = [
+            os.path.relpath(os.path.join(path, name), folder) for path, _, files in os.walk(folder) for name in files
+        ]
         self.assertIn("index.html", names)
         for name in names:
             with self.subTest(name), open(os.path.join(folder, name), "rb") as file:
                 status, fields, text = self.get("/" + name, **{"Accept-Encoding": "br, gzip"})
-                self.assertEqual((status, fields["Content-Encoding"], gzip.decompress(text)), (200, "gzip", file.read()))
+                self.assertEqual(
+                    (status, fields["Content-Encoding"], gzip.decompress(text)), (200, "gzip", file.read())
+                )
                 self.assertEqual(self.get("/" + name, **{"If-None-Match": fields["ETag"]})[::2], (304, b""))
                 self.assertEqual(self.get("/" + name, **{"If-None-Match": '"other"'})[0], 200)
 
@@ -207,19 +227,28 @@ class Page(Case):
     def test_who_waits_before_the_body_is_told_to_go_on(self):
         for method, status in ((b"GET", b"HTTP/1.1 200 OK\r\n"), (b"POST", b"HTTP/1.1 405 ")):
             self.start()
-            first, second = self.answers(method + b" / HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Length: 4\r\n"
-                                         b"Expect: 100-continue\r\n\r\n", b"body")
+            first, second = self.answers(
+                method + b" / HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Length: 4\r\n"
+                b"Expect: 100-continue\r\n\r\n",
+                b"body",
+            )
             self.assertEqual(first, b"HTTP/1.1 100 Continue\r\n\r\n")
             self.assertTrue(second.startswith(status), second)
-        self.assertTrue(self.answers(b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 4000\r\nExpect: 100-continue\r\n\r\n")[0]
-                        .startswith(b"HTTP/1.1 413 "))
+        self.assertTrue(
+            self.answers(b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 4000\r\nExpect: 100-continue\r\n\r\n")[
+                0
+            ].startswith(b"HTTP/1.1 413 ")
+        )
 
     def test_a_request_that_cannot_be_read_is_told_so(self):
         self.start("--http", "127.0.0.1:0")
         health = int(self.server.wait_for(r"health and metrics on http://127\.0\.0\.1:(\d+)").group(1))
-        cases = ((b"GET / HTTP/1.1\r\nHost: x\r\nX: " + b"x" * 30000 + b"\r\n\r\n", b"HTTP/1.1 431 "),
-                 (b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 9999\r\n\r\n" + b"x" * 9999, b"HTTP/1.1 413 "),
-                 (b"GET / HTTP/1.1\r\nHost\r\n\r\n", b"HTTP/1.1 400 "), (b"load beamfall\n\r\n\r\n", b"HTTP/1.1 400 "))
+        cases = (
+            (b"GET / HTTP/1.1\r\nHost: x\r\nX: " + b"x" * 30000 + b"\r\n\r\n", b"HTTP/1.1 431 "),
+            (b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 9999\r\n\r\n" + b"x" * 9999, b"HTTP/1.1 413 "),
+            (b"GET / HTTP/1.1\r\nHost\r\n\r\n", b"HTTP/1.1 400 "),
+            (b"load beamfall\n\r\n\r\n", b"HTTP/1.1 400 "),
+        )
         for port in (port_of(self.server), health):
             for request_text, status in cases:
                 with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE) as connection:
@@ -231,7 +260,13 @@ class Page(Case):
 
     def test_other_paths_are_not(self):
         self.start()
-        for path, status in (("/nothing", 404), ("/../CMakeLists.txt", 404), ("/healthz", 404), ("/metrics", 404), ("/session", 426)):
+        for path, status in (
+            ("/nothing", 404),
+            ("/../CMakeLists.txt", 404),
+            ("/healthz", 404),
+            ("/metrics", 404),
+            ("/session", 426),
+        ):
             self.assertEqual(self.get(path)[0], status, path)
 
 
@@ -241,16 +276,35 @@ class Origins(Case):
         host = f"127.0.0.1:{port_of(self.server)}"
         for origin in (None, "http://" + host, "https://" + host, "https://lab.example", "http://127.0.0.1:1"):
             self.assertTrue(self.connect(Origin=origin).ask(b"hello").startswith(b"ok "), origin)
-        self.assertTrue(self.connect(Host="LocalHost:80", Origin="http://localhost:80").ask(b"hello").startswith(b"ok "))
+        self.assertTrue(
+            self.connect(Host="LocalHost:80", Origin="http://localhost:80").ask(b"hello").startswith(b"ok ")
+        )
 
     def test_other_pages_are_refused(self):
         self.start("--allow-origin", "https://lab.example")
         host = f"127.0.0.1:{port_of(self.server)}"
-        for origin in ("http://evil.example", "http://" + host + "0", "http://127.0.0.1", "null", "", "file://", host,
-                       "https://lab.example.evil.example", "https://lab.example:444", "http://lab.example"):
+        for origin in (
+            "http://evil.example",
+            "http://" + host + "0",
+            "http://127.0.0.1",
+            "null",
+            "",
+            "file://",
+            host,
+            "https://lab.example.evil.example",
+            "https://lab.example:444",
+            "http://lab.example",
+        ):
             self.assertEqual(self.refusal(Origin=origin).status, 403, origin)
-        for place in ("[::1].evil.example", "127.0.0.1:80@evil.example", "127.0.0.1:80.evil.example", "localhost@evil.example",
-                      "[::1]evil", "[127.0.0.1]", "127.0.0.1:99999"):
+        for place in (
+            "[::1].evil.example",
+            "127.0.0.1:80@evil.example",
+            "127.0.0.1:80.evil.example",
+            "localhost@evil.example",
+            "[::1]evil",
+            "[127.0.0.1]",
+            "127.0.0.1:99999",
+        ):
             self.assertEqual(self.refusal(Origin="http://" + place, Host=place).status, 403, place)
         # The name of another site that stands for this machine.
         self.assertEqual(self.refusal(Origin="http://evil.example:80", Host="evil.example:80").status, 403)
@@ -399,8 +453,13 @@ class Hostile(Case):
             self.assertEqual(self.refusal(**fields).status, 400, fields)
         self.assertEqual(self.refusal(**{"Sec-WebSocket-Version": "8"}).status, 426)
         self.assertEqual(self.refusal(path="/other").status, 404)
-        for nonsense in (os.urandom(4096), b"\0" * 100, b"load beamfall\n", request("x") + frame(TEXT, b"too early"),
-                         b"GET /session HTTP/1.1\r\nX: " + b"x" * 100000):
+        for nonsense in (
+            os.urandom(4096),
+            b"\0" * 100,
+            b"load beamfall\n",
+            request("x") + frame(TEXT, b"too early"),
+            b"GET /session HTTP/1.1\r\nX: " + b"x" * 100000,
+        ):
             with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE) as connection:
                 with contextlib.suppress(OSError):
                     connection.sendall(nonsense)
@@ -456,7 +515,10 @@ class Hostile(Case):
 
     @unittest.skipIf(sanitized() or thread_sanitized(), "a sanitizer needs more memory")
     def test_memory_is_limited(self):
-        with Server("serve", "--listen", "ws://127.0.0.1:0", "--max-memory", "80M") as server, contextlib.ExitStack() as stack:
+        with (
+            Server("serve", "--listen", "ws://127.0.0.1:0", "--max-memory", "80M") as server,
+            contextlib.ExitStack() as stack,
+        ):
             small = WebSocket(port_of(server))
             stack.callback(small.close)
             small.ask(b"load beamfall")

@@ -14,8 +14,13 @@ GUID = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
 
 def request(host, path="/session", **fields):
     """The request that opens a WebSocket. `fields` replace or add fields; None removes one."""
-    usual = {"Host": host, "Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13",
-             "Sec-WebSocket-Key": base64.b64encode(os.urandom(16)).decode()}
+    usual = {
+        "Host": host,
+        "Upgrade": "websocket",
+        "Connection": "Upgrade",
+        "Sec-WebSocket-Version": "13",
+        "Sec-WebSocket-Key": base64.b64encode(os.urandom(16)).decode(),
+    }
     lines = [f"{name}: {value}\r\n" for name, value in (usual | fields).items() if value is not None]
     return f"GET {path} HTTP/1.1\r\n{''.join(lines)}\r\n".encode()
 
@@ -31,7 +36,7 @@ def frame(opcode, payload, final=True, mask=b"\x12\x34\x56\x78", length=None):
     else:
         head = struct.pack("!BBQ", opcode | 0x80 * final, marked | 127, size)
     if mask:
-        key = (mask * (len(payload) // 4 + 1))[:len(payload)]
+        key = (mask * (len(payload) // 4 + 1))[: len(payload)]
         payload = (int.from_bytes(payload, "big") ^ int.from_bytes(key, "big")).to_bytes(len(payload), "big")
     return head + mask + payload
 
@@ -67,7 +72,7 @@ class WebSocket:
     def response(self):
         """The status, fields and text of the server's answer."""
         status, fields = int(self.reader.readline().split()[1]), {}
-        while (line := self.reader.readline().decode().strip()):
+        while line := self.reader.readline().decode().strip():
             name, _, value = line.partition(": ")
             fields[name.lower()] = value
         return status, fields, self.reader.read(int(fields.get("content-length", 0))).decode()
