@@ -4,14 +4,14 @@
     python3 cluster/simulate.py paper --cores 64 --nodes 10 20 40
     python3 cluster/simulate.py paper --cores 64 --within 24 --pilot results
 
-A core runs one task after the other. A task is a shard of the plan, by default a unit. When a node fails, its tasks lose what
-they did since their last checkpoint, and wait for --requeue before another core continues them. Prints hours and core-hours,
-the median and the 95th percentile over --runs simulations. --within HOURS searches for the fewest nodes for which 95 % of the
-simulations end in time.
+A core runs one task after the other. A task is a shard of the plan, by default a unit. When a node fails, its tasks
+lose what they did since their last checkpoint, and wait for --requeue before another core continues them. Prints hours
+and core-hours, the median and the 95th percentile over --runs simulations. --within HOURS searches for the fewest nodes
+for which 95 % of the simulations end in time.
 
-The lengths of units are those of `racebeam experiment PLAN --dry-run`, which takes all episodes to be as long as they may be.
-With --pilot, a folder of results, they come from its times.csv: seconds of a frame, and frames of an episode, by agent. A unit
-gets those of a game of the pilot, drawn at random.
+The lengths of units are those of `racebeam experiment PLAN --dry-run`, which takes all episodes to be as long as they
+may be. With --pilot, a folder of results, they come from its times.csv: seconds of a frame, and frames of an episode,
+by agent. A unit gets those of a game of the pilot, drawn at random.
 """
 
 from __future__ import annotations
@@ -182,8 +182,8 @@ def rows_of(table: pathlib.Path) -> list[dict[str, str]]:
 
 
 def pilot_of(results: pathlib.Path) -> dict[str, list[tuple[float, float]]]:
-    """By agent, for each of its units in a folder of results: the mean length of an episode as a part of the longest, and the
-    seconds of a decision."""
+    """By agent, for each of its units in a folder of results: the mean length of an episode as a part of the longest,
+    and the seconds of a decision."""
     (longest,) = map(float, re.findall(r"max_episode_frames=(\d+)", (results / "plan.toml").read_text()))
     episodes: dict[str, list[dict[str, str]]] = {}
     for row in rows_of(results / "results.csv") + rows_of(results / "curves.csv"):
@@ -319,7 +319,8 @@ def main() -> None:
         busy = statistics.median(run.busy / run.elapsed / cores for run in runs)
         print(
             f"{count:6}{cores:7}{elapsed / 3600:8.1f}{percentile(runs, 0.95) / 3600:8.1f}{busy:7.0%}"
-            f"{statistics.median(run.lost for run in runs) / 3600:8.2f}{statistics.median(run.failures for run in runs):10.0f}"
+            f"{statistics.median(run.lost for run in runs) / 3600:8.2f}"
+            f"{statistics.median(run.failures for run in runs):10.0f}"
         )
 
 

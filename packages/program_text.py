@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the man pages of racebeam, and the completions of its command line for bash, zsh and fish, from its help texts.
+"""Writes the man pages of racebeam, and the completions of its command line for bash, zsh and fish, from its help
+texts.
 
 usage: program_text.py PROGRAM FOLDER
 """

@@ -1,4 +1,5 @@
-"""Servers that misbehave, for the steps of faults.txt. They speak as much of the protocol as a client needs to connect."""
+"""Servers that misbehave, for the steps of faults.txt. They speak as much of the protocol as a client needs to
+connect."""
 
 import socket
 import socketserver

@@ -2,9 +2,9 @@
 
     python3 cluster/ray/experiment.py paper results --shards 100 --roms /shared/atari
 
-Words that are not listed by --help are options of `racebeam experiment`. All nodes need the folder of the results. A shard
-whose node is lost goes on elsewhere from its checkpoints, and a finished unit is never run again. So the results are the
-same, byte for byte, for any number of nodes and losses. At the end, `racebeam verify` checks the scores.
+Words that are not listed by --help are options of `racebeam experiment`. All nodes need the folder of the results. A
+shard whose node is lost goes on elsewhere from its checkpoints, and a finished unit is never run again. So the results
+are the same, byte for byte, for any number of nodes and losses. At the end, `racebeam verify` checks the scores.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
     python3 cluster/ray/rollouts.py breakout --actors 8 --rollouts 64 --roms /shared/atari
 
-Each actor holds a vector environment. A rollout depends on its number alone, so that the total is the same for any number of
-actors and nodes. When a node is lost, its rollouts are repeated by the other actors.
+Each actor holds a vector environment. A rollout depends on its number alone, so that the total is the same for any
+number of actors and nodes. When a node is lost, its rollouts are repeated by the other actors.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ class Player:
     def play(self, seed: int, steps: int, policy: Policy | None) -> Rollout:
         """Returns arrays whose first axes are steps and environments. There is one more observation than steps.
 
-        The environments write into the array of observations. Ray copies it once, into its object store, which readers on
-        the same node map into their memory.
+        The environments write into the array of observations. Ray copies it once, into its object store, which readers
+        on the same node map into their memory.
         """
         envs, chance = self.envs, np.random.default_rng(seed)
         observations = np.empty((steps + 1, *envs.observation_space.shape), np.uint8)

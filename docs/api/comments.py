@@ -1,4 +1,5 @@
-"""Prints a header in which the comments of declarations are those of Doxygen: the lines of // before one, and // behind one."""
+"""Prints a header in which the comments of declarations are those of Doxygen: the lines of // before one, and // behind
+one."""
 
 import re
 import sys
@@ -6,5 +7,6 @@ import sys
 BEFORE = re.compile(r"^(\s*)//(?!/)")
 BEHIND = re.compile(r"^(\s*[^/\s].*[;,{]\s+)//(?!/)")
 
-for line in open(sys.argv[1], encoding="utf-8"):
-    print(BEHIND.sub(r"\1///<", BEFORE.sub(r"\1///", line)), end="")
+with open(sys.argv[1], encoding="utf-8") as header:
+    for line in header:
+        print(BEHIND.sub(r"\1///<", BEFORE.sub(r"\1///", line)), end="")

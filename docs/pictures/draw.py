@@ -187,7 +187,10 @@ def draw(picture):
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"',
             '     font-family="sans-serif" font-size="14" text-anchor="middle" role="img">',
             f"<title>{title}</title>",
-            '<defs><marker id="tip" viewBox="0 0 8 8" refX="8" refY="4" markerWidth="8" markerHeight="8" orient="auto">',
+            (
+                '<defs><marker id="tip" viewBox="0 0 8 8" refX="8" refY="4" markerWidth="8" markerHeight="8" '
+                'orient="auto">'
+            ),
             '<path d="M0 0 L8 4 L0 8 z" fill="#444"/></marker></defs>',
             f'<rect width="{width}" height="{height}" fill="white"/>',
             f'<text x="{width / 2}" y="26" font-size="13">{title}</text>',

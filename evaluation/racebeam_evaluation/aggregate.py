@@ -109,7 +109,8 @@ def profile_rows(scores: Scores, ranges: Ranges, group: Group, bootstrap: Bootst
 
 
 def improvement_rows(scores: Scores, group: Group, bootstrap: Bootstrap) -> pd.DataFrame:
-    """The probability of improvement for each ordered pair of agents with trials, over the games that both have played."""
+    """The probability of improvement for each ordered pair of agents with trials, over the games that both have
+    played."""
     rows = []
     for first in group.agents:
         for second in group.agents:

@@ -1,6 +1,7 @@
 """The report `atari100k`: human-normalised scores in 26 games after 400,000 frames.
 
-Kaiser et al.: "Model-Based Reinforcement Learning for Atari", arXiv:1903.00374; aggregates as in Agarwal et al. 2021."""
+Kaiser et al.: "Model-Based Reinforcement Learning for Atari", arXiv:1903.00374; aggregates as in Agarwal et al.
+2021."""
 
 import dataclasses
 

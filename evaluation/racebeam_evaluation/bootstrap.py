@@ -1,9 +1,10 @@
 """Statistics of rliable, with intervals of a stratified bootstrap over trials.
 
-R. Agarwal et al.: "Deep Reinforcement Learning at the Edge of the Statistical Precipice", NeurIPS 2021. A matrix of scores
-has a row for each trial and a column for each game. Where games have different numbers of trials, NaN fill the columns, and
-each game counts the same: the statistics are rliable's with trials that have weights. rliable 1.2.0 ignores its argument `random_state` and draws from NumPy's
-global generator, so each interval seeds that one, and puts it back afterwards."""
+R. Agarwal et al.: "Deep Reinforcement Learning at the Edge of the Statistical Precipice", NeurIPS 2021. A matrix of
+scores has a row for each trial and a column for each game. Where games have different numbers of trials, NaN fill the
+columns, and each game counts the same: the statistics are rliable's with trials that have weights. rliable 1.2.0
+ignores its argument `random_state` and draws from NumPy's global generator, so each interval seeds that one, and puts
+it back afterwards."""
 
 import contextlib
 import dataclasses
@@ -97,7 +98,8 @@ def _mean(values: Matrix) -> Matrix:
 
 
 def _interquartile_mean(scores: Matrix) -> float:
-    """The mean without the lowest and the highest quarter of the weight. A game has the weight 1, which its trials share."""
+    """The mean without the lowest and the highest quarter of the weight. A game has the weight 1, which its trials
+    share."""
     weights = np.broadcast_to(1 / trials_of(scores), scores.shape)[~np.isnan(scores)]
     values = scores[~np.isnan(scores)]
     order = np.argsort(values, kind="stable")
@@ -127,7 +129,8 @@ def profile(thresholds: Matrix) -> Callable[[Matrix], Matrix]:
 
 
 def improvement(first: Matrix, second: Matrix) -> Matrix:
-    """The probability that a trial of the first scores more than one of the second, the mean over games; ties count half.
+    """The probability that a trial of the first scores more than one of the second, the mean over games; ties count
+    half.
 
     The same as rliable's probability_of_improvement, without its p-values, which take most of its time."""
     signs = np.sign(first[:, np.newaxis, :] - second[np.newaxis, :, :])

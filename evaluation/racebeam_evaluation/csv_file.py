@@ -37,11 +37,12 @@ class Source:
 
 
 def read(path: pathlib.Path, columns: dict[str, Kind], may_be_empty: bool = False) -> tuple[pd.DataFrame, Source]:
-    """Returns the columns of the file at `path` that `columns` names, and the digest of the file. It has rows, unless it may
-    be empty.
+    """Returns the columns of the file at `path` that `columns` names, and the digest of the file. It has rows, unless
+    it may be empty.
 
-    Cells of the kinds TEXT and NAME become categories, WHOLE int64, the others float64; nothing is NaN.
-    The row of index i is on line i + 2. Other columns are ignored. Raises BadInput, which names the file, and the line where there is one."""
+    Cells of the kinds TEXT and NAME become categories, WHOLE int64, the others float64; nothing is NaN. The row of
+    index i is on line i + 2. Other columns are ignored. Raises BadInput, which names the file, and the line where there
+    is one."""
     try:
         content = path.read_bytes()
     except OSError as error:

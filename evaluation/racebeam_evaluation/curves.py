@@ -9,7 +9,8 @@ _BINS = 50  # points of a curve
 
 
 def with_trained_frames(curves: pd.DataFrame) -> pd.DataFrame:
-    """The training episodes of curves.csv in order, with the column "trained": frames of the trial up to each one's end."""
+    """The training episodes of curves.csv in order, with the column "trained": frames of the trial up to each one's
+    end."""
     ordered = curves.sort_values(["game", "agent", "trial", "episode"], kind="stable", ignore_index=True)
     trained = ordered.groupby(["game", "agent", "trial"])["frames"].cumsum()
     return ordered.assign(trained=trained)
@@ -18,7 +19,8 @@ def with_trained_frames(curves: pd.DataFrame) -> pd.DataFrame:
 def learning_curves(curves: pd.DataFrame) -> pd.DataFrame:
     """For each game and agent, the mean score of training episodes in 50 equal stretches of frames.
 
-    The standard error is that of the trials' means, NaN of a single trial. A stretch in which no episode ends has no row."""
+    The standard error is that of the trials' means, NaN of a single trial. A stretch in which no episode ends has no
+    row."""
     episodes = with_trained_frames(curves)
     longest = episodes.groupby("game")["trained"].transform("max")
     stretch = np.ceil(episodes["trained"] / longest * _BINS).clip(lower=1).astype(int)

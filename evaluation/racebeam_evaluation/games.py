@@ -1,4 +1,5 @@
-"""The games: racebeam's names, the paper's two sets and order, the 26 games of Atari 100k, and scores of human players."""
+"""The games: racebeam's names, the paper's two sets and order, the 26 games of Atari 100k, and scores of human
+players."""
 
 import difflib
 import pathlib

@@ -1,6 +1,7 @@
 """The report `machado2018`: averages of the last 100 training episodes after fixed numbers of frames.
 
-M. C. Machado et al.: "Revisiting the Arcade Learning Environment", Journal of Artificial Intelligence Research 61, 2018."""
+M. C. Machado et al.: "Revisiting the Arcade Learning Environment", Journal of Artificial Intelligence Research 61,
+2018."""
 
 import pandas as pd
 
@@ -54,7 +55,8 @@ def evaluate(results: Results, _: Bootstrap) -> Report:
 
 
 def checkpoints(curves: pd.DataFrame) -> pd.DataFrame:
-    """A row for each game and agent: at each checkpoint mean and standard deviation over the trials that have reached it."""
+    """A row for each game and agent: at each checkpoint mean and standard deviation over the trials that have reached
+    it."""
     trained = with_trained_frames(curves)
     rows = []
     for game in in_order(list(set(trained["game"]))):

@@ -15,8 +15,9 @@ from .results import read_results
 _REPORTS = {"paper2013": paper2013.evaluate, "machado2018": machado2018.evaluate, "atari100k": atari100k.evaluate}
 
 _EPILOG = """\
-The exit status is 0 if all could be computed, 1 for bad input (nothing is then written), 2 for a usage error, and 3 if the
-report is written but tests could not be made, each of which standard error names. docs/evaluation.md explains the report."""
+The exit status is 0 if all could be computed, 1 for bad input (nothing is then written), 2 for a usage error, and 3 if
+the report is written but tests could not be made, each of which standard error names. docs/evaluation.md explains the
+report."""
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -66,7 +66,8 @@ def of_lacking(found: list[Pair]) -> tuple[str, ...]:
 
 
 def of_untested(scores: Scores, group: Group, found: list[Pair]) -> list[str]:
-    """Tests that could not be made: a sentence for each agent with too few trials, and for each pair without variance."""
+    """Tests that could not be made: a sentence for each agent with too few trials, and for each pair without
+    variance."""
     few: dict[str, list[str]] = {}
     for pair in found:
         for agent in (pair.first, pair.second):

@@ -67,7 +67,10 @@ def _paired_counts(scores: Scores, sources: tuple[Source, ...]) -> Table:
         lower=[len(pair.lower) for pair in found],
         tied=[len(pair.games) - len(pair.higher) - len(pair.lower) for pair in found],
     )
-    note = "A test that finds a difference finds it in the direction of the means. Means that are printed as tied may differ."
+    note = (
+        "A test that finds a difference finds it in the direction of the means. Means that are printed as "
+        "tied may differ."
+    )
     return Table(
         "paired",
         "Printed tests (better, worse) beside the games with a higher, lower and tied printed mean.",

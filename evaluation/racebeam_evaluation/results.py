@@ -1,6 +1,5 @@
-"""What `racebeam experiment` leaves in its folder: evaluation episodes in results.csv, training episodes in curves.csv, and
-the settings of both in plan.toml, and
-the roles of agents in agents.csv."""
+"""What `racebeam experiment` leaves in its folder: evaluation episodes in results.csv, training episodes in curves.csv,
+and the settings of both in plan.toml, and the roles of agents in agents.csv."""
 
 import dataclasses
 import pathlib

@@ -16,7 +16,10 @@ def fields(protocol):
     return (
         "# What bytes are written in where the client does not say.\n"
         + array("racebeam_usual", usual)
-        + "# Bytes of fields that always have the same number, and bytes of a pixel of those that have the size of the screen.\n"
+        + (
+            "# Bytes of fields that always have the same number, and bytes of a pixel of those that have the size "
+            "of the screen.\n"
+        )
         + array("_racebeam_sizes", sizes)
         + array("_racebeam_pixels", pixels)
     )

@@ -39,7 +39,8 @@ def comment(command, shape, told):
     if shape.others and not shape.only_key:
         about = [explained(argument) for argument in shape.others if argument.about]
         lines.append(
-            f"@param {shape.pack} {'; '.join(about) or '`' + ' '.join(argument.usage for argument in shape.others) + '`'}"
+            f"@param {shape.pack} "
+            f"{'; '.join(about) or '`' + ' '.join(argument.usage for argument in shape.others) + '`'}"
         )
     return "".join(f"  /// {line}\n" for line in lines)
 

@@ -3,7 +3,10 @@
 from javascript_client import camel, generated, sentence
 
 FOLDER = "clients/java/src/main/java/racebeam"
-HEAD = "// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.\npackage racebeam;\n\n"
+HEAD = (
+    "// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.\n"
+    "package racebeam;\n\n"
+)
 TYPES = {"int": "long", "seed": "long", "flag": "boolean", "text": "String"}
 # Type, what is returned, and how the Javadoc calls it.
 RESULTS = {
@@ -16,8 +19,8 @@ RESULTS = {
 
 
 def overloads(command):
-    """The parameters of each method of a command: with and without what may be left out. A command with one key takes its value,
-    and one with several takes a map."""
+    """The parameters of each method of a command: with and without what may be left out. A command with one key takes
+    its value, and one with several takes a map."""
     required = [argument for argument in command.words if not argument.optional and not argument.is_repeated]
     optional = [argument for argument in command.words if argument.optional and not argument.is_repeated]
     repeated = [argument for argument in command.words if argument.is_repeated]
@@ -116,8 +119,10 @@ def fields(protocol):
     pixels = map_of((field.name, field.bytes_of_pixel) for field in named if not field.fixed_size)
     return (
         f"{HEAD}import java.util.Map;\n\n/** The fields of bytes. */\nfinal class FieldTable {{\n"
-        f"  /** What bytes are written in where the client does not say. */\n  static final Map<String, Encoding> USUAL = {usual};\n"
-        f"  /** Bytes of fields that always have the same number. */\n  static final Map<String, Integer> SIZES = {sizes};\n"
+        f"  /** What bytes are written in where the client does not say. */\n  static final Map<String, Encoding> "
+        f"USUAL = {usual};\n"
+        f"  /** Bytes of fields that always have the same number. */\n  static final Map<String, Integer> SIZES = "
+        f"{sizes};\n"
         f"  /** Bytes of a pixel of fields that have the size of the screen. */\n"
         f"  static final Map<String, Integer> PIXELS = {pixels};\n\n  private FieldTable() {{ }}\n}}\n"
     )

@@ -86,7 +86,10 @@ end
 
 def commands(protocol):
     methods = "\n".join(method(command) for command in generated(protocol))
-    return f"{HEAD}-- The commands whose methods only send their words. `request` is a session's.\n\n{HELPERS}{methods}\nreturn methods\n"
+    return (
+        f"{HEAD}-- The commands whose methods only send their words. `request` is a session's.\n\n"
+        f"{HELPERS}{methods}\nreturn methods\n"
+    )
 
 
 def flags(protocol):
@@ -105,7 +108,8 @@ def fields(protocol):
         f"  -- What bytes are written in where the client does not say.\n  usual = {usual},\n"
         f"  -- Bytes of fields that always have the same number.\n  sizes = {sizes},\n"
         f"  -- Bytes of a pixel of fields that have the size of the screen.\n  pixels = {pixels},\n"
-        f"  -- What is true or false: 0 would be true in Lua.\n  flags = {table((name, 'true') for name in flags(protocol))},\n}}\n"
+        f"  -- What is true or false: 0 would be true in Lua.\n  flags = "
+        f"{table((name, 'true') for name in flags(protocol))},\n}}\n"
     )
 
 

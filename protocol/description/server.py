@@ -31,7 +31,10 @@ def array(kind, name, rows):
 
 def error_codes(protocol):
     codes = "".join(f"  {enumerator(error.code)},\n" for error in protocol.errors)
-    return f"{HEAD}#pragma once\n\nnamespace racebeam {{\n\nenum class ErrorCode {{\n{codes}}};\n\n}}  // namespace racebeam\n"
+    return (
+        f"{HEAD}#pragma once\n\nnamespace racebeam {{\n\nenum class ErrorCode {{\n{codes}}};\n\n}}  // "
+        f"namespace racebeam\n"
+    )
 
 
 STRUCTS = """#pragma once

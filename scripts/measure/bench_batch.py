@@ -1,9 +1,9 @@
 """Measures environment::Batch and AtariVectorEnv of ale-py with the same settings and actions, in alternating chunks
 of one run.
 
-Both sides make stacks of four grey screens of 84 x 84, pooled over the last two frames of a skip of four, for every machine
-and step. Elapsed time of the steps alone is measured. Processor time is printed, too, because it varies less on a busy
-machine. After every chunk, observations and RAM of both sides are compared.
+Both sides make stacks of four grey screens of 84 x 84, pooled over the last two frames of a skip of four, for every
+machine and step. Elapsed time of the steps alone is measured. Processor time is printed, too, because it varies less on
+a busy machine. After every chunk, observations and RAM of both sides are compared.
 """
 
 import argparse
@@ -121,7 +121,10 @@ def measure(game, options, folder):
         seen = {side: chunks[-1][2] for side, chunks in sides.items()}
         if len(set(seen.values())) != 1:
             sys.exit(f"bench: {game}: observations differ: {seen}")
-    median = lambda side, column: statistics.median(chunk[column] for chunk in sides[side])
+
+    def median(side, column):
+        return statistics.median(chunk[column] for chunk in sides[side])
+
     frames = options.machines * options.steps * FRAME_SKIP
     return {
         "game": game,
@@ -144,7 +147,8 @@ def main():
     if import_error:
         sys.exit(f"bench: {import_error}; scripts/reference installs it")
     print(
-        f"{options.machines} machines, {options.threads} threads, {options.chunks} x {options.steps} steps of {FRAME_SKIP} frames, "
+        f"{options.machines} machines, {options.threads} threads, {options.chunks} x {options.steps} steps of "
+        f"{FRAME_SKIP} frames, "
         f"4 x 84 x 84; ALE {ale_py.__version__}\n"
     )
     print(
@@ -157,13 +161,15 @@ def main():
             row = measure(game, options, folder)
             rows.append(row)
             print(
-                f"| {game} | {row['reference']:,.0f} | {row['racebeam']:,.0f} | {row['ratio']:.2f} | {row['cpu_ratio']:.2f} | "
+                f"| {game} | {row['reference']:,.0f} | {row['racebeam']:,.0f} | {row['ratio']:.2f} | "
+                f"{row['cpu_ratio']:.2f} | "
                 f"{row['over_one_thread']:.2f} | {row['kib_a_machine']:.0f} |",
                 flush=True,
             )
     means = {column: geomean(rows, column) for column in ("ratio", "cpu_ratio", "over_one_thread")}
     print(
-        f"| **geomean** | | | **{means['ratio']:.2f}** | **{means['cpu_ratio']:.2f}** | **{means['over_one_thread']:.2f}** | |"
+        f"| **geomean** | | | **{means['ratio']:.2f}** | **{means['cpu_ratio']:.2f}** | "
+        f"**{means['over_one_thread']:.2f}** | |"
     )
     if options.json:
         pathlib.Path(options.json).write_text(

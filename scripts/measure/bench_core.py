@@ -156,7 +156,10 @@ def measure_states(reference, game, options):
     first_actions, after = draw_chunks(game, opened["legal_actions"], 2, CHUNK)
     resets, saves = [], []
     with racebeam:
-        both = lambda command: (reference.ask(command), racebeam.ask(command))
+
+        def both(command):
+            return (reference.ask(command), racebeam.ask(command))
+
         both("play " + first_actions)
         for number in range(1, ROUNDS + 1):
             theirs, ours = both(f"reset {RESETS}")
@@ -167,7 +170,10 @@ def measure_states(reference, game, options):
             theirs, ours = both(f"save {SNAPSHOTS}")
             saves.append((theirs["seconds"], ours["seconds"], ours["machine_seconds"]))
         must_agree(game, f"setting {STATES}, after its snapshots", *both("check " + after), ("digest",))
-    median = lambda rows, column: statistics.median(row[column] for row in rows)
+
+    def median(rows, column):
+        return statistics.median(row[column] for row in rows)
+
     return {
         "ale_reset_ms": median(resets, 0) * 1e3,
         "racebeam_reset_ms": median(resets, 1) * 1e3,

@@ -1,4 +1,5 @@
-"""racebeam's AtariEnv beside ale_py's, in one process: steps a second, four frames a step, for each kind of observation.
+"""racebeam's AtariEnv beside ale_py's, in one process: steps a second, four frames a step, for each kind of
+observation.
 
 Both play chunks of the same random actions in turns, and have to show the same. Only the processor time of the steps
 counts; resets are left out. The ratio is the median of the chunks' ratios. Needs `scripts/wheel --venv`.

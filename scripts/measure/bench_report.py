@@ -1,4 +1,5 @@
-"""Writes the results of scripts/bench core: a summary in a document, each game's figures in another, and two pictures."""
+"""Writes the results of scripts/bench core: a summary in a document, each game's figures in another, and two
+pictures."""
 
 import math
 import os

@@ -1,12 +1,12 @@
 """Measures what one server carries: the figures of docs/scale.md.
 
-steps: 64 sessions act as fast as they can, for each of several observations. Microseconds are the server's processor time of
-a step; their inverse is the steps a second of a core. The client runs on the same machine and takes its share of it, so that
-steps/s are fewer than the processors could do. MB/s are of replies, for a core that does nothing else.
+steps: 64 sessions act as fast as they can, for each of several observations. Microseconds are the server's processor
+time of a step; their inverse is the steps a second of a core. The client runs on the same machine and takes its share
+of it, so that steps/s are fewer than the processors could do. MB/s are of replies, for a core that does nothing else.
 cores: the same for a server that may use so many processors, with reward, ends and RAM; clients use all of the machine.
-sessions: the same for several numbers of acting sessions, with reward, ends and RAM.
-idle: memory and processor time of sessions that wait, in the server and in the kernel, after they have loaded a game.
-crowd: 50,000 sessions on several servers, of which 500 act ten times a second; latencies of the acts.
+sessions: the same for several numbers of acting sessions, with reward, ends and RAM. idle: memory and processor time of
+sessions that wait, in the server and in the kernel, after they have loaded a game. crowd: 50,000 sessions on several
+servers, of which 500 act ten times a second; latencies of the acts.
 
 Other programs distort steps/s and latencies; the load average is printed for that. Processor time suffers less.
 """
@@ -91,7 +91,8 @@ def acting(arguments, sessions, observe, processors=None):
 def steps(arguments):
     print(
         f"\n{name_of(image(arguments.game))}, frame_skip={arguments.frame_skip}, {ACTORS} sessions\n\n"
-        "| observation | bytes a reply | steps/s | us of a core | steps/s a core | MB/s a core |\n|---|---:|---:|---:|---:|---:|"
+        "| observation | bytes a reply | steps/s | us of a core | steps/s a core | MB/s a core |\n|---|---:|---:|"
+        "---:|---:|---:|"
     )
     for shown in SHOWN:
         found = acting(arguments, ACTORS, f"observe {shown}")
@@ -116,7 +117,10 @@ def sessions(arguments):
     for count in arguments.acting:
         found = acting(arguments, count, "observe reward ends ram")
         print(
-            f"| {count:,} | {found['rate']:,.0f} | {found['us']:.1f} | {found['p99'] / 1000:,.2f} | {found['kib']:,.0f} |",
+            (
+                f"| {count:,} | {found['rate']:,.0f} | {found['us']:.1f} | {found['p99'] / 1000:,.2f} | "
+                f"{found['kib']:,.0f} |"
+            ),
             flush=True,
         )
 
@@ -129,7 +133,8 @@ def kernel_memory():
 
 def idle(arguments):
     print(
-        "\n| idle sessions | connected in, s | KiB a session | in the kernel, KiB | of a core |\n|---:|---:|---:|---:|---:|"
+        "\n| idle sessions | connected in, s | KiB a session | in the kernel, KiB | of a core |\n"
+        "|---:|---:|---:|---:|---:|"
     )
     for count in arguments.idle:
         with Server(arguments.build, "--max-sessions", "20000") as server:
@@ -181,9 +186,12 @@ def crowd(arguments):
         kernel = kernel_memory() - kernel
     count = arguments.crowd + ACTING
     print(
-        f"\n{arguments.crowd:,} idle and {ACTING} acting sessions on {arguments.servers} servers, connected in {connected:.1f} s\n"
-        f"memory: {memory / 2**20:.2f} GiB, {memory / count:.1f} KiB a session; in the kernel {kernel / count:.1f} KiB a session\n"
-        f"{sum(one['acts'] for one in found) / seconds:,.0f} acts/s take {spent / seconds:.0%} of a core; the worst server's latency: "
+        f"\n{arguments.crowd:,} idle and {ACTING} acting sessions on {arguments.servers} servers, connected in "
+        f"{connected:.1f} s\n"
+        f"memory: {memory / 2**20:.2f} GiB, {memory / count:.1f} KiB a session; in the kernel "
+        f"{kernel / count:.1f} KiB a session\n"
+        f"{sum(one['acts'] for one in found) / seconds:,.0f} acts/s take {spent / seconds:.0%} of a core; the "
+        f"worst server's latency: "
         f"p50 {max(one['p50'] for one in found) / 1000:.2f} ms, p99 {max(one['p99'] for one in found) / 1000:.2f} ms",
         flush=True,
     )

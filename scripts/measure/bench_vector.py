@@ -1,11 +1,11 @@
 """racebeam's AtariVectorEnv beside ale_py's, and EnvPool's where it is installed: steps a second of all environments
 together, 84x84x4, with the threads that each takes by itself.
 
-All play chunks of random actions in turns; racebeam and ale_py have to show the same. Wall-clock time counts. "async" receives
-a third of the environments at a time. A ratio is the median of the chunks' ratios: racebeam to the better of ale_py and both
-of EnvPool's. Then racebeam in this process, and on a server over a Unix socket and over TCP; ratios are to in process. At the
-end: what Python alone takes of a step, with 64 environments that do nothing. Needs `scripts/wheel --venv`;
-`build/python/venv/bin/pip install envpool` adds EnvPool.
+All play chunks of random actions in turns; racebeam and ale_py have to show the same. Wall-clock time counts. "async"
+receives a third of the environments at a time. A ratio is the median of the chunks' ratios: racebeam to the better of
+ale_py and both of EnvPool's. Then racebeam in this process, and on a server over a Unix socket and over TCP; ratios are
+to in process. At the end: what Python alone takes of a step, with 64 environments that do nothing. Needs `scripts/wheel
+--venv`; `build/python/venv/bin/pip install envpool` adds EnvPool.
 """
 
 import argparse

@@ -1,7 +1,7 @@
 """Measures the cost of the line protocol over standard streams, a Unix socket and TCP.
 
-A step is one act, answered with reward, ends, lives, RAM and the screen as runs. Steps of one client are compared with an
-echo server on plain sockets that sends the same bytes, and with the same session in process. Then follow the bytes a
+A step is one act, answered with reward, ends, lives, RAM and the screen as runs. Steps of one client are compared with
+an echo server on plain sockets that sends the same bytes, and with the same session in process. Then follow the bytes a
 frame by encoding, and 64 machines in one session compared with one.
 
 Rates are of elapsed time: medians of nine rounds. Ratios are medians of the ratios within a round. Microseconds are
@@ -139,8 +139,8 @@ def print_speed(game, steps, ahead, placement, one_write=False):
         own, echo = found[transport], found["echo_" + transport]
         extra = own["microseconds"] - alone["microseconds"] - echo["microseconds"]
         print(
-            f"{transport:8}{own['rate']:10.0f}{echo['rate']:10.0f}{ratio(own, alone, echo):9.2f}{own['microseconds']:8.1f}"
-            f"{echo['microseconds']:9.1f}{extra:10.1f}",
+            f"{transport:8}{own['rate']:10.0f}{echo['rate']:10.0f}{ratio(own, alone, echo):9.2f}"
+            f"{own['microseconds']:8.1f}{echo['microseconds']:9.1f}{extra:10.1f}",
             flush=True,
         )
 
@@ -160,11 +160,12 @@ def print_bytes(games, frames=1000):
 
 
 def print_batch(game, machines=64):
-    """Compares many machines in one session with one in process, with the same fields and settings. With two requests in
-    flight, a client sends the actions of a step before it reads the reply to the previous step."""
+    """Compares many machines in one session with one in process, with the same fields and settings. With two requests
+    in flight, a client sends the actions of a step before it reads the reply to the previous step."""
     rom = image(game)
     print(
-        f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} processors, steps/s and times one in process"
+        f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} processors, steps/s and "
+        f"times one in process"
     )
     for ahead, words in itertools.product(
         (1, 2),

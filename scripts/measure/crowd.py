@@ -1,4 +1,5 @@
-"""A server and a crowd of sessions on it (tests/server/wire/load_client.cpp), for scripts/load and scripts/bench scale."""
+"""A server and a crowd of sessions on it (tests/server/wire/load_client.cpp), for scripts/load and scripts/bench
+scale."""
 
 import json
 import os
@@ -13,8 +14,8 @@ OBSERVE = "observe reward ends ram screen:rle"
 
 
 class Server:
-    """For TCP on this machine, from `with` to its end. processors: those that it may use; None: all. status, warnings: at its
-    end; the lines of the log."""
+    """For TCP on this machine, from `with` to its end. processors: those that it may use; None: all. status, warnings:
+    at its end; the lines of the log."""
 
     def __init__(self, build, *options, processors=None):
         self.processors = processors or os.sched_getaffinity(0)
@@ -70,8 +71,8 @@ class Server:
 
 
 class Crowd:
-    """Sessions with a game, of which `actors` act every `pause` milliseconds, from act() on, for `seconds`; the others wait.
-    connects: others that connect, a second. rude: misbehaving clients of each kind."""
+    """Sessions with a game, of which `actors` act every `pause` milliseconds, from act() on, for `seconds`; the others
+    wait. connects: others that connect, a second. rude: misbehaving clients of each kind."""
 
     def __init__(self, build, server, sessions, actors, seconds, pause, connects=0, rude=0, load=LOAD, observe=OBSERVE):
         words = [server.port, sessions, actors, seconds, pause, connects, rude, load, observe]
@@ -100,5 +101,6 @@ class Crowd:
         self.client.stdin.flush()
 
     def end(self):
-        """The latencies of the acts in microseconds, their number, the seconds, and the bytes of the replies. The sessions stay."""
+        """The latencies of the acts in microseconds, their number, the seconds, and the bytes of the replies. The
+        sessions stay."""
         return json.loads(self._line())

@@ -1,10 +1,10 @@
 """scripts/load --hostile: sessions that request as much as they can, and their effect on others.
 
 A server with two threads and 512 MiB is attacked twice, each time a new one. The first attack is of 64 sessions. Each
-repeats one of the ATTACKS of attacks.py: it connects, attacks and disconnects. The second one is that of hoarders.py, on the
-memory. A bystander with a game of its own acts every few milliseconds, and requests /healthz. During the second attack,
-newcomers connect, load a game and act; the time counts until they have managed. At the end, the server is told to stop during
-the attack. If one of the goals is missed, the exit status is 1.
+repeats one of the ATTACKS of attacks.py: it connects, attacks and disconnects. The second one is that of hoarders.py,
+on the memory. A bystander with a game of its own acts every few milliseconds, and requests /healthz. During the second
+attack, newcomers connect, load a game and act; the time counts until they have managed. At the end, the server is told
+to stop during the attack. If one of the goals is missed, the exit status is 1.
 """
 
 import itertools
@@ -254,7 +254,8 @@ def judge(found, limited):
     }
     for name, good in reached.items():
         print(
-            f"{name:14}{found[name]:10.2f} {units.get(name, 'ms'):4} below {GOALS[name]:4}: {'ok' if good else 'MISSED'}"
+            f"{name:14}{found[name]:10.2f} {units.get(name, 'ms'):4} below {GOALS[name]:4}: "
+            f"{'ok' if good else 'MISSED'}"
         )
     return all(reached.values())
 
@@ -279,7 +280,8 @@ def attack_one(name, attack, build, seconds):
 def run(build, seconds):
     """Returns the exit status."""
     print(
-        f"{THREADS} threads, {os.cpu_count()} processors ({processor.name()}), load {os.getloadavg()[0]:.1f}, {seconds:g} seconds each"
+        f"{THREADS} threads, {os.cpu_count()} processors ({processor.name()}), load {os.getloadavg()[0]:.1f}, "
+        f"{seconds:g} seconds each"
     )
     withstood = [attack_one(*attack, build, seconds) for attack in (("requests", REQUESTS), ("memory", hoarders.ALL))]
     return int(not all(withstood))

@@ -3,8 +3,8 @@
 
     paper_results.py [FOLDER] [--into FILE]
 
-FOLDER has PLAN.json for plans of PLANS, as scripts/measure/plan_figures.py gathers them; docs/results/figures unless it is
-named. A plan without figures is said to be not run yet. Published scores are those of evaluation/.
+FOLDER has PLAN.json for plans of PLANS, as scripts/measure/plan_figures.py gathers them; docs/results/figures unless it
+is named. A plan without figures is said to be not run yet. Published scores are those of evaluation/.
 """
 
 import argparse
@@ -142,13 +142,16 @@ class Document:
 
     def introduction(self):
         self.add("# Results of the paper's benchmark")
-        self.say("""This document has the scores that racebeam's agents reach, beside those that were published. `scripts/measure/paper_results.py`
-            writes it from figures that `scripts/measure/plan_figures.py` gathered from the results of each plan; no figure is typed by hand. "The paper" is Bellemare et al. 2013. Where it is
+        self.say("""This document has the scores that racebeam's agents reach, beside those that were published.
+            `scripts/measure/paper_results.py`
+            writes it from figures that `scripts/measure/plan_figures.py` gathered from the results of each plan; no
+            figure is typed by hand. "The paper" is Bellemare et al. 2013. Where it is
             silent, [paper-notes.md](paper-notes.md) says what racebeam does.""")
 
     def conditions(self):
         self.add("## Commands, machine, versions")
-        self.say("""The plans are part of the program. `scripts/measure/paper_plans FOLDER PLAN` runs a plan, verifies its rows, and gathers its figures. Times are
+        self.say("""The plans are part of the program. `scripts/measure/paper_plans FOLDER PLAN` runs a plan, verifies
+            its rows, and gathers its figures. Times are
             seconds of processor time, so that other programs hardly change them.""")
         rows = []
         for name in PLANS:
@@ -173,7 +176,8 @@ class Document:
 
     def scale(self):
         self.add("## What was scaled down")
-        self.say("""The plan `paper` has the paper's whole benchmark. `racebeam experiment paper --dry-run` prints what it costs. The figures
+        self.say("""The plan `paper` has the paper's whole benchmark. `racebeam experiment paper --dry-run` prints what
+            it costs. The figures
             of this document are from smaller plans:""")
         self.add(
             rows_of(
@@ -222,11 +226,15 @@ class Document:
             "\n".join(
                 textwrap.fill("- " + " ".join(text.split()), WIDTH, subsequent_indent="  ")
                 for text in (
-                    """The emulator: the paper used ALE of 2012. racebeam is exact to ALE 0.12, whose emulator and games' rules have changed
+                    """The emulator: the paper used ALE of 2012. racebeam is exact to ALE 0.12, whose emulator and
+                    games' rules have changed
             since.""",
-                    """Starts: each episode begins at power-on with a seed of its own, and without the human trajectories and NOOPs that
-            others used. Games that draw nothing from their seed give a policy without chance the same episode each time.""",
-                    """Rewards: some rules differ. Skiing's rewards were near 0 then, and add up to about -17,000 for random play now.
+                    """Starts: each episode begins at power-on with a seed of its own, and without the human
+                    trajectories and NOOPs that
+            others used. Games that draw nothing from their seed give a policy without chance the same episode each
+            time.""",
+                    """Rewards: some rules differ. Skiing's rewards were near 0 then, and add up to about -17,000 for
+                    random play now.
             Its row cannot be compared.""",
                     """Single episodes: searches play one, so that an early death costs all that would follow.""",
                     """Choices: the paper leaves much open ([paper-notes.md](paper-notes.md)).""",
@@ -243,8 +251,10 @@ class Document:
         if not rows:
             return
         self.add("## Agents that have changed since")
-        self.say("""These agents did not do what their authors' do when the plans were run ([paper-notes.md](paper-notes.md)). The
-            agents are mended; their figures in this document are still those of before. `racebeam experiment` makes new ones.""")
+        self.say("""These agents did not do what their authors' do when the plans were run
+            ([paper-notes.md](paper-notes.md)). The
+            agents are mended; their figures in this document are still those of before. `racebeam experiment` makes
+            new ones.""")
         self.add(rows_of(["plan", "agent", "what the agent did"], *rows))
 
     def baselines(self):
@@ -276,7 +286,8 @@ class Document:
             and game in self.paper
             and abs(random[game] - self.paper[game]["random"]) <= abs(self.paper[game]["random"]) / 5
         ]
-        self.say(f"""Means of {found["settings"]["random"]["evaluation_episodes"]} episodes. Const and Perturb are the best of 18 policies, with
+        self.say(f"""Means of {found["settings"]["random"]["evaluation_episodes"]} episodes. Const and Perturb are the
+            best of 18 policies, with
             its action. In {len(near)} of {len(random)} games, the score of Random is within a fifth of the paper's.""")
         self.add(
             rows_of(
@@ -304,8 +315,10 @@ class Document:
         agents = [agent for agent in scores if agent in LEARNERS]
         random, trial = scores["random"], found["settings"][agents[0]]
         self.say(f"""{trial["trials"]} trials of {trial["training_frames"] // trial["frame_skip"]:,} decisions and
-            {trial["evaluation_episodes"]} evaluation episodes each. All took {number(found["seconds"] / 7200, 2)} hours of processor time on
-            each of two cores (goal: 1, at most 1.5), the discovery of backgrounds and classes not included. In brackets: the paper's
+            {trial["evaluation_episodes"]} evaluation episodes each. All took {number(found["seconds"] / 7200, 2)}
+            hours of processor time on
+            each of two cores (goal: 1, at most 1.5), the discovery of backgrounds and classes not included. In
+            brackets: the paper's
             scores, after 5,000 episodes.""")
         self.add(
             rows_of(
@@ -321,7 +334,8 @@ class Document:
             )
         )
         self.say(
-            "Games in which each learner is better than Random (goal: at least three), and its speed, emulation included:"
+            "Games in which each learner is better than Random (goal: at least three), and its speed, emulation "
+            "included:"
         )
         speeds = found["speeds"]
         self.add(
@@ -423,7 +437,8 @@ class Document:
                 )
             )
         if seconds_of_uct:
-            self.say(f"""UCT takes {number(statistics.mean(seconds_of_uct), 2)} seconds a decision in the mean (goal: at most 1; the paper's
+            self.say(f"""UCT takes {number(statistics.mean(seconds_of_uct), 2)} seconds a decision in the mean (goal:
+            at most 1; the paper's
                 took 15).""")
 
     def simulations(self):
@@ -451,10 +466,12 @@ class Document:
 
     def verification(self):
         self.add("## Verification")
-        self.say("""`racebeam verify` plays each episode again from its log. It confirms score, frames, end and state hashes. That proves
+        self.say("""`racebeam verify` plays each episode again from its log. It confirms score, frames, end and state
+            hashes. That proves
             that these actions give this score, not which agent chose them ([episodes.md](episodes.md)).
             `scripts/check/verify-with-ale` plays the same logs in ALE. "Of the bench" is the speed beside that of
-            `racebeam bench --screen none` for the same games, frames and frame skip; the start of the process counts.""")
+            `racebeam bench --screen none` for the same games, frames and frame skip; the start of the process
+            counts.""")
         rows, none = [], {}
         for name, found in self.figures.items():
             none.setdefault(found["machine"].get("processor", "-"), {}).update(found["bench"]["none"])

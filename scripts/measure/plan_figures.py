@@ -9,7 +9,8 @@ FOLDER/PLAN is what `racebeam experiment PLAN --into FOLDER/PLAN` makes, and who
     PLAN.verify             what `racebeam verify FOLDER/PLAN` printed; then a line "processor seconds: N"
     PLAN.ale                what `scripts/check/verify-with-ale FOLDER/PLAN` printed
     bench/GAME-search.json  what `racebeam bench --rom GAME --frame-skip 5 --search --json` printed
-    bench/GAME-none-N.json  what `racebeam bench --rom GAME --frame-skip N --screen none --json` printed, N being 1 and 5
+    bench/GAME-none-N.json  what `racebeam bench --rom GAME --frame-skip N --screen none --json` printed, N being 1 and
+    5
 
 FILE is docs/results/figures/PLAN.json unless it is named.
 """
@@ -120,7 +121,8 @@ class Results:
         return {**dict(zip(names, map(int, counts))), "seconds": seconds, "bench_seconds": self.bench_seconds()}
 
     def bench_seconds(self):
-        """How long the bench would take for the same frames, with the same decisions; None if a game was not measured."""
+        """How long the bench would take for the same frames, with the same decisions; None if a game was not
+        measured."""
         frames = collections.Counter()
         for row in self.rows:
             frames[row["game"], self.settings(row["agent"])["frame_skip"]] += int(row["frames"])

@@ -97,7 +97,9 @@ class Reports(unittest.TestCase):
 
 class Actions(unittest.TestCase):
     def test_a_game_gets_the_same_actions_each_time_and_others_get_others(self):
-        draw = lambda game: bench_settings.draw_actions(game, range(18), 1000)
+        def draw(game):
+            return bench_settings.draw_actions(game, range(18), 1000)
+
         self.assertEqual(draw("pong"), draw("pong"))
         self.assertNotEqual(draw("pong"), draw("qbert"))
         self.assertEqual(set(draw("pong")), set(range(18)))

@@ -3,6 +3,7 @@
 import base64
 import codecs
 import fcntl
+import itertools
 import os
 import pty
 import re
@@ -19,8 +20,9 @@ SEQUENCE = re.compile(rb"\x1b\[([0-9:;<=>?]*)([ -/]*[@-~])|\x1b([_P\]])(.*?)\x1b
 
 
 class Terminal:
-    """`graphics`: of blocks, sixel and kitty. `answers`: whether it answers at all. `keyboard`: whether it has the keyboard
-    protocol of kitty. `confirms` may be set to False: it then keeps the questions whether a picture has arrived."""
+    """`graphics`: of blocks, sixel and kitty. `answers`: whether it answers at all. `keyboard`: whether it has the
+    keyboard protocol of kitty. `confirms` may be set to False: it then keeps the questions whether a picture has
+    arrived."""
 
     def __init__(
         self,
@@ -197,12 +199,12 @@ def sixel_picture(text):
         elif character in "$-":
             at, band = 0, band + 6 * (character == "-")
         else:
-            for _ in range(int(times or 1)):
-                for bit in range(6):
-                    if ord(character) - 63 >> bit & 1:
-                        assert (band + bit, at) not in pixels
-                        pixels[band + bit, at] = colours[colour]
-                at += 1
+            end = at + int(times or 1)
+            for column, bit in itertools.product(range(at, end), range(6)):
+                if ord(character) - 63 >> bit & 1:
+                    assert (band + bit, column) not in pixels
+                    pixels[band + bit, column] = colours[colour]
+            at = end
     scale = width // 320
     assert len(pixels) == width * height and width == 320 * scale
     return [pixels[row, column] for row in range(0, height, scale) for column in range(0, width, 2 * scale)]

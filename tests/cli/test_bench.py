@@ -90,7 +90,9 @@ class Bench(unittest.TestCase):
         self.assertEqual(commands("play " + actions, "play 0")[1]["ram"], checked[1]["ram"])
 
     def test_the_checksum_is_of_every_act(self):
-        digest = lambda actions, *words: commands("check " + actions, *words)[0]["digest"]
+        def digest(actions, *words):
+            return commands("check " + actions, *words)[0]["digest"]
+
         self.assertEqual(digest("1 3 3 4"), digest("1 3 3 4"))
         self.assertNotEqual(digest("1 3 3 4 0"), digest("1 3 3 4"))
         _, printed, _ = run("bench", "--rom", GAME, "--commands", "--screen", "none", data=b"check 1 3 3 4")

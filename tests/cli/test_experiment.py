@@ -240,7 +240,10 @@ class Experiment(unittest.TestCase):
         self.plan.write_text(plan)
         errors = set()
         for most in range(16, 80, 4):
-            limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (most << 20, most << 20))  # noqa: B023
+
+            def limit():
+                return resource.setrlimit(resource.RLIMIT_AS, (most << 20, most << 20))  # noqa: B023
+
             status, _, error = run("experiment", str(self.plan), "--dry-run", preexec_fn=limit)
             if status == 1:
                 errors.add(error)

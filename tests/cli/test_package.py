@@ -121,7 +121,8 @@ class Completion(unittest.TestCase):
         output(sys.executable, "-B", SOURCE / "packages/program_text.py", BINARY, cls.folder)
 
     def offered(self, *words):
-        script = """source "$1"; shift; COMP_WORDS=(racebeam "$@"); COMP_CWORD=$#; _racebeam; printf '%s\\n' "${COMPREPLY[@]}" """
+        script = 'source "$1"; shift; COMP_WORDS=(racebeam "$@"); COMP_CWORD=$#; _racebeam; '
+        script += 'printf "%s\\n" "${COMPREPLY[@]}"'
         environment = {**PLAIN, "PATH": f"{BUILD}:{PLAIN['PATH']}"}
         return output("bash", "-c", script, "bash", self.folder / "racebeam.bash", *words, env=environment).split()
 

@@ -1,5 +1,5 @@
-"""The packages that are not made here: Dockerfile, compose file, Homebrew's formula, Arch's PKGBUILD. Where a linter or a
-packager is installed, it accepts them."""
+"""The packages that are not made here: Dockerfile, compose file, Homebrew's formula, Arch's PKGBUILD. Where a linter or
+a packager is installed, it accepts them."""
 
 import os
 import pathlib

@@ -59,7 +59,10 @@ class Render(unittest.TestCase):
                     [
                         "python3",
                         "-c",
-                        "import sys, zlib; sys.stdout.buffer.write(zlib.decompress(open(sys.argv[1], 'rb').read()[24:]))",
+                        (
+                            "import sys, zlib; sys.stdout.buffer.write(zlib.decompress(open(sys.argv[1], "
+                            "'rb').read()[24:]))"
+                        ),
                         self.log,
                     ],
                     capture_output=True,

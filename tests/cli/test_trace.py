@@ -105,12 +105,17 @@ class Observations(unittest.TestCase):
         lines = played("--colors", "1", "--screen-of", "7")
         self.assertEqual([number for number, line in enumerate(lines) if line[0] == "S"], [8])
         _, number, screen, rgb = lines[8].split()
-        crc = lambda text: f"{zlib.crc32(bytes.fromhex(text)):08x}"
+
+        def crc(text):
+            return f"{zlib.crc32(bytes.fromhex(text)):08x}"
+
         self.assertEqual((number, len(screen), len(rgb)), ("7", 2 * 160 * 210, 6 * 160 * 210))
         self.assertEqual([crc(screen), crc(rgb)], [lines[7].split()[-3], lines[7].split()[-2]])
 
     def test_a_life_that_is_lost_ends_an_episode_if_asked_for(self):
-        lives = lambda line: int(line.split()[4])
+        def lives(line):
+            return int(line.split()[4])
+
         plain, truncated = (
             [line for line in played(*words, data=b"0 " * 6000) if line[0] == "A"]
             for words in ((), ("--truncate-on-life-loss",))

@@ -78,7 +78,10 @@ class With(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("bash"), "there is no bash")
     def test_a_client_without_Unix_sockets_gets_the_port_and_the_token(self):
-        script = f"source {SOURCE}/clients/shell/racebeam.bash; racebeam_connect && racebeam_ask load beamfall && racebeam_value game"
+        script = (
+            f"source {SOURCE}/clients/shell/racebeam.bash; racebeam_connect && racebeam_ask load beamfall "
+            f"&& racebeam_value game"
+        )
         self.assertEqual(self.run_with("--", "bash", "-c", script), (0, "beamfall\n", ""))
 
     def test_options_are_those_of_serve(self):

@@ -1,7 +1,7 @@
 """The page of a client: each program on it prints what the page says. The examples play. Usage: test_pages.py CLIENT.
 
-A program is a block fenced with the language's name. A block fenced as `text` after it is what it prints; `...` stands for any
-text within a line.
+A program is a block fenced with the language's name. A block fenced as `text` after it is what it prints; `...` stands
+for any text within a line.
 """
 
 import os

@@ -1,5 +1,5 @@
-"""An agent for the tests: plays a seeded episode, and prints its number and what it got. `--pause`: seconds in the middle,
-after a line in the file that is named; only in the first run of a job that is requeued."""
+"""An agent for the tests: plays a seeded episode, and prints its number and what it got. `--pause`: seconds in the
+middle, after a line in the file that is named; only in the first run of a job that is requeued."""
 
 import argparse
 import hashlib

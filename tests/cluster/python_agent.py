@@ -1,4 +1,5 @@
-"""An agent on servers of racebeam.cluster. It compares them with games in this process, and goes on when one is cancelled."""
+"""An agent on servers of racebeam.cluster. It compares them with games in this process, and goes on when one is
+cancelled."""
 
 import numpy as np
 from racebeam import AtariVectorEnv

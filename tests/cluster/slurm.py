@@ -1,4 +1,5 @@
-"""A Slurm cluster of several nodes on this machine: munged, slurmctld, and a slurmd for each node, in a folder of their own.
+"""A Slurm cluster of several nodes on this machine: munged, slurmctld, and a slurmd for each node, in a folder of their
+own.
 
 It needs root, and Debian's packages slurmctld, slurmd, slurm-client and munge.
 """
@@ -259,7 +260,8 @@ class Cluster:
         return int(self.field("Restarts", element))
 
     def hurry(self):
-        """Starts what Slurm would hold back: requeued jobs for two minutes, and those that a busy node did not launch."""
+        """Starts what Slurm would hold back: requeued jobs for two minutes, and those that a busy node did not
+        launch."""
         for line in self.run("squeue", "-h", "-t", "PENDING", "-o", "%i %r", check=False).splitlines():
             job, _, reason = line.partition(" ")
             if reason == "BeginTime":

@@ -1,5 +1,5 @@
-"""cluster/kubernetes: kustomize builds it, the schemas of Kubernetes accept it, and it fits the server and itself; Prometheus
-accepts the rules and scrapes a server. What is not installed is skipped."""
+"""cluster/kubernetes: kustomize builds it, the schemas of Kubernetes accept it, and it fits the server and itself;
+Prometheus accepts the rules and scrapes a server. What is not installed is skipped."""
 
 import copy
 import functools

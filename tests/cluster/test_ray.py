@@ -50,8 +50,8 @@ def patiently(start, tries=4):
 
 class Nodes(unittest.TestCase):
     def nodes(self, count):
-        """Starts a cluster. Its first node is this process's, and has no processor for actors and tasks. Returns the cluster and
-        its other nodes, which play."""
+        """Starts a cluster. Its first node is this process's, and has no processor for actors and tasks. Returns the
+        cluster and its other nodes, which play."""
         os.environ["PYTHONPATH"] = os.pathsep.join(
             [str(FOLDER), *filter(None, [os.environ.get("PYTHONPATH")])]
         )  # of the workers

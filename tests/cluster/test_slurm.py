@@ -241,7 +241,8 @@ class Whole(Slurm):
         self.nothing_is_left()
 
     def stop_elements(self, job, count):
-        """Stops running elements of an experiment, which cannot end until they are requeued. Returns their numbers and nodes."""
+        """Stops running elements of an experiment, which cannot end until they are requeued. Returns their numbers and
+        nodes."""
         stopped = {}
 
         def stop():

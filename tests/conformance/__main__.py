@@ -149,7 +149,10 @@ def compare_all(runs, options, kept):
         print(f"{len(runs) - len(todo)} runs are done already")
     progress = Progress(len(todo))
     forms = ours.FORMS if options.forms else ()
-    compare = lambda run: Comparison(run, options.out, extra, forms).result()
+
+    def compare(run):
+        return Comparison(run, options.out, extra, forms).result()
+
     for run, returned in pool_results(compare, todo, options.jobs, PATIENCE):
         result = result_of(run, returned)
         kept.add(result)

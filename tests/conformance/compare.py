@@ -35,7 +35,10 @@ def differing_bytes(theirs, mine):
 def differing_lists(game, reference):
     """(list, reference, racebeam) of the lists that the game offers."""
     listed = ours.catalogue().get(rule_of(game), {})
-    sort = lambda key, values: sorted(values) if key in ("modes", "difficulties") else values
+
+    def sort(key, values):
+        return sorted(values) if key in ("modes", "difficulties") else values
+
     return [
         (key, theirs, listed.get(key))
         for key, theirs in reference.lists().items()

@@ -72,7 +72,7 @@ class Printed:
     end: str  # why there are no more lines
 
 
-def play(run, image, steps, extra=(), variables={}):
+def play(run, image, steps, extra=(), variables=None):
     script = "\n".join(map(step_word, steps)) + "\n"
     done = subprocess.run(
         trace_command(run, image.path, "-", extra),
@@ -80,7 +80,7 @@ def play(run, image, steps, extra=(), variables={}):
         capture_output=True,
         text=True,
         timeout=PATIENCE,
-        env={**os.environ, **variables},
+        env={**os.environ, **(variables or {})},
     )
     complaints = done.stderr.splitlines()
     end = "" if done.returncode == 0 else f"status {done.returncode}: {complaints[-1] if complaints else ''}"

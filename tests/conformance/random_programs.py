@@ -28,7 +28,10 @@ def compare_programs(options, first_seed):
     extra, forms = shlex.split(options.racebeam_options), ours.FORMS if options.forms else ()
     begin = told = time.monotonic()
     done = different = frames = 0
-    compare = lambda run: Comparison(run, options.out, extra, forms).result()
+
+    def compare(run):
+        return Comparison(run, options.out, extra, forms).result()
+
     for run, returned in pool_results(
         compare, runs_until(begin + 60 * options.minutes, first_seed), options.jobs, PATIENCE
     ):

@@ -41,7 +41,10 @@ class Reference:
 
     def lists(self):
         """The lists of the game, as `racebeam games --json` prints them."""
-        names = lambda actions: [action.name for action in actions]
+
+        def names(actions):
+            return [action.name for action in actions]
+
         return {
             "modes": sorted(self.ale.getAvailableModes()),
             "difficulties": sorted(self.ale.getAvailableDifficulties()),

@@ -67,7 +67,10 @@ def row(game, results):
 
 def totals(results):
     runs = [Run.parse(result["run"]) for result in results]
-    count = lambda key: sum(bool(getattr(run, key)) for run in runs)
+
+    def count(key):
+        return sum(bool(getattr(run, key)) for run in runs)
+
     bad = [result for result in results if result["verdict"] != IDENTICAL]
     games = {run.game for run in runs}
     good_games = games - {Run.parse(result["run"]).game for result in bad}

@@ -47,9 +47,9 @@ def table_faults(text):
     """Tables in which a column has no heading."""
     lines = list(markdown.prose(text))
     for (number, line), (_, below) in zip(lines, lines[1:]):
-        if re.match(r"\s*\|[\s:|-]+\|$", below) and line.lstrip().startswith("|"):
-            if not all(cell.strip() for cell in line.strip().strip("|").split("|")):
-                yield number, "a column of the table has no heading"
+        is_heading = re.match(r"\s*\|[\s:|-]+\|$", below) and line.lstrip().startswith("|")
+        if is_heading and not all(cell.strip() for cell in line.strip().strip("|").split("|")):
+            yield number, "a column of the table has no heading"
 
 
 def faults(root=ROOT):

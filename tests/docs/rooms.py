@@ -21,8 +21,8 @@ def folders(root):
 
 
 def subjects(inside, files):
-    """The subjects of a folder. A header and its source are one; so is a folder. At the root, only folders count: readers and
-    tools look for its files there."""
+    """The subjects of a folder. A header and its source are one; so is a folder. At the root, only folders count:
+    readers and tools look for its files there."""
     return {pathlib.Path(name).stem for name in files} | set(inside)
 
 

@@ -69,7 +69,8 @@ class Paper(unittest.TestCase):
 
     def test_what_failures_cost_is_what_the_simulation_says(self):
         said = self.said(
-            r"With `--failures 365`, a failure of each node a day, (\d+) nodes take ([\d.]+) hours, and do (\d+) core-hours twice. "
+            r"With `--failures 365`, a failure of each node a day, (\d+) nodes take ([\d.]+) hours, and do (\d+) "
+            r"core-hours twice. "
             r"With a checkpoint an hour \(`--checkpoint 3600`\) these are ([\d.]+) hours and (\d+) core-hours"
         )
         for words, hours, lost in (((), said[2], said[3]), (("--checkpoint", "3600"), said[4], said[5])):

@@ -15,8 +15,8 @@ CURVES = "unit,game,agent,trial,episode,score,frames,decisions"
 def result(game, agent, trial, episode, score, end="over", md5=None):
     """A line of results.csv."""
     return (
-        f"{game}/{agent}/{trial},{game},{md5 or 'md5-of-' + game},{agent},{trial},{episode},1,2,{score},1000,200,{end},0,"
-        f"00ff,11ee,0.1.0"
+        f"{game}/{agent}/{trial},{game},{md5 or 'md5-of-' + game},{agent},{trial},{episode},"
+        f"1,2,{score},1000,200,{end},0,00ff,11ee,0.1.0"
     )
 
 
@@ -46,7 +46,8 @@ def write(folder, lines, curves=(), header=RESULTS):
 
 
 def evaluate(*arguments):
-    """Runs racebeam-evaluate, and returns its status, output and errors. Few repetitions of the bootstrap are enough here."""
+    """Runs racebeam-evaluate, and returns its status, output and errors. Few repetitions of the bootstrap are enough
+    here."""
     from racebeam_evaluation.main import main
 
     said, errors = io.StringIO(), io.StringIO()

@@ -1,4 +1,5 @@
-"""Runs a test where the package of evaluation/ is installed: by the Python that `scripts/evaluation` makes, or not at all."""
+"""Runs a test where the package of evaluation/ is installed: by the Python that `scripts/evaluation` makes, or not at
+all."""
 
 import importlib.util
 import os
@@ -12,7 +13,8 @@ VENV = pathlib.Path(os.environ.get("RACEBEAM_EVALUATION_VENV", SOURCE / "build/e
 
 
 def require(*modules):
-    """Returns if the package and the modules are there; else the program begins again where they are, or ends as skipped."""
+    """Returns if the package and the modules are there; else the program begins again where they are, or ends as
+    skipped."""
     missing = [name for name in ("racebeam_evaluation", *modules) if importlib.util.find_spec(name) is None]
     python = VENV / "bin/python"
     if missing and python.exists() and sys.executable != str(python):

@@ -1,11 +1,11 @@
-"""Calls everything that the package has with random arguments, on objects that are new, closed, in use by other threads, or on
-a server.
+"""Calls everything that the package has with random arguments, on objects that are new, closed, in use by other
+threads, or on a server.
 
     fuzz.py [--seconds N] [--seed N] [--calls N]
 
-Each round of calls is a process with a seed of its own. A crash, a report of a sanitizer, a round that takes longer than PATIENCE
-seconds, and an exception that is not documented are findings. Exit status: 1 if there are any. scripts/check/python-fuzz runs it
-under AddressSanitizer.
+Each round of calls is a process with a seed of its own. A crash, a report of a sanitizer, a round that takes longer
+than PATIENCE seconds, and an exception that is not documented are findings. Exit status: 1 if there are any.
+scripts/check/python-fuzz runs it under AddressSanitizer.
 """
 
 import argparse
@@ -36,8 +36,10 @@ PATIENCE = 120  # seconds
 LONGEST = 200  # frames of an act
 DOCUMENTED = (TypeError, IndexError, racebeam.InvalidInput, Error, ClosedEnvironmentError, *fuzz_servers.DOCUMENTED)
 DELIBERATE = re.compile(
-    "can't be provided for|each must be -1, 0 or 1|not reset yet|must reset every|seeds? (for|is)|seeds have the shape|must have shape|"
-    "duplicate env_id|needs batch_size|is given for one array|receive (it|them) first|send some first|must be a float32 array|"
+    "can't be provided for|each must be -1, 0 or 1|not reset yet|must reset every|seeds? (for|is)|seeds have the "
+    "shape|must have shape|"
+    "duplicate env_id|needs batch_size|is given for one array|receive (it|them) first|send some first|must be a "
+    "float32 array|"
     "must be an array of|actions have the shape|" + fuzz_servers.DELIBERATE  # of other types
 )
 KEYS = (

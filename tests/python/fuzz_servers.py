@@ -1,7 +1,7 @@
 """What fuzz.py calls on servers: sessions, environments, and what may happen to them: Ctrl-C, a fork, other threads.
 
-A server of its own serves a round. A reply that is given to another request, and a child process that is not refused, are an
-AssertionError.
+A server of its own serves a round. A reply that is given to another request, and a child process that is not refused,
+are an AssertionError.
 """
 
 import asyncio

@@ -20,8 +20,8 @@ def _is_there(module):
 
 
 def require(*modules):
-    """Returns if the package and the modules are all there, and new memory is zero, which the reference relies on; else the
-    program begins again so that they are, once, or ends as skipped."""
+    """Returns if the package and the modules are all there, and new memory is zero, which the reference relies on; else
+    the program begins again so that they are, once, or ends as skipped."""
     missing = [name for name in ("racebeam._core", *modules) if not _is_there(name)]
     python = VENV / "bin/python"
     wrong = missing or os.environ.get("MALLOC_PERTURB_") != ZEROS

@@ -177,7 +177,8 @@ class Names(unittest.TestCase):
 
     def test_the_ids_are_those_of_ale_py(self):
         tell = (
-            "import gymnasium as gym, {0}; print(sorted((i, sorted(s.kwargs.items(), key=str), s.max_episode_steps, s.nondeterministic)"
+            "import gymnasium as gym, {0}; print(sorted((i, sorted(s.kwargs.items(), key=str), "
+            "s.max_episode_steps, s.nondeterministic)"
             " for i, s in gym.registry.items() if '{1}' in str(s.entry_point) and not i.startswith('racebeam/')))"
         )
         ours, theirs = (
@@ -663,7 +664,7 @@ class Differences(unittest.TestCase):
         self.assertTrue(two[0] == two[1] and hash(two[0]) != hash(two[1]))
         self.assertFalse(ours.cloneState() == 3)
         with self.assertRaises(TypeError):
-            theirs.cloneState() == 3
+            theirs.cloneState() == 3  # noqa: B015
 
     def test_07_copies_have_the_game(self):
         frames = []
@@ -704,7 +705,7 @@ class Differences(unittest.TestCase):
     def test_12_a_closed_environment(self):
         env = drop_in.AtariEnv("pong")
         env.close()
-        self.assertRaises(Exception, env.reset)
+        self.assertRaises(Exception, env.reset)  # noqa: B017
         theirs = ale_py.AtariEnv("pong")
         theirs.close()
         theirs.reset()

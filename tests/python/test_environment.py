@@ -61,7 +61,8 @@ class Registration(unittest.TestCase):
         script = (
             "import gymnasium as gym, sys\n"
             "if __name__ == '__main__':\n"
-            "    envs = gym.make_vec('racebeam:racebeam/Beamfall-v5', 2, vectorization_mode='async', vector_kwargs={'context': 'spawn'})\n"
+            "    envs = gym.make_vec('racebeam:racebeam/Beamfall-v5', 2, vectorization_mode='async', "
+            "vector_kwargs={'context': 'spawn'})\n"
             "    print(envs.reset(seed=1)[0].shape); envs.close()\n"
         )
         with tempfile.TemporaryDirectory() as folder:
@@ -390,13 +391,17 @@ class BadInput(unittest.TestCase):
             "import racebeam\ntry: racebeam.AtariEnv('pong')\nexcept FileNotFoundError as e: print(type(e).__name__, e)"
         )
         with_path = dict(os.environ, RACEBEAM_ROMS="/nowhere", ALE_ROMS_DIR=str(HOMEBREW), PYTHONPATH="")
-        blind = "import importlib.machinery as m; m.PathFinder.find_spec = classmethod(lambda *a, _f=m.PathFinder.find_spec: "
+        blind = (
+            "import importlib.machinery as m; m.PathFinder.find_spec = classmethod(lambda *a, "
+            "_f=m.PathFinder.find_spec: "
+        )
         blind += "None if a[1:2] == ('ale_py',) else _f(*a[1:]));"
         done = subprocess.run(
             [sys.executable, "-c", blind + script], env=with_path, capture_output=True, text=True, check=True
         )
         self.assertIn(
-            "MissingImage no cartridge image of pong was found; racebeam searched RACEBEAM_ROMS, /nowhere (not a folder); "
+            "MissingImage no cartridge image of pong was found; racebeam searched RACEBEAM_ROMS, /nowhere (not a "
+            "folder); "
             f"ALE_ROMS_DIR, {HOMEBREW} (no file has an MD5 of the game); an installed ale_py",
             done.stdout,
         )

@@ -1,6 +1,8 @@
-"""Gymnasium's check_environments_match finds no difference between ALE/Pong-v5 and racebeam/Pong-v5, nor for any other game.
+"""Gymnasium's check_environments_match finds no difference between ALE/Pong-v5 and racebeam/Pong-v5, nor for any other
+game.
 
-All games, kinds of observation and seeds take long: the test takes some each day. scripts/check/python-exactness takes all.
+All games, kinds of observation and seeds take long: the test takes some each day. scripts/check/python-exactness takes
+all.
 """
 
 import argparse

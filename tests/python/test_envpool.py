@@ -1,4 +1,5 @@
-"""racebeam.envpool has EnvPool's arguments, results and infos. What EnvPool itself shows was measured (EnvPool 1.2.5)."""
+"""racebeam.envpool has EnvPool's arguments, results and infos. What EnvPool itself shows was measured (EnvPool
+1.2.5)."""
 
 import copy
 import pickle
@@ -195,7 +196,7 @@ class Gymnasium(unittest.TestCase):
 
     def test_a_step_of_some(self):
         envs, others = make(episodic_life=True, frame_skip=60), make(episodic_life=True, frame_skip=60)
-        for step in range(30):
+        for _step in range(30):
             seen, *whole, info = envs.step(np.array([1, 3, 4]))
             for ids in ([1], [2, 0]):
                 part, *rest, told = others.step(
@@ -245,7 +246,8 @@ class OldGymnasium(unittest.TestCase):
             "import gymnasium.vector as v; vars(v).pop('AutoresetMode', None)\n"
             "import racebeam, racebeam.envpool as envpool\n"
             "for kind in ('gymnasium', 'gym', 'dm'):\n"
-            "    envs = envpool.make('Beamfall-v5', env_type=kind, num_envs=2); envs.reset(); envs.step([0, 1]); envs.close(); envs.close()\n"
+            "    envs = envpool.make('Beamfall-v5', env_type=kind, num_envs=2); envs.reset(); envs.step([0, 1]); "
+            "envs.close(); envs.close()\n"
             "try: racebeam.AtariVectorEnv('beamfall', 2)\n"
             "except ImportError as error: print(error)"
         )

@@ -1,4 +1,5 @@
-"""The examples that learn run, at a small scale, and draw their curves. Each is skipped where what it needs is not installed."""
+"""The examples that learn run, at a small scale, and draw their curves. Each is skipped where what it needs is not
+installed."""
 
 import importlib.util
 import pathlib

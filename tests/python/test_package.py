@@ -37,7 +37,8 @@ class Import(unittest.TestCase):
             "hidden = ('gymnasium', 'pygame', 'ale_py', 'jax', 'torch', 'stable_baselines3', 'cv2')\n"
             "m.PathFinder.find_spec = classmethod(lambda c, name, *a: None if name in hidden else find(name, *a))\n"
             "import racebeam, racebeam.ale_py\n"
-            "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); ale.act(1); print(ale.getScreenRGB().shape)\n"
+            "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); ale.act(1); "
+            "print(ale.getScreenRGB().shape)\n"
             "for name in ('AtariEnv', 'AtariVectorEnv', 'register_ale_ids'):\n"
             "    try: getattr(racebeam, name)()\n"
             "    except ImportError as error: print(error)\n"
@@ -72,7 +73,7 @@ class Import(unittest.TestCase):
 
     def test_a_typo_is_an_AttributeError(self):
         with self.assertRaisesRegex(AttributeError, "has no attribute 'Atari'"):
-            racebeam.Atari
+            racebeam.Atari  # noqa: B018
 
 
 class Files(unittest.TestCase):

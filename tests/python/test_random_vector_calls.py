@@ -1,4 +1,5 @@
-"""AtariVectorEnv, made and called with random arguments, many of them senseless: each call returns or raises what is documented."""
+"""AtariVectorEnv, made and called with random arguments, many of them senseless: each call returns or raises what is
+documented."""
 
 import argparse
 import random

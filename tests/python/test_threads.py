@@ -105,20 +105,27 @@ class Threads(unittest.TestCase):
         head = "import racebeam, threading, time\n"
         makes = [
             "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); play = lambda: ale.act(1)",
-            "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); play = lambda: ale.step(1, 1.0, 10**9, racebeam._core.View.NONE)",
+            (
+                "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); play = lambda: ale.step(1, 1.0, "
+                "10**9, racebeam._core.View.NONE)"
+            ),
             "ale = racebeam.ALEInterface(); play = lambda: ale.loadROM('builtin:beamfall')",
             "play = lambda: racebeam.ALEInterface.isSupportedROM('builtin:beamfall')",
         ]
         if package._is_there("gymnasium"):
             makes += [
                 "envs = racebeam.AtariVectorEnv('beamfall', 8); play = lambda: envs.step([0] * 8)",
-                "envs = racebeam.AtariVectorEnv('beamfall', 8, frameskip=1000); play = lambda: (envs.send([0] * 8), envs.recv())",
+                (
+                    "envs = racebeam.AtariVectorEnv('beamfall', 8, frameskip=1000); play = lambda: (envs.send([0] * "
+                    "8), envs.recv())"
+                ),
                 "play = lambda: racebeam.AtariVectorEnv('beamfall', 3)",
             ]
         for make in makes:
             with self.subTest(make=make):
                 script = (
-                    f"{head}{make}\ndef forever():\n    while True:\n        try: play()\n        except Exception: pass\n"
+                    f"{head}{make}\ndef forever():\n    while True:\n        try: play()\n        except "
+                    f"Exception: pass\n"
                     "for _ in range(3): threading.Thread(target=forever, daemon=True).start()\ntime.sleep(0.3)"
                 )
                 done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=PATIENCE)

@@ -1,7 +1,7 @@
 """racebeam's AtariVectorEnv beside ale_py's, for all of its games: what is seen, won and told is equal, step by step.
 
-The settings take turns: the defaults, and those that change the most. The test plays a run of a quarter of the games, with
-others, and other settings and seeds, each day. scripts/check/python-exactness plays all.
+The settings take turns: the defaults, and those that change the most. The test plays a run of a quarter of the games,
+with others, and other settings and seeds, each day. scripts/check/python-exactness plays all.
 
 The reference's queue loses a machine now and then, and its recv() then waits for ever. Each run is therefore a process,
 which has --patience seconds.
@@ -41,8 +41,8 @@ options = parser.parse_args()
 
 ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
 WITHOUT_SCORE = ("combat", "joust", "maze_craze", "warlords")  # ale_py registers no id for them
-# Settings in which the reference never comes back: video_cube's reset (tests/conformance/not_comparable.py), and the first
-# step of lost_luggage with the seed that was tried (739943059).
+# Settings in which the reference never comes back: video_cube's reset (tests/conformance/not_comparable.py), and the
+# first step of lost_luggage with the seed that was tried (739943059).
 NEVER_BACK = {"video_cube": "max_num_frames_per_episode", "lost_luggage": "continuous"}
 SHORT = {"max_num_frames_per_episode": 90}
 SETTINGS = (
@@ -177,7 +177,10 @@ for number in played:
             print(f"{late} did not come back: {game}, seed {1000 * run + number}, {settings}", flush=True)
         runs += 1
 print(
-    f"{len(played)} of {len(games)} games, {runs} runs of {options.steps} steps, {ended} episodes that ended: {failures} differ"
+    (
+        f"{len(played)} of {len(games)} games, {runs} runs of {options.steps} steps, {ended} episodes that ended: "
+        f"{failures} differ"
+    )
     + (f"; in {never_back}, the reference did not come back" if never_back else "")
 )
 if never_back > max(1, runs // 100):

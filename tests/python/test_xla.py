@@ -230,7 +230,8 @@ class Refused(unittest.TestCase):
         self.assertEqual(done.stdout, 'xla() needs JAX; install it with: pip install "racebeam[jax]"\n', done.stderr)
 
 
-# Of each structure of core/xla_ffi.hpp: its name in JAX's header, and its members there, in the order of the members here.
+# Of each structure of core/xla_ffi.hpp: its name in JAX's header, and its members there, in the order of the members
+# here.
 STRUCTURES = {
     "Extension": ("XLA_FFI_Extension_Base", "struct_size type next"),
     "ApiVersion": ("XLA_FFI_Api_Version", "struct_size extension_start major_version minor_version"),
@@ -267,7 +268,10 @@ class Interface(unittest.TestCase):
             ours = re.findall(r"(\w+)(?:\)\(.*\))?;", body)
             self.assertEqual(len(ours), len(members), name)
             checks += [
-                f"offsetof(ours::{name}, {one}) == offsetof({theirs}, {other}) && sizeof(ours::{name}::{one}) == sizeof({theirs}::{other})"
+                (
+                    f"offsetof(ours::{name}, {one}) == offsetof({theirs}, {other}) && sizeof(ours::{name}::{one}) "
+                    f"== sizeof({theirs}::{other})"
+                )
                 for one, other in zip(ours, members)
             ]
         checks += [f"int(ours::{one}) == int(XLA_FFI_{other})" for one, other in CONSTANTS.items()]

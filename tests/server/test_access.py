@@ -374,11 +374,11 @@ class Tls(Folder):
                 self.key,
             ) as server,
             self.connect(server) as connection,
+            connection.makefile("rb") as reader,
         ):
-            with connection.makefile("rb") as reader:
-                self.assertEqual(reader.readline(), b"160-210\n")
-                connection.sendall(b"0,0,0,1\n3,18\n")
-                self.assertEqual(reader.readline(), b"0,0:\n")
+            self.assertEqual(reader.readline(), b"160-210\n")
+            connection.sendall(b"0,0,0,1\n3,18\n")
+            self.assertEqual(reader.readline(), b"0,0:\n")
 
     def test_a_certificate_and_a_key_are_needed(self):
         for options, status, hint in (
@@ -420,13 +420,12 @@ class Tls(Folder):
         self.assertIn("cannot use the key", errors[0])
 
     def test_one_too_many_is_turned_away_without_a_word(self):
-        with self.serve("--max-sessions", "1") as server:
-            with self.connect(server) as first:
-                first.sendall(b"hello\n")
-                first.recv(1)
-                plain = connect_tcp(self.port(server))
-                self.assertEqual(plain.rest(), b"")
-                plain.close()
+        with self.serve("--max-sessions", "1") as server, self.connect(server) as first:
+            first.sendall(b"hello\n")
+            first.recv(1)
+            plain = connect_tcp(self.port(server))
+            self.assertEqual(plain.rest(), b"")
+            plain.close()
 
     def test_the_end_of_a_session_is_told_over_TLS(self):
         for options, requests, last in ((["--idle", "1"], b"hello\n", b"error idle "), ([], b"quit\n", b"ok")):

@@ -219,8 +219,8 @@ class Log(unittest.TestCase):
         return text
 
     def check_order(self, lines, lost):
-        """The log has threads, memory, caches and two addresses, then clients that come and leave, in order. If lines are missing, it
-        says how many."""
+        """The log has threads, memory, caches and two addresses, then clients that come and leave, in order. If lines
+        are missing, it says how many."""
         notes = [match for match in (re.search(rb"(\d+) lines of the log are lost", line) for line in lines) if match]
         self.assertEqual(sum(int(note.group(1)) for note in notes), lost)
         self.assertEqual(len(lines) - len(notes), 5 + 2 * 700 - lost)

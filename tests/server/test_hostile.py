@@ -15,7 +15,10 @@ import urllib.request
 
 from harness import PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, open_pipes, serve
 
-ENDLESS = b"load beamfall as=tetris seed=1 system_seed=1 sticky=0 max_episode_frames=0"  # beamfall with rules that end no episode
+ENDLESS = (
+    b"load beamfall as=tetris seed=1 system_seed=1 sticky=0 "
+    b"max_episode_frames=0"
+)  # beamfall with rules that end no episode
 # which beamfall never reaches
 MODE = b"load beamfall as=adventure mode=1 frame_skip=1000 max_episode_frames=0"
 HOUR = b"act NOOP*900000000"

@@ -76,7 +76,8 @@ class Pieces(unittest.TestCase):
     """A client that writes a request in pieces, and lets its system delay the second until the first is
     acknowledged. By default, the server's system acknowledges after 40 ms."""
 
-    # Seconds: well below the 40 ms that each step would take. The median is that of most steps, though the machine is busy.
+    # Seconds: well below the 40 ms that each step would take. The median is that of most steps, though the machine is
+    # busy.
     MOST = 0.03
 
     def median_step(self, connection, reader, request, count=100):

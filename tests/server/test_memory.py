@@ -33,7 +33,8 @@ def ask_at_length(wire, line):
 
 
 def fill(wire, states=40):
-    """Machines and states, as many as the server admits. Returns whether it has refused something, or ended the session."""
+    """Machines and states, as many as the server admits. Returns whether it has refused something, or ended the
+    session."""
     lines = [
         LONG,
         b"observe grey84x4:hex",

@@ -487,7 +487,8 @@ class Allowance(unittest.TestCase):
         return done.stderr
 
     def group(self, controller, limits):
-        """A new control group with a limit, of the version that this machine has. limits: a file's name and text for either."""
+        """A new control group with a limit, of the version that this machine has. limits: a file's name and text for
+        either."""
         for folder, (name, text) in zip((f"/sys/fs/cgroup/{controller}", "/sys/fs/cgroup"), limits):
             group = os.path.join(folder, f"racebeam-test-{os.getpid()}")
             try:

@@ -75,7 +75,8 @@ def observation(structure):
 
 
 def lines_of_fifo(actions):
-    """What the text protocol answers to a reset and these actions: for each the RAM, the screen, the end, the reward."""
+    """What the text protocol answers to a reset and these actions: for each the RAM, the screen, the end, the
+    reward."""
     requests = b"1,1,0,1\n45,45\n" + b"".join(b"%d,18\n" % action for action in actions)
     words = ("-game_controller", "fifo", "-run_length_encoding", "false")
     status, output, errors = run("classic", *words, *SETTINGS, GAME, data=requests)

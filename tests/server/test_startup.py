@@ -211,7 +211,10 @@ class CommandLine(Refusals):
                 self.check(
                     ["serve", "--stdio", "--max-memory", size],
                     2,
-                    f"--max-memory: '{size}' is not a size; accepted are bytes, or 512M, 2G and the like, up to {1 << 60}",
+                    (
+                        f"--max-memory: '{size}' is not a size; accepted are bytes, or 512M, 2G and the like, up to "
+                        f"{1 << 60}"
+                    ),
                 )
 
     def test_an_image_has_to_be_named(self):

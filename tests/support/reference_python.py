@@ -25,11 +25,12 @@ def require(*modules):
 
 
 def zero_new_memory():
-    """Returns if the C library of this process fills new memory with zeros; else the program begins again so that it does.
+    """Returns if the C library of this process fills new memory with zeros; else the program begins again so that it
+    does.
 
-    The reference reads memory that it never set: averaging looks up an unset entry of its table wherever an index is odd,
-    as in PAL pictures that lost their colour (docs/spec/palette.md, "Colour averaging"). Fresh memory happens to be
-    zero, reused memory is not.
+    The reference reads memory that it never set: averaging looks up an unset entry of its table wherever an index is
+    odd, as in PAL pictures that lost their colour (docs/spec/palette.md, "Colour averaging"). Fresh memory happens to
+    be zero, reused memory is not.
     """
     if os.environ.get("MALLOC_PERTURB_") != ZEROS:
         os.environ["MALLOC_PERTURB_"] = ZEROS

@@ -3,8 +3,8 @@
     replay.py [GAME...]      all recordings if no game is named
 
 Needs cartridge images (RACEBEAM_ROMS, or ale-py in .venv) and the recordings themselves (RACEBEAM_SHARED, or the folder
-`shared` beside the checkout; the README in its folder `traces` has the format). Status 0: all named are reproduced; 1: one is not;
-77: nothing failed, but none could be replayed.
+`shared` beside the checkout; the README in its folder `traces` has the format). Status 0: all named are reproduced; 1:
+one is not; 77: nothing failed, but none could be replayed.
 """
 
 import gzip

@@ -45,7 +45,7 @@ class Reference:
         self.first = self.answer()
 
     def answer(self):
-        return self.ale.getRAM().tobytes().hex() + " %08x" % zlib.crc32(self.ale.getScreen().tobytes())
+        return self.ale.getRAM().tobytes().hex() + f" {zlib.crc32(self.ale.getScreen().tobytes()):08x}"
 
     def frame(self, pokes):
         for index, value in pokes:

@@ -1,4 +1,5 @@
-"""environment::Batch shows what ALE's vector environment shows: observations, rewards, ends, lives, counters, byte for byte."""
+"""environment::Batch shows what ALE's vector environment shows: observations, rewards, ends, lives, counters, byte for
+byte."""
 
 import os
 import subprocess

@@ -102,7 +102,10 @@ class SingleFile(unittest.TestCase):
         text = python_single_file.joined(
             {
                 "one": 'import re\n\nA = re.compile("a")\n',
-                "client": '"""What it is."""\n\nfrom typing import Any\n\nfrom .one import A\n\nB: Any = A\n\n__all__ = ["B"]\n',
+                "client": (
+                    '"""What it is."""\n\nfrom typing import Any\n\nfrom .one import A\n\nB: Any = A\n\n'
+                    '__all__ = ["B"]\n'
+                ),
             }
         )
         names = {}

@@ -26,7 +26,8 @@ WIRE = str(pathlib.Path(racebeam.__file__).parent / "wire")
 
 
 class Interrupt:
-    """Raises KeyboardInterrupt before the line of racebeam.wire that is the `after`-th to run, as Ctrl-C does anywhere."""
+    """Raises KeyboardInterrupt before the line of racebeam.wire that is the `after`-th to run, as Ctrl-C does
+    anywhere."""
 
     def __init__(self, after):
         self.left, self.is_raised = after, False
@@ -63,7 +64,8 @@ def shown(result):
 
 class Interrupted(unittest.TestCase):
     def check(self, make, act):
-        """At each line of a step in turn. Then the environment either ends with a sentence, or answers what was asked."""
+        """At each line of a step in turn. Then the environment either ends with a sentence, or answers what was
+        asked."""
         here = make(None)
         here.reset(seed=1)
         expected = shown(here.reset(seed=5))

@@ -265,8 +265,14 @@ class Lost(Servers):
         self.assertEqual(
             [str(each.message).replace(folder, "") for each in warned.warnings],
             [
-                "environments 2 to 3 begin on file:/late?wait=60: no server answers at tcp://127.0.0.1:1: Connection refused",
-                "environments 4 to 5 begin on file:/late?wait=60: no server answers at file:/never: No such file or directory",
+                (
+                    "environments 2 to 3 begin on file:/late?wait=60: no server answers at tcp://127.0.0.1:1: "
+                    "Connection refused"
+                ),
+                (
+                    "environments 4 to 5 begin on file:/late?wait=60: no server answers at file:/never: No such "
+                    "file or directory"
+                ),
             ],
         )
         self.assertEqual([each.filename for each in warned.warnings], [__file__] * 2)

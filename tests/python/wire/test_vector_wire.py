@@ -285,7 +285,7 @@ class Refused(unittest.TestCase):
 
     def test_what_a_server_does_not_do_is_said(self):
         with server("--max-machines", "4") as (address, _):
-            envs = AtariVectorEnv("beamfall", 2, server=address)
+            _held = AtariVectorEnv("beamfall", 2, server=address)
             for arguments in ({"batch_size": 1}, {"num_envs": 5}, {"start": "baselines", "use_fire_reset": False}):
                 with self.subTest(arguments=arguments), self.assertRaises(InvalidInput):
                     AtariVectorEnv("beamfall", **{"num_envs": 2, "server": address, **arguments})

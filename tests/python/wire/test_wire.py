@@ -257,9 +257,8 @@ class Sessions(unittest.TestCase):
             session.reconnect()
 
     def test_a_server_that_is_silent_is_a_TimeoutError(self):
-        with socket.create_server(("127.0.0.1", 0)) as silent:
-            with self.assertRaises(TimeoutError):
-                racebeam.connect(f"tcp://127.0.0.1:{silent.getsockname()[1]}", timeout=0.2)
+        with socket.create_server(("127.0.0.1", 0)) as silent, self.assertRaises(TimeoutError):
+            racebeam.connect(f"tcp://127.0.0.1:{silent.getsockname()[1]}", timeout=0.2)
 
     @contextlib.contextmanager
     def server_of(self, *replies):

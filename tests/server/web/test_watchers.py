@@ -1,7 +1,7 @@
 """Watchers that behave badly, or that are many: neither the session that they watch nor the others notice.
 
-On a busy machine some acts take long, whoever watches. An act that waits for watchers would take long each time: the tests
-compare the fastest tenth.
+On a busy machine some acts take long, whoever watches. An act that waits for watchers would take long each time: the
+tests compare the fastest tenth.
 """
 
 import contextlib
@@ -66,7 +66,8 @@ class Agent:
 
 
 def ask_ahead(port, count, ahead, seconds, begun, seen):
-    """Watchers that each have about so many requests in flight. `begun`: an event; `seen`: receives the sum of pictures."""
+    """Watchers that each have about so many requests in flight. `begun`: an event; `seen`: receives the sum of
+    pictures."""
     watchers = [WebSocket(port) for _ in range(count)]
     received = dict.fromkeys((watcher.connection for watcher in watchers), 0)
     with selectors.DefaultSelector() as selector, contextlib.ExitStack() as closed:
