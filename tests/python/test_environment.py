@@ -545,6 +545,56 @@ class Window(unittest.TestCase):
             *("Beamfall", "Updraft", "Beamfall") * 2,
         )
 
+    def test_the_close_button_closes_the_window_and_the_games_go_on(self):
+        self.check(
+            "import pygame, racebeam, time\n"
+            "games = [racebeam.AtariEnv('beamfall', render_mode='human', sound=True) for _ in range(2)]\n"
+            "for game in games: game.reset(seed=1)\n"
+            "pygame.event.post(pygame.event.Event(pygame.QUIT))\n"
+            "games[0].step(1)\n"
+            "assert not pygame.display.get_init() and not pygame.mixer.get_init()\n"
+            "begin = time.monotonic()\n"
+            "for _ in range(300): games[0].step(1), games[1].step(1)\n"
+            "print(time.monotonic() - begin < 5, pygame.display.get_init())\n"
+            "later = racebeam.AtariEnv('beamfall', render_mode='human')\n"
+            "later.reset(), games[0].close(), later.step(0)\n"
+            "print(pygame.display.get_init())\n"
+            "later.close()\n"
+            "print(pygame.display.get_init())\n",
+            *("True", "False", "True", "False"),
+        )
+
+    def test_a_person_sees_the_environments_of_a_vector(self):
+        self.check(
+            "import numpy as np, pygame, racebeam, time\n"
+            "def shown(): return pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
+            "envs = racebeam.AtariVectorEnv('beamfall', 3, seed=1, obs_type='rgb', stack_num=1, maxpool=False,\n"
+            "    render_mode='human')\n"
+            "envs.reset()\n"
+            "begin = time.monotonic()\n"
+            "for step in range(6):\n"
+            "    screens = envs.step([step, 1, 0])[0][:, 0]\n"
+            "took = time.monotonic() - begin\n"
+            "empty = np.zeros_like(screens[0])\n"
+            "assert (shown() == np.block([[[screens[0]], [screens[1]]], [[screens[2]], [empty]]])).all()\n"
+            "print(pygame.display.get_caption()[0], 0.25 < took, envs.render())\n"
+            "envs.close()\n"
+            "print(pygame.display.get_init())\n",
+            *("Beamfall", "True", "None", "False"),
+        )
+
+    def test_the_first_sixteen_of_many_environments_are_shown(self):
+        self.check(
+            "import pygame, racebeam\n"
+            "envs = racebeam.AtariVectorEnv('beamfall', 20, batch_size=5, render_mode='human', frameskip=60)\n"
+            "envs.reset()\n"
+            "pygame.event.post(pygame.event.Event(pygame.QUIT))\n"
+            "print(pygame.display.get_surface().get_size())\n"
+            "for _ in range(10): envs.step([0] * 5)\n"
+            "print(pygame.display.get_init())\n",
+            *("(1280,", "840)", "False"),
+        )
+
     def test_without_a_display_a_sentence_says_so(self):
         self.check(
             "import racebeam\n"

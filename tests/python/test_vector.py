@@ -595,7 +595,7 @@ class BadInput(unittest.TestCase):
             "stack_start": ("x",),
             "obs_type": ("sound",),
             "rules": ("x",),
-            "render_mode": ("human",),
+            "render_mode": ("ansi",),
             "seed": (-1, 2**32, "x"),
             "mode": (-1, "x"),
             "thread_affinity_offset": (-2,),

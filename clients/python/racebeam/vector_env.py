@@ -23,6 +23,7 @@ from .presets import vector_preset
 from .vector_inputs import indices_of, joysticks_of, mask_of, seeds_of
 from .vector_options import MOST_ENVS, VectorOptions, autoreset_of, merge_life_flags
 from .vector_results import Bools, Numbers, Pixels, Results
+from .window import Grid
 from .wire.remote_machines import Halves, RemoteMachines
 from .wire.spread_machines import SpreadMachines
 
@@ -94,7 +95,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         rules: "ale-0.12" for the rewards and ends of ALE 0.12, or "fixed" for corrected ones.
         rom: Path or bytes of the cartridge image. Default: the image that `racebeam.find_image` finds.
         seed: Seed of the first environment, from which seeds count up. The first `reset` uses it. Default: random.
-        render_mode: "rgb_array" if `render` is called.
+        render_mode: "rgb_array" makes `render` return the screens. "human" opens a window, which shows the first 16
+            environments at 60 frames per second.
         server: Address of the server that runs the environments, or a list of addresses to spread them over. Needs one
             game, and `batch_size` equal to `num_envs`.
         token: Token that the server asks for.
@@ -131,7 +133,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         "raw_reward",
         "game_over",
     )
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 15}
+    metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array"], "render_fps": 15}
     _check_game = staticmethod(images.check_name)
 
     def __init__(
@@ -169,7 +171,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         rules: str = "ale-0.12",
         rom: Rom | None = None,
         seed: SupportsIndex | None = None,
-        render_mode: Literal["rgb_array"] | None = None,
+        render_mode: Literal["human", "rgb_array"] | None = None,
         server: str | Sequence[str] | None = None,
         token: str | None = None,
         timeout: float | None = None,
@@ -246,6 +248,10 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
         self._received = np.arange(self.num_envs, dtype=np.int32)
         self._make_spaces()
+        self._window: Grid | None = None
+        if self.render_mode == "human":
+            title = images.titles()[names[0]] if len(names) == 1 else "racebeam"
+            self._window = Grid(title, self.num_envs, SCREEN_WIDTH, self._machines.height())
 
     def _parse_games(self, game: str | Sequence[str], num_envs: int | None) -> tuple[list[str], Numbers]:
         """Returns the names of the games, and for each environment the index of its game."""
@@ -469,6 +475,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _format_step(self, results: Results) -> Step:
         self._received = results.env_id.copy()
+        self._show_window()
         observations, info = self._observations(results), self._make_info(results)
         if self._has_finals and results.finished.any():
             self._add_finals(info, observations, results)
@@ -498,11 +505,18 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         info["final_obs"], info["_final_obs"] = objects, finished
         info["final_info"], info["_final_info"] = {**named, **{f"_{key}": finished for key in named}}, finished
 
+    def _show_window(self) -> None:
+        """Shows the environments that the last call returned."""
+        if self._window is not None:
+            shown = (int(env) for env in self._received if self._window.shows(int(env)))
+            self._window.show(((env, self._machines.screen(env)) for env in shown), self._options.frameskip)
+
     def render(self) -> tuple[Pixels, ...] | None:
         """Returns the screen of each environment.
 
         Returns:
-            uint8 arrays of shape (height, 160, 3).
+            uint8 arrays of shape (height, 160, 3) if `render_mode` is "rgb_array"; None if it is "human", since the
+            window shows the screens already.
 
         Raises:
             gymnasium.error.Error: If `render_mode` is None.
@@ -512,6 +526,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             raise error.Error(
                 "render_mode is None, so render() shows nothing; make the environments with render_mode='rgb_array'"
             )
+        if self.render_mode == "human":
+            return None
         return tuple(self._machines.screen(env) for env in range(self.num_envs))
 
     # Attributes of the environments
@@ -648,7 +664,10 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             **kwargs: Ignored.
         """
         machines = self.__dict__.get("_machines")  # missing if the constructor failed
-        self._machines = _Closed()
+        window = self.__dict__.get("_window")
+        self._machines, self._window = _Closed(), None
+        if window is not None:
+            window.close()
         if isinstance(machines, (RemoteMachines, SpreadMachines)):
             machines.close()
 

@@ -12,7 +12,7 @@ from .autoreset import AutoresetMode
 __all__ = ["SEEDS", "VectorOptions", "autoreset_of", "merge_life_flags"]
 
 OBS_TYPES = (None, "rgb", "grayscale", "ram")
-RENDER_MODES = (None, "rgb_array")
+RENDER_MODES = (None, "human", "rgb_array")
 RULES = {"ale-0.12": _core.Rules.ALE_0_12, "fixed": _core.Rules.FIXED}
 SEEDS = (0, 2**32 - 1)
 MOST_ENVS = 10**7  # the memory sets a lower limit

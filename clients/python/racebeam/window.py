@@ -1,8 +1,10 @@
-"""A window that shows a game and plays its sound, made with pygame."""
+"""A window that shows games and plays their sound, made with pygame."""
 
 from __future__ import annotations
 
+import math
 import weakref
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -13,18 +15,19 @@ from .errors import InvalidInput
 FRAMES_PER_SECOND = 60
 SAMPLES_PER_FRAME = 512
 SCALE = 2  # of a pixel, which is twice as wide as it is high
+MOST_SHOWN = 16  # environments in one window
 
 
 class Window:
     """The window of one game.
 
     pygame has one window per process. All games share it: it shows the game that was stepped last, and closes with the
-    last game that is closed.
+    last game that is closed. The close button also closes it. The games that were open then go on without a window.
     """
 
     _open: weakref.WeakSet[Window] = weakref.WeakSet()
 
-    def __init__(self, title: str, width: int, height: int, sound: bool) -> None:
+    def __init__(self, title: str, width: int, height: int, sound: bool, scale: int = SCALE) -> None:
         """Opens the window, or joins the open one.
 
         Args:
@@ -32,6 +35,7 @@ class Window:
             width: Width of a screen in pixels of the Atari 2600.
             height: Height of a screen in rows.
             sound: Whether sound is played.
+            scale: Height of a shown pixel; its width is twice as large.
 
         Raises:
             ImportError: If pygame is not installed.
@@ -44,7 +48,8 @@ class Window:
                 'render_mode "human" needs pygame; install it with: pip install "racebeam[human]"'
             ) from missing
         self._pygame: Any = pygame
-        self._title, self._size = title, (2 * SCALE * width, SCALE * height)
+        self._title, self._size = title, (2 * scale * width, scale * height)
+        self._is_dismissed = False  # by the close button
         self._surface()
         self._clock = pygame.time.Clock()
         self._channel = self._open_sound() if sound else None
@@ -82,10 +87,20 @@ class Window:
         Args:
             rgb: uint8 array of shape (height, width, 3).
         """
+        if self._is_dismissed:
+            return
         picture = self._pygame.surfarray.make_surface(rgb.swapaxes(0, 1))
         self._pygame.transform.scale(picture, self._size, self._surface())
-        self._pygame.event.pump()
         self._pygame.display.flip()
+        if self._pygame.event.get(self._pygame.QUIT):
+            self._dismiss()
+
+    def _dismiss(self) -> None:
+        """Closes the window for all games that are open."""
+        for window in self._open:
+            window._is_dismissed = True
+        self._pygame.mixer.quit()
+        self._pygame.display.quit()
 
     def play(self, samples: npt.NDArray[np.uint8]) -> None:
         """Queues the sound of one frame.
@@ -93,17 +108,75 @@ class Window:
         Args:
             samples: uint8 array of shape (512,), at 30,720 samples per second.
         """
-        if self._channel is not None:
+        if self._channel is not None and not self._is_dismissed:
             self._channel.queue(self._pygame.mixer.Sound(buffer=samples.tobytes()))
 
-    def wait(self) -> None:
-        """Waits until the next frame is due."""
-        self._clock.tick(FRAMES_PER_SECOND)
+    def wait(self, frames: int = 1) -> None:
+        """Waits until the next screen is due.
+
+        Args:
+            frames: Frames from one screen to the next.
+        """
+        if not self._is_dismissed:
+            self._clock.tick(FRAMES_PER_SECOND / frames)
 
     def close(self) -> None:
         """Leaves the window, and closes it if no other game uses it. Must be called once."""
         self._open.discard(self)
-        if self._channel is not None and all(other._channel is None for other in self._open):
+        if self._is_dismissed:
+            return
+        others = [window for window in self._open if not window._is_dismissed]
+        if self._channel is not None and all(other._channel is None for other in others):
             self._pygame.mixer.quit()
-        if not self._open:
+        if not others:
             self._pygame.display.quit()
+
+
+class Grid:
+    """The window of several games, which stand in rows and columns. It shows the first 16 of them.
+
+    Args:
+        title: Title of the window.
+        count: Number of games.
+        width: Width of a screen in pixels of the Atari 2600.
+        height: Height of the tallest screen in rows.
+
+    Raises:
+        ImportError: If pygame is not installed.
+        InvalidInput: If there is no display.
+    """
+
+    def __init__(self, title: str, count: int, width: int, height: int) -> None:
+        self._count = min(count, MOST_SHOWN)
+        self._columns = math.ceil(math.sqrt(self._count))
+        rows = math.ceil(self._count / self._columns)
+        self._width, self._height = width, height
+        self._picture = np.zeros((rows * height, self._columns * width, 3), np.uint8)
+        scale = SCALE if self._columns <= 2 else 1
+        self._window = Window(title, self._columns * width, rows * height, False, scale)
+
+    def show(self, screens: Iterable[tuple[int, npt.NDArray[np.uint8]]], frames: int) -> None:
+        """Shows the screens of some games, and waits until the next ones are due.
+
+        Args:
+            screens: The index of each game, and its screen as a uint8 array of shape (height, width, 3).
+            frames: Frames from one screen to the next.
+        """
+        for index, screen in screens:
+            row, column = divmod(index, self._columns)
+            top, left = row * self._height, column * self._width
+            self._picture[top : top + screen.shape[0], left : left + self._width] = screen
+        self._window.show(self._picture)
+        self._window.wait(frames)
+
+    def shows(self, index: int) -> bool:
+        """Returns whether the window has a place for a game.
+
+        Args:
+            index: Index of the game.
+        """
+        return index < self._count
+
+    def close(self) -> None:
+        """Leaves the window, and closes it if no other game uses it. Must be called once."""
+        self._window.close()
