@@ -54,13 +54,29 @@ class Examples(unittest.TestCase):
 
     @needs("jax", "optax", "matplotlib")
     def test_ppo_on_ram(self):
-        said = self.run_example("examples/ppo.py", "updraft", "--updates", 2, "--curve", "CURVE")
-        self.assertRegex(said, r"update 2: [1-9]\d* games")
+        said = self.run_example("examples/ppo.py", "updraft", "--steps", 8192, "--curve", "CURVE")
+        self.assertRegex(said, r"^plan: 2 updates of 32 x 128 steps, 8,192 steps\n(.*\n)*update 2: [1-9]\d* games")
+
+    @needs("jax", "optax", "PIL")
+    def test_a_policy_is_kept_and_played_and_filmed(self):
+        from PIL import Image
+
+        with tempfile.TemporaryDirectory() as folder:
+            policy, film = pathlib.Path(folder, "policy"), pathlib.Path(folder, "film.gif")
+            one = ("updraft", "--envs", 2, "--horizon", 8, "--steps", 16, "--games", 3)
+            self.run_example("examples/ppo.py", *one, "--keep", policy)
+            said = [self.run_example("examples/ppo.py", *one, "--play", policy, "--film", film) for _ in range(2)]
+            self.assertRegex(said[0], r"^3 games: mean score \d+\.\d, from \d+ to \d+\n$")
+            self.assertEqual(*said)
+            with Image.open(film) as frames:
+                self.assertEqual(frames.size, (320, 210))
+                self.assertGreater(frames.n_frames, 10)
+            self.refuse("ppo.py", "--play", policy)
 
     @needs("jax", "optax")
     def test_ppo_on_pixels(self):
         said = self.run_example(
-            "examples/ppo.py", "--observe", "pixels", "--updates", 1, "--steps", 8, "--envs", 4, "--epochs", 1
+            "examples/ppo.py", "--observe", "pixels", "--steps", 32, "--horizon", 8, "--envs", 4, "--epochs", 1
         )
         self.assertRegex(said, r"\d+ steps a second")
         self.refuse("ppo.py")

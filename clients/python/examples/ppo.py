@@ -2,7 +2,8 @@
 """PPO (Schulman et al. 2017) in JAX, on RAM or on pixels, over racebeam's vector environment.
 
     pip install "racebeam[gymnasium]" jax optax matplotlib
-    python ppo.py updraft --observe ram --curve ppo.png
+    python ppo.py updraft --curve ppo.png --keep updraft.npz
+    python ppo.py updraft --play updraft.npz --film updraft.gif
 
 A lost life ends an episode for the agent, and the game goes on. Rewards are clipped to -1..1, and scores are those of
 the game. With the same seed and processor, it learns the same.
@@ -23,6 +24,7 @@ import racebeam
 DISCOUNT, GAE_DECAY = 0.99, 0.95  # gamma, lambda
 CLIP, ENTROPY, VALUE = 0.1, 0.01, 0.5
 LONGEST_GRADIENT = 0.5
+FRAME_SKIP = 4  # frames of a step
 CONVOLUTIONS = ((32, 8, 4), (64, 4, 2), (64, 3, 1))  # channels, size and stride, as in DQN
 
 
@@ -132,7 +134,7 @@ def advantages_of(rewards, values, ends, last_values):
 class Player:
     """Plays the environments, and keeps the scores of whole games."""
 
-    def __init__(self, options):
+    def __init__(self, options, **arguments):
         shown = {"obs_type": "ram"} if options.observe == "ram" else {}
         self.envs = racebeam.AtariVectorEnv(
             options.game,
@@ -142,9 +144,13 @@ class Player:
             autoreset_mode="SameStep",
             server=options.server,
             **shown,
+            **arguments,
         )
         self.observations, _ = self.envs.reset()
         self.sums, self.scores, self.seconds = np.zeros(options.envs, np.int64), [], 0.0
+
+    def network(self, key):
+        return network(key, self.envs.single_observation_space.shape, int(self.envs.single_action_space.n))
 
     def play(self, parameters, key, steps):
         """A batch of so many steps of each environment."""
@@ -164,10 +170,59 @@ class Player:
         self.observations, rewards, terminated, truncated, info = self.envs.step(actions)
         self.seconds += time.perf_counter() - began
         self.sums += info["raw_reward"]
-        over = info["game_over"] | truncated
-        self.scores += self.sums[over].tolist()
-        self.sums[over] = 0
+        self.over = info["game_over"] | truncated
+        self.scores += self.sums[self.over].tolist()
+        self.sums[self.over] = 0
         return rewards.astype(np.float32), (terminated | truncated).astype(np.float32)
+
+
+def keep(path, parameters):
+    """Writes the parameters of a policy into a file."""
+    with open(path, "wb") as file:
+        np.savez(file, *jax.tree.leaves(parameters))
+
+
+def restore(path, parameters):
+    """Reads parameters of the same shapes from a file of keep()."""
+    leaves, tree = jax.tree.flatten(parameters)
+    with np.load(path) as file:
+        kept = [file[f"arr_{index}"] for index in range(len(file.files))]
+    if [one.shape for one in kept] != [one.shape for one in leaves]:
+        raise ValueError(f"{path} has a policy for another game, or for another --observe")
+    return jax.tree.unflatten(tree, kept)
+
+
+def play_games(options, parameters):
+    """Plays with a policy that no longer learns. The film has the first game of the first environment."""
+    player = Player(options, render_mode="rgb_array" if options.film else None)
+    key, frames, filming = jax.random.key(options.seed), [], bool(options.film)
+    while len(player.scores) < options.games or filming:
+        key, one = jax.random.split(key)
+        frames += player.envs.render()[:1] if filming else ()
+        player.step(np.asarray(choose(parameters, player.observations, one)[0]))
+        filming = filming and not player.over[0]
+    scores = player.scores[: options.games]
+    print(f"{len(scores)} games: mean score {np.mean(scores):.1f}, from {min(scores)} to {max(scores)}")
+    if frames:
+        film(options.film, frames)
+
+
+def film(path, frames):
+    """Writes screens as an animated GIF, in the width that they had on a television."""
+    from PIL import Image
+
+    height, width, _ = frames[0].shape
+    images = [Image.fromarray(frame).resize((2 * width, height)) for frame in frames]
+    images[0].save(path, save_all=True, append_images=images[1:], duration=1000 * FRAME_SKIP // 60, loop=0)
+
+
+def show_progress(done, total, began):
+    """Shows how far the program is, and how long it still takes, if a person looks on."""
+    if sys.stderr.isatty():
+        left = (time.perf_counter() - began) * (total - done) / done
+        bar = "#" * (30 * done // total)
+        print(f"\r[{bar:30}] {done:,} of {total:,} steps, {left:.0f} s left ", end="", file=sys.stderr, flush=True)
+        print(end="\n" if done == total else "", file=sys.stderr)
 
 
 def draw(path, points, title):
@@ -185,15 +240,45 @@ def draw(path, points, title):
     pyplot.savefig(path, dpi=120)
 
 
+def learn(options, player, parameters, key):
+    """Learns for as many steps as the options say. Returns the parameters."""
+    steps = options.envs * options.horizon
+    updates = options.steps // steps
+    print(f"plan: {updates} updates of {options.envs} x {options.horizon} steps, {updates * steps:,} steps", flush=True)
+    rate = optax.linear_schedule(options.rate, 0, updates * options.epochs * options.parts)
+    optimizer = optax.chain(optax.clip_by_global_norm(LONGEST_GRADIENT), optax.adam(rate, eps=1e-5))
+    state, points, began = optimizer.init(parameters), [], time.perf_counter()
+    for number in range(1, updates + 1):
+        key, to_play, to_learn = jax.random.split(key, 3)
+        batch = player.play(parameters, to_play, options.horizon)
+        parameters, state = update(parameters, state, batch, to_learn, optimizer, options.epochs, options.parts)
+        show_progress(number * steps, updates * steps, began)
+        if player.scores:
+            points.append((number * steps, float(np.mean(player.scores[-20:]))))
+        if points and (number % 10 == 0 or number == updates):
+            print(
+                f"update {number}: {len(player.scores)} games, mean score of the last 20: {points[-1][1]:.1f}",
+                flush=True,
+            )
+    seconds = time.perf_counter() - began
+    print(
+        f"{updates * steps / seconds:.0f} steps a second; the environments took "
+        f"{100 * player.seconds / seconds:.0f} % of the time"
+    )
+    if options.curve and points:
+        draw(options.curve, points, f"PPO on {options.observe} of {options.game}")
+    return parameters
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("game", nargs="?", default="updraft", help="(default: %(default)s)")
     parser.add_argument("--observe", choices=("ram", "pixels"), default="ram", help="(default: %(default)s)")
     parser.add_argument("--envs", type=int, default=32, help="(default: %(default)s)")
+    parser.add_argument("--steps", type=int, default=409600, help="of all environments (default: %(default)s)")
     parser.add_argument(
-        "--steps", type=int, default=128, help="of each environment before each update (default: %(default)s)"
+        "--horizon", type=int, default=128, help="steps of each environment before an update (default: %(default)s)"
     )
-    parser.add_argument("--updates", type=int, default=100, help="(default: %(default)s)")
     parser.add_argument("--epochs", type=int, default=4, help="of an update (default: %(default)s)")
     parser.add_argument("--parts", type=int, default=4, help="of an epoch (default: %(default)s)")
     parser.add_argument(
@@ -202,39 +287,29 @@ def main():
     parser.add_argument("--seed", type=int, default=1, help="(default: %(default)s)")
     parser.add_argument("--server", help="the environments run there, such as unix:PATH")
     parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores")
+    parser.add_argument("--keep", metavar="FILE", help="the file for the policy, at the end")
+    parser.add_argument("--play", metavar="FILE", help="play with the policy of this file, and do not learn")
+    parser.add_argument("--games", type=int, default=10, help="of --play and --film (default: %(default)s)")
+    parser.add_argument("--film", metavar="FILE", help="a GIF of a game with the policy; it needs Pillow")
     options = parser.parse_args()
-    if options.envs * options.steps % options.parts:
+    if options.envs * options.horizon % options.parts:
         parser.error(
-            f"--parts is {options.parts}, which does not divide the {options.envs * options.steps} steps of an update"
+            f"--parts is {options.parts}, which does not divide the {options.envs * options.horizon} steps of an update"
         )
+    if options.steps < options.envs * options.horizon:
+        parser.error(f"--steps is {options.steps}; an update takes {options.envs * options.horizon}")
 
     try:
         player = Player(options)
-    except (racebeam.InvalidInput, racebeam.Refused, OSError) as error:
+        key, first = jax.random.split(jax.random.key(options.seed))
+        parameters = player.network(first)
+        parameters = restore(options.play, parameters) if options.play else learn(options, player, parameters, key)
+        if options.keep:
+            keep(options.keep, parameters)
+        if options.play or options.film:
+            play_games(options, parameters)
+    except (racebeam.InvalidInput, racebeam.Refused, OSError, ValueError) as error:
         sys.exit(f"ppo.py: {error}")
-    key, first = jax.random.split(jax.random.key(options.seed))
-    parameters = network(first, player.envs.single_observation_space.shape, int(player.envs.single_action_space.n))
-    rate = optax.linear_schedule(options.rate, 0, options.updates * options.epochs * options.parts)
-    optimizer = optax.chain(optax.clip_by_global_norm(LONGEST_GRADIENT), optax.adam(rate, eps=1e-5))
-    state, points, began = optimizer.init(parameters), [], time.perf_counter()
-    for number in range(1, options.updates + 1):
-        key, to_play, to_learn = jax.random.split(key, 3)
-        batch = player.play(parameters, to_play, options.steps)
-        parameters, state = update(parameters, state, batch, to_learn, optimizer, options.epochs, options.parts)
-        if player.scores:
-            points.append((number * options.envs * options.steps, float(np.mean(player.scores[-20:]))))
-        if points and (number % 10 == 0 or number == options.updates):
-            print(
-                f"update {number}: {len(player.scores)} games, mean score of the last 20: {points[-1][1]:.1f}",
-                flush=True,
-            )
-    seconds = time.perf_counter() - began
-    print(
-        f"{options.updates * options.envs * options.steps / seconds:.0f} steps a second; the environments took "
-        f"{100 * player.seconds / seconds:.0f} % of the time"
-    )
-    if options.curve and points:
-        draw(options.curve, points, f"PPO on {options.observe} of {options.game}")
 
 
 if __name__ == "__main__":
