@@ -17,7 +17,7 @@ PATIENCE = 30  # seconds until a server that is not ready counts as broken
 
 
 def certificate(folder):
-    """A certificate for 127.0.0.1 alone, and its key."""
+    """A certificate for only 127.0.0.1, and its key."""
     paths = folder / "certificate.pem", folder / "key.pem"
     subprocess.run(
         [
@@ -47,7 +47,7 @@ def certificate(folder):
 
 
 def damaged_announcements(announced, folder):
-    """Announce files with a fault, and what is none, as variables of the steps."""
+    """Announce files with a fault, and files of other kinds, as variables of the steps."""
     text = announced.read_text()
     texts = {
         "STALE": re.sub(r'"tcp://[^"]*"', f'"{faulty_server.closed_address()}"', text),

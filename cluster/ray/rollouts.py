@@ -2,7 +2,7 @@
 
     python3 cluster/ray/rollouts.py breakout --actors 8 --rollouts 64 --roms /shared/atari
 
-Each actor holds a vector environment. A rollout depends on its number alone, so that the total is the same for any
+Each actor holds a vector environment. A rollout depends only on its number, so that the total is the same for any
 number of actors and nodes. When a node is lost, its rollouts are repeated by the other actors.
 """
 

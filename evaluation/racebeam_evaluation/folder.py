@@ -12,7 +12,9 @@ def check_free(folder: pathlib.Path) -> None:
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise BadInput(f"{folder} is not empty; expected a new or an empty folder")
     if not folder.absolute().parent.is_dir():
-        raise BadInput(f"{folder.absolute().parent} is no folder; expected one, in which {folder.name} is made")
+        raise BadInput(
+            f"{folder.absolute().parent} is not a folder; expected the folder in which {folder.name} is made"
+        )
 
 
 def write(folder: pathlib.Path, files: dict[str, bytes]) -> None:

@@ -21,7 +21,7 @@ _LONGEST = 18_000  # frames of an episode, which is how far short of a checkpoin
 
 
 def evaluate(results: Results, _: Bootstrap) -> Report:
-    """The report of training episodes. Raises BadInput if there are none."""
+    """The report of training episodes. Raises BadInput without training episodes."""
     if results.curves is None:
         raise BadInput(
             "the report machado2018 is of training episodes, and no curves.csv of RESULTS has one; expected learners"

@@ -19,7 +19,7 @@ class Ranges:
     bounded: bool = False  # all normalised scores are from 0 to 1
 
     def normalise(self, scores: pd.DataFrame) -> pd.DataFrame:
-        """The scores, a row for each game, normalised. NaN where there is no range, or it is empty."""
+        """The scores, a row for each game, normalised. NaN where the range is missing or empty."""
         low, span = self.low.reindex(scores.index), self.span.reindex(scores.index)
         return scores.sub(low, axis=0).div(span, axis=0)
 

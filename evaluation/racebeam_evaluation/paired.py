@@ -100,7 +100,7 @@ def counts(found: list[Pair], agents: tuple[str, ...], better: str, worse: str, 
 def times_best(scores: pd.DataFrame) -> tuple[pd.Series, dict[str, list[str]]]:
     """In how many games each column has the highest score, and the ties of each game that has some.
 
-    As in the paper, the first column of a tie counts alone."""
+    As in the paper, only the first column of a tie counts."""
     played = scores.dropna()
     ties = {str(game): list(row.index[row == row.max()]) for game, row in played.iterrows()}
     best = played.idxmax(axis=1).value_counts().reindex(scores.columns, fill_value=0)

@@ -45,7 +45,9 @@ class Results:
     """The episodes of one or more folders."""
 
     episodes: pd.DataFrame  # a row for each evaluation episode; the columns of _RESULTS
-    curves: pd.DataFrame | None  # a row for each training episode; the columns of _CURVES; None: there are none
+    curves: (
+        pd.DataFrame | None
+    )  # a row for each training episode; the columns of _CURVES; None without training episodes
     sources: tuple[Source, ...]  # of episodes
     curve_sources: tuple[Source, ...]
     notes: tuple[str, ...] = ()  # sentences on what the folders' plans say differently
@@ -132,7 +134,7 @@ def _check_images(episodes: pd.DataFrame) -> None:
 def _differences(folders: list[pathlib.Path]) -> tuple[str, ...]:
     """A sentence for each setting that two plans have with different values. A folder without plan.toml is left out.
 
-    A key that only one plan has is no difference: the other has no such agent."""
+    A key that only one plan has does not count as a difference: the other plan lacks the agent."""
     seen: dict[str, tuple[str, str]] = {}
     sentences: dict[str, str] = {}
     for folder in folders:

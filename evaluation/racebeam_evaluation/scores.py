@@ -59,7 +59,7 @@ class Scores:
         return list(self.columns(group.agents).dropna().index)
 
     def trial_scores(self, agent: str, game: str) -> npt.NDArray[np.float64]:
-        """The means of the agent's trials of the game; empty if there are none, or they are not known."""
+        """The means of the agent's trials of the game; empty if they are missing or unknown."""
         return (self.trials or {}).get((agent, game), np.empty(0))
 
 

@@ -21,7 +21,7 @@ class Row:
     """What the rows of all tables have: `deprecated` is what to use instead."""
 
     @property
-    def told(self):
+    def summary_text(self):
         """The summary, as `help` and the document have it."""
         text = next(getattr(self, name) for name in ("summary", "meaning", "source") if hasattr(self, name))
         return f"{text}; deprecated: use {self.deprecated}" if self.deprecated else text

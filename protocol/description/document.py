@@ -32,20 +32,24 @@ def tables(protocol):
     """The rows of each table, by the line of its headings."""
     return {
         "| command | what it does |": [
-            row(code(f"{command.name} {command.usage}".rstrip()), command.told) for command in protocol.commands
+            row(code(f"{command.name} {command.usage}".rstrip()), command.summary_text) for command in protocol.commands
         ],
         "| setting | values | default | meaning |": [
-            row(code(one.name), one.accepted, one.default, one.told) for one in protocol.settings
+            row(code(one.name), one.accepted, one.default, one.summary_text) for one in protocol.settings
         ],
-        "| preset | sets | source |": [row(code(one.name), code(one.sets), one.told) for one in protocol.presets],
-        "| field | content | encoding |": [row(code(one.name), one.told, one.encoding) for one in protocol.fields],
-        "| encoding | form |": [row(code(one.name), one.told) for one in protocol.encodings],
+        "| preset | sets | source |": [
+            row(code(one.name), code(one.sets), one.summary_text) for one in protocol.presets
+        ],
+        "| field | content | encoding |": [
+            row(code(one.name), one.summary_text, one.encoding) for one in protocol.fields
+        ],
+        "| encoding | form |": [row(code(one.name), one.summary_text) for one in protocol.encodings],
         "| autoreset | at the end of an episode |": autoresets(protocol),
         "| key | value | meaning |": [
             row(code(key), code(value), meaning)
             for key, value, meaning in choices(protocol, "open", "start", "lives", "stack", "pool")
         ],
-        "| code | meaning |": [row(code(one.code), one.told) for one in protocol.errors],
+        "| code | meaning |": [row(code(one.code), one.summary_text) for one in protocol.errors],
     }
 
 

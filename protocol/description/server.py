@@ -71,7 +71,7 @@ struct Error {
   std::string_view name, meaning;
 };
 
-// The row of this name. Where there is none, the program does not compile.
+// The row of this name. Without it, the program does not compile.
 template <typename Rows>
 consteval const auto& row_named(const Rows& rows, std::string_view name) {
   for (const auto& row : rows)
@@ -95,18 +95,18 @@ def tables(protocol):
             array(
                 "Setting",
                 "kSettings",
-                (braced(quoted(row.name), quoted(row.accepted), quoted(row.told)) for row in protocol.settings),
+                (braced(quoted(row.name), quoted(row.accepted), quoted(row.summary_text)) for row in protocol.settings),
             ),
             array(
                 "Preset",
                 "kPresets",
-                (braced(quoted(row.name), quoted(row.sets), quoted(row.told)) for row in protocol.presets),
+                (braced(quoted(row.name), quoted(row.sets), quoted(row.summary_text)) for row in protocol.presets),
             ),
             array(
                 "Field",
                 "kFields",
                 (
-                    braced(quoted(row.name), quoted(row.told), boolean(row.of_request), quoted(row.encoding))
+                    braced(quoted(row.name), quoted(row.summary_text), boolean(row.of_request), quoted(row.encoding))
                     for row in protocol.fields
                 ),
             ),
@@ -120,8 +120,12 @@ def tables(protocol):
                     for value, meaning in argument.choices.items()
                 ),
             ),
-            array("Encoding", "kEncodings", (braced(quoted(row.name), quoted(row.told)) for row in protocol.encodings)),
-            array("Error", "kErrors", (braced(quoted(row.code), quoted(row.told)) for row in protocol.errors)),
+            array(
+                "Encoding",
+                "kEncodings",
+                (braced(quoted(row.name), quoted(row.summary_text)) for row in protocol.encodings),
+            ),
+            array("Error", "kErrors", (braced(quoted(row.code), quoted(row.summary_text)) for row in protocol.errors)),
             "}  // namespace racebeam::description\n",
         )
     )
@@ -134,7 +138,7 @@ def command_rows(protocol):
         braced(
             quoted(command.name),
             quoted(command.usage),
-            quoted(command.told),
+            quoted(command.summary_text),
             quoted(command.hint),
             quoted(command.example),
             str(command.least),

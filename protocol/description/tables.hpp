@@ -34,7 +34,7 @@ struct Error {
   std::string_view name, meaning;
 };
 
-// The row of this name. Where there is none, the program does not compile.
+// The row of this name. Without it, the program does not compile.
 template <typename Rows>
 consteval const auto& row_named(const Rows& rows, std::string_view name) {
   for (const auto& row : rows)

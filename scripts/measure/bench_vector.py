@@ -4,7 +4,7 @@ together, 84x84x4, with the threads that each takes by itself.
 All play chunks of random actions in turns; racebeam and ale_py have to show the same. Wall-clock time counts. "async"
 receives a third of the environments at a time. A ratio is the median of the chunks' ratios: racebeam to the better of
 ale_py and both of EnvPool's. Then racebeam in this process, and on a server over a Unix socket and over TCP; ratios are
-to in process. At the end: what Python alone takes of a step, with 64 environments that do nothing. Needs `scripts/wheel
+to in process. At the end: what only Python takes of a step, with 64 environments that do nothing. Needs `scripts/wheel
 --venv`; `build/python/venv/bin/pip install envpool` adds EnvPool.
 """
 
@@ -212,4 +212,4 @@ for count in map(int, options.envs.split(",")):
             flush=True,
         )
     print(f"{'mean':<66}" + "".join(f"{statistics.mean(column):8.2f}" for column in zip(*ratios)))
-print(f"Python alone takes {python_alone():.1f} us of a step")
+print(f"only Python takes {python_alone():.1f} us of a step")

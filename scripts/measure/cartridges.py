@@ -10,7 +10,7 @@ WITHOUT_RULE = ("combat", "joust", "maze_craze", "warlords")  # the reference ha
 
 
 def folder():
-    """The folder of images, or None if there is none."""
+    """The folder of images, or None if it is missing."""
     given = os.environ.get("RACEBEAM_ROMS")
     if given:
         candidates = [pathlib.Path(given)]

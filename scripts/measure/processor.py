@@ -4,7 +4,7 @@ import pathlib
 import platform
 import re
 
-# /proc/cpuinfo often gives the brand alone. Family and model tell the design (the vendors' manuals).
+# /proc/cpuinfo often gives only the brand. Family and model tell the design (the vendors' manuals).
 _DESIGNS = [  # vendor, family, models, design
     ("AuthenticAMD", 23, range(0x00, 0x30), "Zen"),
     ("AuthenticAMD", 23, range(0x30, 0x100), "Zen 2"),

@@ -1,4 +1,4 @@
-"""scripts/measure/processor.py: figures name the design of the processor, not its brand alone."""
+"""scripts/measure/processor.py: figures name the design of the processor, not only its brand."""
 
 import unittest
 

@@ -137,7 +137,7 @@ class Encrypted(unittest.TestCase):
 
     @staticmethod
     def certified(folder, name):
-        """A certificate for 127.0.0.1 alone, and its key."""
+        """A certificate for only 127.0.0.1, and its key."""
         paths = f"{folder}/{name}.pem", f"{folder}/{name}.key"
         subprocess.run(
             [

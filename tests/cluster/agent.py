@@ -15,7 +15,7 @@ ACTIONS = ("NOOP", "FIRE", "LEFT", "RIGHT")
 
 
 def play(game, number, middle=lambda: None):
-    """The digest of a game that depends on `number` alone."""
+    """The digest of a game that depends only on `number`."""
     digest = hashlib.sha256()
     game.load("beamfall", seed=number + 1, frame_skip=4)  # 0 would be a random one
     game.observe("reward", "ends", "ram", "screen:zlib")

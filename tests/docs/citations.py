@@ -67,7 +67,7 @@ def fault(root, citation):
     """The error in a citation, or None."""
     name, wanted, heading, cases = citation.groups()
     if re.match(r",? sections?\b", citation.string[citation.end() :]):
-        return "a section is cited by its number alone, after a comma"
+        return "a section is cited only by its number, after a comma"
     if not (root / name).is_file():
         return f"there is no {name}"
     sections = markdown.sections((root / name).read_text())

@@ -72,7 +72,7 @@ class Tree(unittest.TestCase):
     def test_no_folder_has_too_many_subjects(self):
         self.assertEqual(crowded(ROOT), {})
 
-    @unittest.skipUnless((ROOT / ".git").exists() and shutil.which("git"), "this is no checkout")
+    @unittest.skipUnless((ROOT / ".git").exists() and shutil.which("git"), "this is not a checkout")
     def test_nothing_that_is_ignored_is_in_the_tree(self):
         command = ["git", "ls-files", "--cached", "--ignored", "--exclude-standard"]
         listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout

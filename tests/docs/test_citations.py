@@ -65,7 +65,7 @@ class TheCheck(unittest.TestCase):
         self.refuses('// docs/spec/chip.md, "How to check", 2 and 3\n', "has no case 3")
 
     def test_it_refuses_sections_cited_in_another_form(self):
-        self.refuses("// docs/spec/chip.md, section 1\n", "by its number alone")
+        self.refuses("// docs/spec/chip.md, section 1\n", "only by its number")
 
     def test_it_reads_citations_over_the_end_of_a_line(self):
         self.refuses("  // as it stands in docs/spec/chip.md,\n  // 3, and nowhere else\n", "has no section 3")

@@ -136,7 +136,7 @@ class BadInput(unittest.TestCase):
         done = evaluate(self.root / "a", "--into", self.root / "none/out")
         self.assertEqual(
             (done.returncode, done.stderr.splitlines()),
-            (1, [f"racebeam-evaluate: {self.root}/none is no folder; expected one, in which out is made"]),
+            (1, [f"racebeam-evaluate: {self.root}/none is not a folder; expected the folder in which out is made"]),
         )
 
     def test_reports_of_what_is_not_there(self):

@@ -99,7 +99,7 @@ class Normalisation(unittest.TestCase):
 
     def test_baseline(self):
         self.assertEqual(self.of_basic("baseline")["boxing"], 18 / 36)  # from random's -2 to perturb_17's 34
-        self.assertEqual(self.ranges["baseline"].without(["boxing", "pong"]), ["pong"])  # one reference is no range
+        self.assertEqual(self.ranges["baseline"].without(["boxing", "pong"]), ["pong"])  # one reference is not a range
         self.assertEqual(self.ranges["baseline"].notes, ("Baseline scores: 1 game has 1 of the 37 references.",))
 
     def test_inter_algorithm(self):

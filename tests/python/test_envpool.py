@@ -564,7 +564,7 @@ class Rendering(unittest.TestCase):
                 make("gymnasium", **arguments)
 
     @unittest.skipUnless(HAS_VECTORS, "Gymnasium has no AddRenderObservation")
-    def test_the_mode_is_told_and_wrappers_use_it(self):
+    def test_the_metadata_has_the_mode_and_wrappers_use_it(self):
         self.assertIsNone(make().render_mode)
         envs = gymnasium.wrappers.AddRenderObservation(make(render_mode="rgb_array"))
         self.assertEqual((envs.reset()[0].shape, envs.observation_space.shape), ((1, 210, 160, 3),) * 2)
@@ -580,7 +580,7 @@ class Rendering(unittest.TestCase):
         self.assertTrue(np.array_equal(seen[0].transpose(1, 2, 0), envs.render()[0]))
         self.assertEqual(racebeam.AtariVectorEnv("air_raid", 1, obs_type="rgb").reset()[0].shape, (1, 4, 250, 160, 3))
 
-    def test_the_environment_that_is_shown(self):
+    def test_render_returns_the_chosen_environment(self):
         first, second = (make("gymnasium", num_envs=2, env_seed=[1, 9], render_env_id=env) for env in (0, 1))
         for envs in (first, second):
             envs.reset()

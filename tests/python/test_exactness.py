@@ -24,8 +24,8 @@ parser.add_argument("--runs", type=int, default=1, help="runs of each game (defa
 parser.add_argument(
     "--first", type=int, default=datetime.date.today().toordinal(), help="number of the first run (default: of the day)"
 )
-parser.add_argument("--defaults", action="store_true", help="in the default settings alone")
-parser.add_argument("--games", help="A,B: these alone")
+parser.add_argument("--defaults", action="store_true", help="only in the default settings")
+parser.add_argument("--games", help="A,B: only these")
 parser.add_argument("--parts", type=int, default=2, help="of all games, of which one is played, by --first (default 2)")
 options = parser.parse_args()
 

@@ -92,7 +92,7 @@ class Interface(unittest.TestCase):
             ended += parts[0] is not None
         self.assertGreater(ended, 0)
 
-    def test_each_game_that_ends_is_told(self):
+    def test_the_infos_have_each_game_that_ends(self):
         for settings in (
             {"max_num_frames_per_episode": 8},
             {"max_num_frames_per_episode": 40, "lives": "restart", "frameskip": 60},

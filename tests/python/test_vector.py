@@ -236,7 +236,7 @@ class Episodes(unittest.TestCase):
         self.assertTrue(np.array_equal(seen[1:], before[1:]))
         self.assertFalse(np.array_equal(seen[0], before[0]))
 
-    def test_rewards_and_ends_are_told_as_they_are(self):
+    def test_the_info_has_unclipped_rewards_and_true_ends(self):
         envs = AtariVectorEnv("beamfall", 2, frameskip=60, lives="end")
         envs.reset(seed=1)
         shown = [envs.step([1, 1]) for _ in range(60)]
@@ -455,7 +455,7 @@ class Halves(unittest.TestCase):
             envs.send(np.array([(steps[env] - 1) % 3 for env in info["env_id"]]))
             observations, *_, info = envs.recv()
 
-    def test_all_are_shown(self):
+    def test_show_returns_all_environments(self):
         for settings in ({"batch_size": 1}, {"autoreset_mode": "SameStep", **SHORT}):
             envs = AtariVectorEnv("beamfall", 4, seed=1, **settings)
             if "batch_size" not in settings:

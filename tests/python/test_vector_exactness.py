@@ -33,8 +33,8 @@ parser.add_argument("--envs", type=int, default=3, help="of each run (default 3)
 parser.add_argument(
     "--first", type=int, default=datetime.date.today().toordinal(), help="number of the first run (default: of the day)"
 )
-parser.add_argument("--defaults", action="store_true", help="in the default settings alone")
-parser.add_argument("--games", help="A,B: these alone")
+parser.add_argument("--defaults", action="store_true", help="only in the default settings")
+parser.add_argument("--games", help="A,B: only these")
 parser.add_argument("--parts", type=int, default=4, help="of all games, of which one is played, by --first (default 4)")
 parser.add_argument("--patience", type=float, default=120, help="seconds of a run at most (default 120)")
 options = parser.parse_args()
@@ -74,7 +74,7 @@ def compare(what, ours, theirs):
         raise Different(f"{what}: {np.count_nonzero(ours != theirs)} elements of {ours.size}")
 
 
-def compare_told(where, ours, theirs, ended):
+def compare_infos(where, ours, theirs, ended):
     if set(ours) != set(theirs):
         raise Different(f"{where}: the keys are {list(ours)} and {list(theirs)}")
     for key in theirs:
@@ -99,7 +99,7 @@ def play(game, seed, settings):
     with awaiting_the_reference():
         expected = theirs.reset(seed=seed)
     compare("reset: seen", shown[0], expected[0])
-    compare_told("reset", shown[1], expected[1], ())
+    compare_infos("reset", shown[1], expected[1], ())
     ended = 0
     for step in range(options.steps):
         actions = ours.action_space.sample()
@@ -109,7 +109,7 @@ def play(game, seed, settings):
         for name, one, other in zip(("seen", "rewards", "terminated", "truncated"), shown, expected):
             compare(f"step {step}: {name}", one, other)
         ends = np.flatnonzero(expected[2] | expected[3])
-        compare_told(f"step {step}", shown[4], expected[4], ends)
+        compare_infos(f"step {step}", shown[4], expected[4], ends)
         ended += len(ends)
     ours.close()
     return ended

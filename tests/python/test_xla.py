@@ -173,7 +173,7 @@ class Refused(unittest.TestCase):
         envs.close()
         self.assertRaises(gymnasium.error.ClosedEnvironmentError, envs.xla)
 
-    def test_what_a_compiled_program_is_told(self):
+    def test_a_compiled_program_gets_the_infos(self):
         envs = both()[0]
         handle, _, step = envs.xla()
         for action in (99, -1):

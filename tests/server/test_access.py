@@ -307,7 +307,7 @@ class Tls(Folder):
     def test_requests_are_answered_though_the_client_has_closed_its_end(self):
         requests = b"load beamfall seed=1\nlook screen:hex\nact FIRE*9\n"
         with self.serve() as server:
-            for says_so in (True, False):  # TLS: close_notify; or TCP alone
+            for says_so in (True, False):  # TLS: close_notify; or only TCP
                 with self.subTest(says_so=says_so), self.connect_by_hand(server) as (plain, inside, outside, tls):
                     tls.write(requests)
                     if says_so:

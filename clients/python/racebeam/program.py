@@ -16,7 +16,7 @@ def path() -> str:
         PATH.
 
     Raises:
-        FileNotFoundError: If there is none.
+        FileNotFoundError: If the program is not found.
     """
     named = os.environ.get("RACEBEAM_PROGRAM")
     if named:

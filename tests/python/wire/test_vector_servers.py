@@ -55,7 +55,7 @@ class Servers(Compared):
 
 
 class Same(Servers):
-    def test_what_is_seen_and_told(self):
+    def test_observations_and_infos(self):
         here, there = self.both(max_num_frames_per_episode=60, obs_type="ram")
         self.assertGreater(self.play(here, there, 40), COUNT)
         mask = np.array([True, False, False, True, False])
@@ -132,7 +132,7 @@ class Halves(Servers):
         self.check(shown, here.recv(), FIRST, lost=SECOND)
         self.check(there.step([0] * COUNT), here.step([0] * COUNT), FIRST)
 
-    def test_a_server_that_is_lost_before_a_reset_is_told(self):
+    def test_the_info_has_a_server_lost_before_a_reset(self):
         here, there = self.both()
         halt(self.second)
         for envs in (here, there):
@@ -237,7 +237,7 @@ class Lost(Servers):
         self.assertEqual(there.step([0] * COUNT)[-1]["lost"].tolist(), SECOND.tolist())
         self.assertFalse(there.step([0] * COUNT)[-1]["lost"].any())
 
-    def test_a_loss_in_a_reset_is_told(self):
+    def test_the_info_has_a_loss_in_a_reset(self):
         here, there = self.both()
         self.kill(self.first)
         self.check(there.reset(seed=9), here.reset(seed=9), lost=FIRST)

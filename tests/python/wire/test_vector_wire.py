@@ -60,7 +60,7 @@ def both(address, game="beamfall", count=3, **settings):
 
 
 class Same(Compared):
-    def test_what_is_seen_and_told(self):
+    def test_observations_and_infos(self):
         ended = 0
         with server() as (address, _):
             for settings in SETTINGS:
@@ -283,7 +283,7 @@ class Refused(unittest.TestCase):
                     with self.subTest(arguments=arguments, server=where), self.assertRaises(InvalidInput):
                         AtariVectorEnv("beamfall", 2, server=where, **arguments)
 
-    def test_what_a_server_does_not_do_is_said(self):
+    def test_a_server_refuses_what_it_does_not_do(self):
         with server("--max-machines", "4") as (address, _):
             _held = AtariVectorEnv("beamfall", 2, server=address)
             for arguments in ({"batch_size": 1}, {"num_envs": 5}, {"start": "baselines", "use_fire_reset": False}):
