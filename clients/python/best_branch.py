@@ -29,9 +29,9 @@ def play(session):
         session.save("here")
         branches = session.branch("here", *[[action, f"FIRE*{DEPTH}"] for action in actions])
         best = max(range(len(actions)), key=lambda i: (branches[i]["reward"], branches[i]["lives"]))
-        shown = session.act(actions[best])
-        score += shown["reward"]
-        if shown["terminated"] or shown["truncated"]:
+        reply = session.act(actions[best])
+        score += reply["reward"]
+        if reply["terminated"] or reply["truncated"]:
             break
     print(
         f"score {score} after {session.look('episode_frame')['episode_frame']} frames, "

@@ -61,8 +61,8 @@ class Basic:
     def active(self, screen):
         """The features of a screen of palette indices, in ascending order. Rows that are missing are black."""
         colours = np.zeros(WIDTH * HEIGHT, np.uint8)
-        shown = np.frombuffer(screen, np.uint8)[: WIDTH * HEIGHT]
-        colours[: len(shown)] = shown >> 1
+        pixels = np.frombuffer(screen, np.uint8)[: WIDTH * HEIGHT]
+        colours[: len(pixels)] = pixels >> 1
         changed = np.flatnonzero(colours != self.background)
         return np.unique(self.first[changed] + colours[changed])
 
@@ -139,12 +139,12 @@ def play(session, agent, basic, load):
     session.observe("reward", "ends", "screen:zlib")
     score, actions = 0, [agent.begin(basic.active(session.look("screen:zlib")["screen"]))]
     while True:
-        shown = session.act(actions[-1])
-        score += shown["reward"]
-        if shown["terminated"] or shown["truncated"]:
-            agent.end(shown["reward"])
+        reply = session.act(actions[-1])
+        score += reply["reward"]
+        if reply["terminated"] or reply["truncated"]:
+            agent.end(reply["reward"])
             return score, actions
-        actions.append(agent.next(shown["reward"], basic.active(shown["screen"])))
+        actions.append(agent.next(reply["reward"], basic.active(reply["screen"])))
 
 
 def draw(path, scores, title):

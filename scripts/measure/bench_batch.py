@@ -2,8 +2,8 @@
 of one run.
 
 Both sides make stacks of four grey screens of 84 x 84, pooled over the last two frames of a skip of four, for every
-machine and step. Only the elapsed time of the steps is measured. Processor time is printed, too, because it varies less on
-a busy machine. After every chunk, observations and RAM of both sides are compared.
+machine and step. Only the elapsed time of the steps is measured. Processor time is printed, too, because it varies less
+on a busy machine. After every chunk, observations and RAM of both sides are compared.
 """
 
 import argparse

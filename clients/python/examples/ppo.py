@@ -66,21 +66,21 @@ def forward(parameters, observations):
     *convolutions, last = parameters["body"]
     if observations.ndim == 2:  # RAM, bit by bit
         bits = observations[:, :, None] >> jnp.arange(8, dtype=jnp.uint8) & 1
-        seen = jax.nn.relu(dense(convolutions[0], bits.reshape(len(bits), -1).astype(jnp.float32)))
+        hidden = jax.nn.relu(dense(convolutions[0], bits.reshape(len(bits), -1).astype(jnp.float32)))
     else:
-        seen = observations.transpose(0, 2, 3, 1).astype(jnp.float32) / 255
+        hidden = observations.transpose(0, 2, 3, 1).astype(jnp.float32) / 255
         for (_, _, stride), one in zip(CONVOLUTIONS, convolutions):
-            seen = jax.lax.conv_general_dilated(
-                seen, one["weights"], (stride, stride), "VALID", dimension_numbers=("NHWC", "HWIO", "NHWC")
+            hidden = jax.lax.conv_general_dilated(
+                hidden, one["weights"], (stride, stride), "VALID", dimension_numbers=("NHWC", "HWIO", "NHWC")
             )
-            seen = jax.nn.relu(seen + one["bias"])
-        seen = seen.reshape(len(seen), -1)
-    seen = jax.nn.relu(dense(last, seen))
-    return dense(parameters["policy"], seen), dense(parameters["value"], seen)[:, 0]
+            hidden = jax.nn.relu(hidden + one["bias"])
+        hidden = hidden.reshape(len(hidden), -1)
+    hidden = jax.nn.relu(dense(last, hidden))
+    return dense(parameters["policy"], hidden), dense(parameters["value"], hidden)[:, 0]
 
 
-def dense(one, seen):
-    return seen @ one["weights"] + one["bias"]
+def dense(one, hidden):
+    return hidden @ one["weights"] + one["bias"]
 
 
 @jax.jit
@@ -135,7 +135,7 @@ class Player:
     """Plays the environments, and keeps the scores of whole games."""
 
     def __init__(self, options, **arguments):
-        shown = {"obs_type": "ram"} if options.observe == "ram" else {}
+        view = {"obs_type": "ram"} if options.observe == "ram" else {}
         self.envs = racebeam.AtariVectorEnv(
             options.game,
             options.envs,
@@ -143,7 +143,7 @@ class Player:
             lives="end",
             autoreset_mode="SameStep",
             server=options.server,
-            **shown,
+            **view,
             **arguments,
         )
         self.observations, _ = self.envs.reset()
@@ -156,13 +156,13 @@ class Player:
         """A batch of so many steps of each environment."""
         rows = []
         for one in jax.random.split(key, steps):
-            seen = self.observations
-            actions, log_chances, values = map(np.asarray, choose(parameters, seen, one))
-            rows.append((seen, actions, log_chances, values, *self.step(actions)))
-        seen, actions, log_chances, values, rewards, ends = map(np.stack, zip(*rows))
+            observations = self.observations
+            actions, log_chances, values = map(np.asarray, choose(parameters, observations, one))
+            rows.append((observations, actions, log_chances, values, *self.step(actions)))
+        observations, actions, log_chances, values, rewards, ends = map(np.stack, zip(*rows))
         _, _, last_values = choose(parameters, self.observations, key)
         advantages = advantages_of(rewards, values, ends, np.asarray(last_values))
-        flat = (seen, actions, log_chances, advantages, advantages + values)
+        flat = (observations, actions, log_chances, advantages, advantages + values)
         return Batch(*(part.reshape(-1, *part.shape[2:]) for part in flat))
 
     def step(self, actions):
