@@ -7,6 +7,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import package
@@ -19,9 +20,16 @@ import racebeam._core
 FOLDER = pathlib.Path(racebeam.__file__).parent
 
 
-def python(script, *words, **environment):
+OPTIONAL = ("gymnasium", "ale_py", "stable_baselines3", "jax", "torch", "torchrl", "tianshou", "ray")
+
+
+def python(script, *words, folder=None, **environment):
     return subprocess.run(
-        [sys.executable, *words, "-c", script], env={**os.environ, **environment}, capture_output=True, text=True
+        [sys.executable, *words, "-c", script],
+        env={**os.environ, **environment},
+        cwd=folder,
+        capture_output=True,
+        text=True,
     )
 
 
@@ -194,15 +202,13 @@ class Readme(unittest.TestCase):
             text = (package.SOURCE / document).read_text()
             for number, example in enumerate(re.findall(r"(?ms)^```python\n(.*?)^```", text)):
                 with self.subTest(document=document, example=number):
-                    needs = {
-                        module
-                        for module in ("gymnasium", "ale_py", "stable_baselines3", "jax")
-                        if re.search(rf"\b(import|from) {module}\b", example)
-                    }
+                    needs = {module for module in OPTIONAL if re.search(rf"\b(import|from) {module}\b", example)}
                     needs |= {"gymnasium"} if re.search(r"Atari\w*Env", example) else set()
+                    needs |= {"moviepy"} if "RecordVideo" in example else set()
                     if not all(map(has, needs)) or ("Pong" in example and "pong" not in package.roms()):
                         continue
-                    done = python(example)
+                    with tempfile.TemporaryDirectory() as folder:
+                        done = python(example, folder=folder)
                     self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
