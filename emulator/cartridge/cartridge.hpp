@@ -72,11 +72,14 @@ inline bool banks_unused(const CartridgeState& state, std::size_t first) {
                      [](std::uint8_t bank) { return bank == 0; });
 }
 
+// The scheme with that name. Throws InvalidInput, with the names that there are, if it is not implemented.
+const Scheme& scheme_named(std::string_view name);
+
 // The scheme of an image, from its size and signatures, or the one that is asked for by name. Throws
-// InvalidInput if none fits, no scheme has that name, or the image is too small for it.
+// InvalidInput if no scheme fits, the scheme is not implemented, or the image is too small for it.
 const Scheme& scheme_of(const Rom& rom, std::string_view asked_for = {});
 
-// The detected name; empty if no scheme fits.
+// The name that the size and the signatures give; empty if no scheme fits.
 std::string_view scheme_name(const Rom& rom);
 
 // All names that can be asked for.

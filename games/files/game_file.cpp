@@ -38,9 +38,8 @@ Properties properties_of(const Section& section) {
   made.right_difficulty_a = section.choice("right_difficulty", difficulties) == 1;
   made.hmove_blanks = section.flag("hmove_blanks").value_or(made.hmove_blanks);
   made.format = static_cast<Format>(section.choice("format", formats).value_or(0));
-  const auto names = scheme_names();
-  const auto scheme = section.choice("scheme", {names.begin(), names.end()});
-  if (scheme) made.scheme = names[static_cast<std::size_t>(*scheme)];
+  if (const auto scheme = section.text("scheme"))
+    section.guard(*section.node("scheme"), "scheme", [&] { made.scheme = scheme_named(*scheme).name; });
   made.ystart = section.number("ystart").value_or(made.ystart);
   made.height = section.number("height").value_or(made.height);
   return made;

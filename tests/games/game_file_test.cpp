@@ -91,8 +91,12 @@ TEST_CASE("what a game file leaves out has its default") {
 
 TEST_CASE("an image's cartridge scheme can be asked for, and two dumps always have theirs") {
   CHECK(game_with("[[image]]\nscheme = '3F'").properties_for("any").scheme == "3F");
-  CHECK_THAT(error_in("[[image]]\nscheme = 'F9'"),
-             Contains("my.toml:3: image.scheme") && Contains("F8 swapped"));
+  CHECK_THAT(
+      error_in("[[image]]\nscheme = 'F9'"),
+      Contains("my.toml:3: image.scheme: the cartridge scheme F9 is not known") && Contains("F8 swapped"));
+  for (const std::string name : {"0840", "4A50", "DPC+", "EFSC"})
+    CHECK_THAT(error_in("[[image]]\nscheme = '" + name + "'"),
+               Contains("my.toml:3: image.scheme: the cartridge scheme " + name + " is not implemented"));
   for (const char* md5 : {"bc24440b59092559a1ec26055fd1270e", "75ee371ccfc4f43e7d9b8f24e1266b55"})
     CHECK(game_with("").properties_for(md5).scheme == "F8 swapped");
   CHECK(game_with("").properties_for("any").scheme.empty());

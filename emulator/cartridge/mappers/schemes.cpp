@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "emulator/cartridge/cartridge.hpp"
 #include "emulator/cartridge/mappers/activision.hpp"
@@ -17,7 +18,7 @@
 #include "emulator/cartridge/mappers/starpath.hpp"
 #include "emulator/cartridge/mappers/tigervision.hpp"
 #include "emulator/cartridge/mappers/ua.hpp"
-#include "emulator/cartridge/mappers/unmapped.hpp"
+#include "emulator/cartridge/mappers/unsupported.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
@@ -51,7 +52,6 @@ constexpr MapperOps kCvFilled = {commavid::reset_filled, commavid::map,       no
 constexpr MapperOps kAr       = {starpath::reset,        starpath::map,       starpath::read, starpath::write,       starpath::admits};
 constexpr MapperOps kMb       = {atari::reset,           atari::map,          dynacom::read,  dynacom::write,        atari::admits};
 constexpr MapperOps kMc       = {megacart::reset,        megacart::map,       megacart::read, megacart::write,       megacart::admits};
-constexpr MapperOps kUnmapped = {unmapped::reset,        unmapped::map,       no_hidden_page, kIgnore,               no_banks};
 
 constexpr unsigned kChip = sizeof(dpc::Chip);
 
@@ -79,8 +79,6 @@ constexpr Scheme kSchemes[] = {
     {kAr,       "AR",           8448, 0,        0, 0,  6144, true,  false},
     {kMb,       "MB",          65536, 0xFF0,   16, 1,     0, false, false},
     {kMc,       "MC",         131072, 0,        0, 0, 32768, true,  true},
-    {kUnmapped, "0840",            1, 0,        0, 0,     0, false, false},
-    {kUnmapped, "4A50",            1, 0,        0, 0,     0, false, false},
 };
 // clang-format on
 
@@ -174,6 +172,12 @@ std::string_view name_large(const Rom& rom, std::string_view otherwise) {
   return is_3f(rom) ? "3F" : otherwise;
 }
 
+[[noreturn]] void refuse_scheme(std::string sentence) {
+  std::string_view separator = "; implemented are ";
+  for (const Scheme& scheme : kSchemes) sentence.append(std::exchange(separator, ", ")).append(scheme.name);
+  throw InvalidInput(sentence);
+}
+
 }  // namespace
 
 std::string_view scheme_name(const Rom& rom) {
@@ -194,20 +198,31 @@ std::string_view scheme_name(const Rom& rom) {
   }
 }
 
+const Scheme& scheme_named(std::string_view name) {
+  const auto scheme = std::ranges::find(kSchemes, name, &Scheme::name);
+  if (scheme != std::end(kSchemes)) return *scheme;
+  const std::string what = "the cartridge scheme " + std::string(name);
+  refuse_scheme(is_unsupported(name) ? what + " is not implemented" : what + " is not known");
+}
+
 const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {
-  const std::string_view name = asked_for.empty() ? scheme_name(rom) : asked_for;
   const std::string size = std::to_string(rom.size()) + " bytes";
-  if (name.empty()) {
+  if (asked_for.empty()) {
+    if (const auto other = unsupported_scheme(rom); !other.empty())
+      refuse_scheme("the image is for the cartridge scheme " + std::string(other) +
+                    ", which is not implemented");
+    asked_for = scheme_name(rom);
+  }
+  if (asked_for.empty()) {
     throw InvalidInput("no cartridge scheme fits an image of " + size +
                        "; usual sizes are 2048, 4096, 8192, 16384 and 32768 bytes");
   }
-  const auto scheme = std::ranges::find(kSchemes, name, &Scheme::name);
-  if (scheme == std::end(kSchemes)) throw InvalidInput("there is no cartridge scheme " + std::string(name));
-  if (rom.size() < scheme->image) {
-    throw InvalidInput("the cartridge scheme " + std::string(name) + " needs an image of at least " +
-                       std::to_string(scheme->image) + " bytes; this one has " + size);
+  const Scheme& scheme = scheme_named(asked_for);
+  if (rom.size() < scheme.image) {
+    throw InvalidInput("the cartridge scheme " + std::string(scheme.name) + " needs an image of at least " +
+                       std::to_string(scheme.image) + " bytes; this one has " + size);
   }
-  return *scheme;
+  return scheme;
 }
 
 std::span<const std::string_view> scheme_names() {

@@ -149,7 +149,59 @@ TEST_CASE("The search misses the last place, and skips a byte after each hit") {
 TEST_CASE("An unsuitable image is refused with the reason") {
   CHECK_THROWS_WITH(scheme_of(mixed(5000)), Catch::Contains("5000") && Catch::Contains("4096"));
   CHECK_THROWS_AS(scheme_of(Rom{}), std::invalid_argument);
-  CHECK_THROWS_WITH(scheme_of(mixed(4096), "F9"), Catch::Contains("no cartridge scheme F9"));
+  CHECK_THROWS_WITH(scheme_of(mixed(4096), "F9"),
+                    Catch::Contains("scheme F9 is not known") && Catch::Contains("F8"));
+  CHECK_THROWS_WITH(scheme_of(mixed(8192), "0840"), Catch::Contains("scheme 0840 is not implemented"));
+}
+
+// An image with `text` at three places.
+Rom with_text(std::size_t size, const std::string& text) {
+  const Bytes bytes(text.begin(), text.end());
+  return mixed(size, {{700, bytes}, {1700, bytes}, {size - 8, bytes}});
+}
+
+TEST_CASE("An image with the text of a scheme that is not implemented is refused by that scheme's name") {
+  struct {
+    std::size_t size;
+    const char *text, *scheme;
+  } const kTexts[] = {
+      {32768, "DPC+", "DPC+"}, {29 * 1024, "DPC+", "DPC+"}, {32768, "CDF", "CDF"},   {65536, "CDF", "CDF"},
+      {65536, "EFEF", "EF"},   {65536, "EFSC", "EFSC"},     {131072, "DFDF", "DF"},  {131072, "DFSC", "DFSC"},
+      {262144, "BFBF", "BF"},  {262144, "BFSC", "BFSC"},    {16384, "TJ3E", "3E+"},  {32768, "TJ3E", "3E+"},
+      {32768, "MDMC", "MDM"},  {65536, "MDMC", "MDM"},      {32768, "LENIN", "CTY"}, {32768, "BUS", "BUS"},
+  };
+  for (const auto& [size, text, scheme] : kTexts) {
+    INFO(text << " in " << size << " bytes");
+    const Rom rom = with_text(size, text);
+    CHECK_THROWS_WITH(scheme_of(rom), Catch::Contains("scheme " + std::string(scheme) + ", which is not"));
+    CHECK(scheme_of(rom, "3F").name == "3F");  // who names a scheme knows better
+  }
+  CHECK(scheme_of(mixed(32768, {{700, {'C', 'D', 'F'}}})).name == "F4");
+}
+
+// Code that selects `count` banks.
+Rom with_accesses(std::size_t size, unsigned first, unsigned step, unsigned count) {
+  Rom rom = mixed(size);
+  for (unsigned bank = 0; bank < count; ++bank) {
+    const unsigned address = first + bank * step;
+    const Bytes code = {0xAD, static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(address >> 8)};
+    std::copy(code.begin(), code.end(), rom.begin() + 4096L * bank + 300);
+  }
+  return rom;
+}
+
+TEST_CASE("An image of 64K or 128K that accesses the hot spots of another scheme is refused by its name") {
+  const auto refused = [](const Rom& rom, const std::string& scheme) {
+    CHECK_THROWS_WITH(scheme_of(rom), Catch::Contains("scheme " + scheme + ", which is not"));
+  };
+  refused(with_accesses(65536, 0x1FE0, 1, 16), "EF");
+  refused(with_accesses(65536, 0xFFE0, 1, 4), "EF");
+  refused(with_accesses(65536, 0x080D, 16, 16), "X07");
+  refused(with_accesses(131072, 0x1FC0, 1, 32), "DF");
+  refused(with_accesses(131072, 0xFFC0, 1, 8), "DF");
+  CHECK(scheme_of(with_accesses(65536, 0xFFE0, 1, 3)).name == "MB");
+  CHECK(scheme_of(with_accesses(65536, 0x1FF0, 0, 16)).name == "MB");
+  CHECK(scheme_of(with_accesses(131072, 0xFFC0, 1, 7)).name == "MC");
 }
 
 TEST_CASE("A scheme that is asked for goes before the detected one, if the image is large enough") {

@@ -142,14 +142,10 @@ TEST_CASE("3E: writes reach the TIA but those that are stored in RAM; MC: none t
   CHECK(color(megacart, 3) == 0x12);
 }
 
-TEST_CASE("F8 swapped starts in its first bank; 0840 and 4A50 show nothing") {
+TEST_CASE("F8 swapped starts in its first bank") {
   Bench swapped(filled(8192, 4096), asking_for("F8 swapped"));
   expect(swapped, 0x1005, 0x05);
   expect(swapped, 0x1FF9, 0x19);
-  for (const char* name : {"0840", "4A50"}) {
-    Bench bench(filled(8192, 4096), asking_for(name));
-    for (unsigned address = 0x1000; address < 0x2000; address += 0x111) expect(bench, address, 0);
-  }
 }
 
 // A load of two pages, to banks 0 and 1, and its start address.
