@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "emulator/cartridge/cartridge.hpp"
 #include "games/files/game_file.hpp"
 #include "games/similar.hpp"
 #include "system/input_file.hpp"
@@ -48,12 +49,22 @@ Game with_image(Game game, const GameImage& image) {
   return game;
 }
 
-// Whichever game's rule applies, the console gets the properties that are known for the image
-// (docs/spec/console.md).
+// The properties of a game's first image, for another dump of it.
+Properties properties_of_dump(const Game& game, const Image& image) {
+  Properties properties = game.images.front().properties;
+  if (!properties.scheme.empty() && image.bytes->size() < scheme_named(properties.scheme).image)
+    properties.scheme = {};
+  return properties;
+}
+
+// What the console is told about an image goes before the rule that scores it (docs/spec/console.md). An
+// image that no game lists is taken for another dump of `game`.
 std::shared_ptr<const Game> with_properties_of(const Image& image, std::shared_ptr<const Game> game) {
+  if (describes(*game, image)) return game;
   const CatalogueImage* const known = known_image(image.md5);
-  if (known == nullptr || describes(*game, image)) return game;
-  const Properties properties = parsed(known->entry)->properties_for(image.md5);
+  if (known == nullptr && game->images.empty()) return game;
+  const Properties properties =
+      known ? parsed(known->entry)->properties_for(image.md5) : properties_of_dump(*game, image);
   return std::make_shared<const Game>(with_image(*game, {image.md5, properties, false}));
 }
 
@@ -123,11 +134,21 @@ Recognition recognise(const Image& image, const std::optional<std::string>& game
   if (game_name) {
     auto game = find_game(*game_name);
     if (!game) refuse_name(*game_name);
-    return given(game, RecognisedBy::kGivenName, image);
+    return recognise_as(image, game);
   }
   if (auto game = find_game_by_md5(image.md5)) return {std::move(game), RecognisedBy::kMd5, true};
   if (auto game = find_game(image.stem)) return given(game, RecognisedBy::kFileName, image);
   return unknown(image);
+}
+
+Recognition recognise_as(const Image& image, const std::shared_ptr<const Game>& game) {
+  return given(game, RecognisedBy::kGivenName, image);
+}
+
+std::string doubt_about(const Game& game, const Image& image) {
+  if (!game.has_rule() || game.accepts(image.md5)) return "";
+  return "the MD5 of this image, " + image.md5 + ", is not that of the image which the rule of '" +
+         game.name + "' was written for; score and end may be wrong";
 }
 
 }  // namespace racebeam

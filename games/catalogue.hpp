@@ -55,6 +55,12 @@ struct Recognition {
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name = std::nullopt,
                       const std::optional<std::string>& game_file = std::nullopt);
 
+// The same for a game that the caller knows.
+Recognition recognise_as(const Image& image, const std::shared_ptr<const Game>& game);
+
+// Warns that a game's rule was written for another image than this one. Empty if it was not.
+std::string doubt_about(const Game& game, const Image& image);
+
 // An image and its game. Both are const, so that any number of machines share them.
 struct Cartridge {
   std::shared_ptr<const Image> image;

@@ -20,9 +20,8 @@ void warn_about(const Recognition& recognition, const Image& image, const Tell& 
     tell(
         "'" + image.stem + "' (MD5 " + image.md5 +
         ") is not in the catalogue: it runs without a score; --game NAME or --game-file FILE selects a rule");
-  } else if (!recognition.md5_matches) {
-    tell("the MD5 of this image, " + image.md5 + ", is not that of the image which the rule of '" +
-         game.name + "' was written for; score and end may be wrong");
+  } else if (const std::string doubt = doubt_about(game, image); !doubt.empty()) {
+    tell(doubt);
   }
 }
 

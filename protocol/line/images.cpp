@@ -58,4 +58,20 @@ std::vector<std::string_view> Images::names() const {
   return all;
 }
 
+std::shared_ptr<const Game> Images::rules(std::string_view game) const {
+  if (auto known = find_game(game)) return known;
+  const auto found = by_name_.find(game);
+  if (found == by_name_.end() || !found->second.cartridge.game->has_rule()) return nullptr;
+  return found->second.cartridge.game;
+}
+
+std::vector<std::string> Images::doubts() const {
+  std::vector<std::string> all;
+  for (const auto& [md5, entry] : by_md5_) {
+    std::string doubt = doubt_about(*entry.cartridge.game, *entry.cartridge.image);
+    if (!doubt.empty()) all.push_back(std::move(doubt));
+  }
+  return all;
+}
+
 }  // namespace racebeam

@@ -88,6 +88,38 @@ TEST_CASE("a known image keeps its properties when it is scored as another game"
     CHECK(variant->properties_for(warlords).left == Controller::kPaddles);
 }
 
+TEST_CASE("another dump of a game takes the properties of the game's first image") {
+  for (const std::string name :
+       {"breakout", "pong", "kaboom", "casino", "backgammon", "blackjack", "warlords", "surround",
+        "wizard_of_wor", "maze_craze", "pooyan", "asteroids"}) {
+    INFO(name);
+    const Properties wanted = find_game(name)->images.front().properties;
+    REQUIRE_FALSE(wanted == Properties{});
+    for (const Recognition& found :
+         {recognise(image(kNobody, "dump"), name), recognise(image(kNobody, name))}) {
+      CHECK(found.game->properties_for(kNobody) == wanted);
+      CHECK_FALSE(found.md5_matches);
+      CHECK_FALSE(found.game->accepts(kNobody));
+      if (const auto& fixed = found.game->fixed) CHECK(fixed->properties_for(kNobody) == wanted);
+      if (const auto& classic = found.game->classic) CHECK(classic->properties_for(kNobody) == wanted);
+    }
+  }
+}
+
+TEST_CASE("another dump takes the scheme of the game's first image only where it fits") {
+  const Scratch scratch;
+  const auto scheme_with = [&](const std::string& scheme) {
+    const std::string file =
+        scratch.write("mine.toml", kGame + "[[image]]\nmd5 = '" + kSeaquest +
+                                       "'\nleft = 'paddles'\nscheme = '" + scheme + "'\n");
+    const auto game = recognise(image(kNobody, "dump"), std::nullopt, file).game;
+    CHECK(game->properties_for(kNobody).left == Controller::kPaddles);
+    return game->properties_for(kNobody).scheme;
+  };
+  CHECK(scheme_with("3F") == "3F");
+  CHECK(scheme_with("F8").empty());  // needs 8192 bytes
+}
+
 TEST_CASE("an unknown name is refused with those that are like it") {
   CHECK_THROWS_WITH(recognise(image(kNobody, "x"), "seaqest"),
                     Contains("'seaqest'") && Contains("did you mean seaquest"));

@@ -124,11 +124,12 @@ Cartridge find_cartridge(Session& session, std::string_view name, const LoadWord
     cartridge = *found;
   }
   if (words.as) {
-    cartridge.game = find_game(*words.as);
-    if (!cartridge.game)
+    const auto rules = session.service.images->rules(*words.as);
+    if (!rules)
       throw RequestError(ErrorCode::kUnknownGame, "there are no rules for " + quote(*words.as) + ';' +
                                                       did_you_mean(*words.as, game_names()) +
                                                       " games all lists those that there are");
+    cartridge.game = recognise_as(*cartridge.image, rules).game;
   } else if (name == kInline) {
     cartridge.game = recognise(*cartridge.image).game;
   }
@@ -153,6 +154,7 @@ void append_loaded(Session& session) {
   append_pair(out, "game", machine.game().name);
   append_pair(out, "md5", machine.image().md5);
   append_pair(out, "rule", machine.game().has_rule());
+  if (!doubt_about(machine.game(), machine.image()).empty()) append_pair(out, "image", "other");
   append_pair(out, "width", kScreenWidth);
   append_pair(out, "height", machine.height());
   append_pair(out, "format", format_name(machine.format()));
