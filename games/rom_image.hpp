@@ -16,19 +16,25 @@ namespace racebeam {
 constexpr std::size_t kMaxImageSize = 524288;
 
 struct Image {
-  std::shared_ptr<const std::vector<std::uint8_t>> bytes;
-  std::string md5;   // of the bytes, in lower-case hex
-  std::string stem;  // the file's name without its extension, in lower case; or the built-in's name
+  std::shared_ptr<const std::vector<std::uint8_t>> bytes;  // those of a smaller cartridge fill 2K
+  std::string md5;                                         // of the file's bytes, in lower-case hex
+  std::string stem;           // the file's name without its extension, in lower case; or the built-in's name
+  std::size_t file_size = 0;  // of a smaller cartridge, whose file is the end of `bytes`; 0: all are the file
+
+  std::span<const std::uint8_t> file() const {
+    return file_size == 0 ? std::span(*bytes) : std::span(*bytes).last(file_size);
+  }
 };
 
-// `where`: a path (gzip is inflated), or builtin:NAME. Throws InvalidInput with a sentence.
+// `where`: a path (gzip is inflated, a zip archive must have one image), or builtin:NAME. Throws InvalidInput
+// with a sentence.
 std::shared_ptr<const Image> load_image(const std::string& where);
 
 // Makes an image of bytes. `stem` is its name. Throws InvalidInput if there are no bytes, or too many.
 std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const std::string& stem);
 
-// The files of a folder that look like images, sorted: .bin, .a26 or .rom, also with .gz after it. Throws
-// InvalidInput if the folder cannot be listed.
+// The files of a folder that look like images, sorted: .bin, .a26 or .rom, also with .gz after it, and
+// archives: .zip or .7z. Throws InvalidInput if the folder cannot be listed.
 std::vector<std::string> image_files(const std::string& folder);
 
 // An image that is part of the program.

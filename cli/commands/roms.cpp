@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/arguments/subcommand.hpp"
+#include "emulator/cartridge/cartridge.hpp"
 #include "games/catalogue.hpp"
 #include "games/rom_image.hpp"
 #include "system/printable.hpp"
@@ -20,12 +21,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kRomsFooter =
-    R"(Examines the files in the folder (not in its subfolders) that end in .bin, .a26 or .rom, also with .gz after it.
+    R"(Examines the files in the folder (not in its subfolders) that end in .bin, .a26 or .rom, also with .gz after it,
+and zip archives, which must have one image each.
 Each file is one of:
   known     its MD5 is in the catalogue: it plays as this game
   by-name   another image, but the file is named like a game: it plays as that game, with a warning
   unknown   it plays without a score; --game NAME or --game-file FILE selects a rule
-  unusable  it cannot be read, or is not a cartridge image
+  unusable  it cannot be read, or no cartridge scheme fits it
 Then the command lists the games of the catalogue that the folder has no image of.
 
 Example:
@@ -36,6 +38,7 @@ struct RomFinding {
   std::string verdict;  // known, by-name, unknown, unusable
   std::string game;     // known, by-name
   std::string md5;      // "" if unusable
+  std::string scheme;   // of the cartridge
   std::string note;
 };
 
@@ -50,12 +53,15 @@ std::string other_dump_of(const std::string& md5) {
 RomFinding judge(const Image& image) {
   const Recognition recognition = recognise(image);
   const std::string& name = recognition.game->name;
-  if (recognition.how == RecognisedBy::kMd5) return {"", "known", name, image.md5, ""};
+  const std::string_view given = recognition.game->properties_for(image.md5).scheme;
+  const std::string scheme(scheme_of(*image.bytes, given).name);
+  if (recognition.how == RecognisedBy::kMd5) return {"", "known", name, image.md5, scheme, ""};
   if (recognition.how == RecognisedBy::kFileName)
-    return {"", "by-name", name, image.md5, "not the image that its rule was written for"};
+    return {"", "by-name", name, image.md5, scheme, "not the image that its rule was written for"};
   const std::string dump = other_dump_of(image.md5);
-  return {"", "unknown", "", image.md5,
-          dump.empty() ? "needs --game" : "another dump of " + dump + ": try --game " + dump};
+  return {"",     "unknown",
+          "",     image.md5,
+          scheme, dump.empty() ? "needs --game" : "another dump of " + dump + ": try --game " + dump};
 }
 
 RomFinding examine(const fs::path& path) {
@@ -63,7 +69,7 @@ RomFinding examine(const fs::path& path) {
   try {
     finding = judge(*load_image(path.string()));
   } catch (const std::exception& error) {
-    finding = {"", "unusable", "", "", error.what()};
+    finding = {"", "unusable", "", "", "", error.what()};
   }
   finding.file = path.filename().string();
   return finding;
@@ -83,8 +89,9 @@ std::vector<std::string> games_without(const std::vector<RomFinding>& findings) 
 void print_text(const std::vector<RomFinding>& findings, const std::vector<std::string>& missing) {
   for (const RomFinding& finding : findings) {
     const std::string game = finding.game.empty() ? "-" : finding.game;
-    std::printf("%-8s  %-20s %-32s  %s%s%s\n", finding.verdict.c_str(), game.c_str(),
-                finding.md5.empty() ? "-" : finding.md5.c_str(), printable(finding.file).c_str(),
+    std::printf("%-8s  %-20s %-32s  %-5s %s%s%s\n", finding.verdict.c_str(), game.c_str(),
+                finding.md5.empty() ? "-" : finding.md5.c_str(),
+                finding.scheme.empty() ? "-" : finding.scheme.c_str(), printable(finding.file).c_str(),
                 finding.note.empty() ? "" : ": ", printable(finding.note).c_str());
   }
   for (const std::string& name : missing) std::printf("missing   %s\n", name.c_str());
@@ -98,6 +105,7 @@ void print_json(const std::vector<RomFinding>& findings, const std::vector<std::
                     {"verdict", finding.verdict},
                     {"game", finding.game},
                     {"md5", finding.md5},
+                    {"scheme", finding.scheme},
                     {"note", finding.note}});
   }
   // A file's name may be invalid UTF-8. Everything beyond ASCII is escaped, because it includes control

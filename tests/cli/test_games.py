@@ -7,6 +7,7 @@ import os
 import shutil
 import tempfile
 import unittest
+import zipfile
 
 from harness import main, rom, run
 
@@ -110,6 +111,28 @@ class Roms(unittest.TestCase):
         self.assertNotIn("pong", missing)
         self.assertIn("breakout", missing)
 
+    def test_archives_are_looked_into_and_what_is_no_cartridge_is_unusable(self):
+        image = bytes(range(256)) * 16
+        for name, files in (("one.zip", {"pong.bin": image, "readme.txt": b"hello"}),
+                            ("two.zip", {"a.bin": image, "b.bin": image})):
+            with zipfile.ZipFile(os.path.join(self.folder, name), "w", zipfile.ZIP_DEFLATED) as archive:
+                for file, data in files.items():
+                    archive.writestr(file, data)
+        self.put("seven.7z", b"7z\xbc\xaf\x27\x1c" + image)
+        self.put("odd.bin", image[:3000])
+        self.put("modern.bin", image[:700] + b"DPC+" + bytes(32768 - 704))
+        self.put("small.bin", image[:1024])
+        found, _ = self.findings()
+        self.assertEqual({name: (image["verdict"], image["scheme"]) for name, image in found.items()},
+                         {"one.zip": ("by-name", "2K"), "two.zip": ("unusable", ""), "seven.7z": ("unusable", ""),
+                          "odd.bin": ("unusable", ""), "modern.bin": ("unusable", ""), "small.bin": ("unknown", "2K")})
+        self.assertEqual(found["one.zip"]["md5"], hashlib.md5(image).hexdigest())
+        for file, sentence in (("two.zip", "a.bin, b.bin"), ("seven.7z", "7z archives are not read"),
+                               ("odd.bin", "3000 bytes"), ("modern.bin", "scheme DPC+, which is not implemented")):
+            self.assertIn(sentence, found[file]["note"])
+        offered = run("serve", "--stdio", "--roms", self.folder, data=b"games\n")[1]
+        self.assertEqual(offered, b"ok count=4 games=beamfall,pong,small,updraft\n")
+
     def test_an_empty_folder_lacks_every_game_but_the_built_in_ones(self):
         games = json.loads(answer("games", "--json"))
         found, missing = self.findings()
@@ -126,7 +149,7 @@ class Roms(unittest.TestCase):
     def test_the_text_ends_with_the_counts(self):
         self.put("mystery.bin", b"\xea" * 4096)
         lines = answer("roms", self.folder).splitlines()
-        self.assertRegex(lines[0], r"^unknown +- +[0-9a-f]{32}  mystery\.bin: needs --game$")
+        self.assertRegex(lines[0], r"^unknown +- +[0-9a-f]{32}  2K +mystery\.bin: needs --game$")
         self.assertRegex(lines[-1], r"^1 images; \d+ games without one$")
 
     def refused(self, folder, complaint):

@@ -7,6 +7,7 @@
 
 #include "games/catalogue.hpp"
 #include "games/rom_image.hpp"
+#include "system/invalid_input.hpp"
 #include "tests/games/scratch.hpp"
 
 using namespace racebeam;
@@ -76,6 +77,130 @@ TEST_CASE("a truncated or damaged gzip file is refused") {
                     Contains("truncated"));
   bytes[bytes.size() - 6] = static_cast<char>(~bytes[bytes.size() - 6]);  // in the checksum
   CHECK_THROWS_WITH(load_image(scratch.write("bad.gz", bytes)), Contains("damaged"));
+}
+
+namespace {
+
+// A zip archive, of which this writes what a reader needs.
+class ZipFile {
+ public:
+  void add(const std::string& name, const std::string& bytes, bool deflated = true, unsigned flags = 0) {
+    const std::string packed = deflated ? raw_deflated(bytes) : bytes;
+    const auto crc = crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size()));
+    const std::string common = number(flags, 2) + number(deflated ? 8 : 0, 2) + number(0, 4) +
+                               number(crc, 4) + number(packed.size(), 4) + number(bytes.size(), 4) +
+                               number(name.size(), 2) + number(0, 2);
+    list_ +=
+        "PK\1\2" + number(20, 2) + number(20, 2) + common + number(0, 10) + number(files_.size(), 4) + name;
+    files_ += "PK\3\4" + number(20, 2) + common + name + packed;
+    ++count_;
+  }
+  std::string bytes() const {
+    return files_ + list_ + "PK\5\6" + number(0, 4) + number(count_, 2) + number(count_, 2) +
+           number(list_.size(), 4) + number(files_.size(), 4) + number(0, 2);
+  }
+
+ private:
+  static std::string number(std::size_t value, int bytes) {
+    std::string text;
+    for (; bytes > 0; --bytes, value >>= 8) text += static_cast<char>(value & 0xFF);
+    return text;
+  }
+  static std::string raw_deflated(const std::string& bytes) {
+    std::string packed(bytes.size() + 100, '\0');
+    z_stream stream{};
+    deflateInit2(&stream, 9, Z_DEFLATED, -MAX_WBITS, 9, Z_DEFAULT_STRATEGY);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_out = static_cast<uInt>(packed.size());
+    deflate(&stream, Z_FINISH);
+    packed.resize(packed.size() - stream.avail_out);
+    deflateEnd(&stream);
+    return packed;
+  }
+
+  std::string files_, list_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("a zip archive with one image is read as this image") {
+  const Scratch scratch;
+  const auto plain = load_image(scratch.write("plain.bin", numbers(4096)));
+  for (const bool deflated : {true, false}) {
+    ZipFile zip;
+    zip.add("folder/", "", false);
+    zip.add("readme.txt", "the rules", deflated);
+    zip.add("__MACOSX/folder/._Game.bin", "fork", deflated);
+    zip.add("folder/Game.bin", numbers(4096), deflated);
+    const auto packed = load_image(scratch.write("collection.zip", zip.bytes()));
+    CHECK(*packed->bytes == *plain->bytes);
+    CHECK(packed->md5 == plain->md5);
+    CHECK(packed->stem == "game");
+  }
+}
+
+TEST_CASE("other archives are refused with the reason") {
+  const Scratch scratch;
+  const auto refusal = [&](const ZipFile& zip) {
+    try {
+      load_image(scratch.write("a.zip", zip.bytes()));
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  ZipFile none, two, bomb, encrypted, small;
+  CHECK_THAT(refusal(none), Contains("a.zip: the zip archive has no file that ends in"));
+  two.add("one.bin", numbers(4096));
+  two.add("two.a26", numbers(2048));
+  CHECK_THAT(refusal(two), Contains("has 2 images") && Contains("one.bin, two.a26"));
+  bomb.add("bomb.bin", std::string(200 * kMaxImageSize, '\0'));
+  CHECK_THAT(refusal(bomb), Contains("bomb.bin in it has more than 524288 bytes"));
+  encrypted.add("secret.bin", numbers(4096), true, 1);
+  CHECK_THAT(refusal(encrypted), Contains("secret.bin in it is encrypted"));
+  CHECK_THROWS_WITH(load_image(scratch.write("a.7z", "7z\xBC\xAF\x27\x1C and more")),
+                    Contains("7z archives"));
+}
+
+TEST_CASE("a damaged zip archive is refused, or its image is whole") {
+  const Scratch scratch;
+  ZipFile zip;
+  zip.add("game.bin", numbers(300));
+  const std::string bytes = zip.bytes();
+  const auto survives = [&](const std::string& damaged) {
+    try {
+      const auto image = load_image(scratch.write("damaged.zip", damaged));
+      return image->bytes->size() == 2048 || damaged.substr(0, 4) != bytes.substr(0, 4);
+    } catch (const InvalidInput&) {
+      return true;
+    }
+  };
+  for (std::size_t size = 4; size < bytes.size(); ++size) CHECK(survives(bytes.substr(0, size)));
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
+    for (const int bits : {0x01, 0x80, 0xFF}) {
+      std::string damaged = bytes;
+      damaged[at] = static_cast<char>(damaged[at] ^ bits);
+      INFO(at);
+      CHECK(survives(damaged));
+    }
+  }
+}
+
+TEST_CASE("an image of 32 to 2047 bytes repeats in 2K, up to their end") {
+  const Scratch scratch;
+  for (const std::size_t size : {32U, 100U, 512U, 1024U, 2047U}) {
+    INFO(size);
+    const auto image = load_image(scratch.write("small.bin", numbers(size)));
+    REQUIRE(image->bytes->size() == 2048);
+    for (std::size_t i = 1; i <= 2048; ++i)
+      REQUIRE((*image->bytes)[2048 - i] == static_cast<std::uint8_t>(size - 1 - (i - 1) % size));
+    CHECK(image->md5 == md5_of(image->file()));
+    CHECK(image->file().size() == size);
+  }
+  CHECK(load_image(scratch.write("tiny.bin", numbers(31)))->bytes->size() == 31);
 }
 
 TEST_CASE("built-in images are loaded by name") {
