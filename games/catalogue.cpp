@@ -43,7 +43,8 @@ bool describes(const Game& game, const Image& image) {
 }
 
 Game with_image(Game game, const GameImage& image) {
-  game.images.push_back(image);
+  const auto same = std::ranges::find(game.images, image.md5, &GameImage::md5);
+  same != game.images.end() ? void(*same = image) : game.images.push_back(image);
   for (std::shared_ptr<const Game>* const variant : {&game.fixed, &game.classic})
     if (*variant) *variant = std::make_shared<const Game>(with_image(**variant, image));
   return game;
@@ -127,9 +128,31 @@ std::shared_ptr<const Game> load_game_file(const std::string& path) {
   return std::make_shared<const Game>(parse_game(text, as_name(stem_of(path)), path));
 }
 
+std::vector<std::shared_ptr<const Game>> load_game_folder(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  std::vector<std::shared_ptr<const Game>> games;
+  std::ranges::transform(files, std::back_inserter(games), load_game_file);
+  return games;
+}
+
+Recognition recognise_among(const Image& image, const std::vector<std::shared_ptr<const Game>>& own) {
+  const auto lists_it = [&](const auto& game) {
+    return std::ranges::find(game->images, image.md5, &GameImage::md5) != game->images.end();
+  };
+  auto found = std::ranges::find_if(own, lists_it);
+  if (found == own.end())
+    found = std::ranges::find(own, image.stem, [](const auto& game) { return game->name; });
+  return found != own.end() ? given(*found, RecognisedBy::kGivenFile, image) : recognise(image);
+}
+
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name,
                       const std::optional<std::string>& game_file) {
   if (game_name && game_file) throw InvalidInput("give the name of a game or a game file, not both");
+  if (game_file && std::filesystem::is_directory(*game_file))
+    return recognise_among(image, load_game_folder(*game_file));
   if (game_file) return given(load_game_file(*game_file), RecognisedBy::kGivenFile, image);
   if (game_name) {
     auto game = find_game(*game_name);
@@ -143,6 +166,13 @@ Recognition recognise(const Image& image, const std::optional<std::string>& game
 
 Recognition recognise_as(const Image& image, const std::shared_ptr<const Game>& game) {
   return given(game, RecognisedBy::kGivenName, image);
+}
+
+std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const Image& image,
+                                       const GivenProperties& given) {
+  if (given.empty()) return game;
+  const Properties properties = given.in(game->properties_for(image.md5));
+  return std::make_shared<const Game>(with_image(*game, {image.md5, properties, game->accepts(image.md5)}));
 }
 
 std::string doubt_about(const Game& game, const Image& image) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "games/game/game.hpp"
+#include "games/game/given_properties.hpp"
 #include "games/rom_image.hpp"
 
 namespace racebeam {
@@ -42,6 +43,9 @@ std::vector<std::string_view> game_names();  // of catalogue(), in its order
 // Loads a game file of the user. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 std::shared_ptr<const Game> load_game_file(const std::string& path);
 
+// Loads all files of a folder that end in .toml. Throws InvalidInput for the first wrong one.
+std::vector<std::shared_ptr<const Game>> load_game_folder(const std::string& folder);
+
 enum class RecognisedBy { kMd5, kGivenName, kGivenFile, kFileName, kNothing };
 
 struct Recognition {
@@ -50,13 +54,22 @@ struct Recognition {
   bool md5_matches = true;  // false: the game's rule was written for another image; the caller should warn
 };
 
-// An explicit name or file wins; else the MD5 decides, else the image's file name. Throws InvalidInput for an
-// unknown name (with suggestions) or an invalid file.
+// An explicit name or file wins; else the MD5 decides, else the image's file name. A folder as game_file is
+// searched with recognise_among(). Throws InvalidInput for an unknown name (with suggestions) or an invalid
+// file.
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name = std::nullopt,
                       const std::optional<std::string>& game_file = std::nullopt);
 
+// The user's game that lists the image's MD5, else the one that is named like it, else as recognise().
+Recognition recognise_among(const Image& image, const std::vector<std::shared_ptr<const Game>>& own);
+
 // The same for a game that the caller knows.
 Recognition recognise_as(const Image& image, const std::shared_ptr<const Game>& game);
+
+// The game with what the user says about the console of this image. Throws InvalidInput if the picture does
+// not fit.
+std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const Image& image,
+                                       const GivenProperties& given);
 
 // Warns that a game's rule was written for another image than this one. Empty if it was not.
 std::string doubt_about(const Game& game, const Image& image);

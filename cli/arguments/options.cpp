@@ -6,6 +6,7 @@
 
 #include "games/catalogue.hpp"
 #include "games/rom_image.hpp"
+#include "system/invalid_input.hpp"
 #include "system/printable.hpp"
 
 namespace racebeam {
@@ -22,6 +23,36 @@ void warn_about(const Recognition& recognition, const Image& image, const Tell& 
         ") is not in the catalogue: it runs without a score; --game NAME or --game-file FILE selects a rule");
   } else if (const std::string doubt = doubt_about(game, image); !doubt.empty()) {
     tell(doubt);
+  }
+}
+
+// The keys of GivenProperties.
+struct ConsoleOption {
+  const char *key, *value, *help;
+};
+constexpr ConsoleOption kConsoleOptions[] = {
+    {"scheme", "NAME", "Cartridge scheme of the image, such as F8; auto: detected"},
+    {"left", "CONTROLLER", "Controller in the left port: joystick or paddles"},
+    {"right", "CONTROLLER", "Controller in the right port: joystick or paddles"},
+    {"format", "FORMAT", "Television standard: auto, ntsc, pal, pal60 or secam"},
+    {"ystart", "LINE", "First line of the picture, 0 to 50"},
+    {"height", "LINES", "Lines of the picture, 100 to 256"},
+};
+
+void add_console_options(Subcommand& command, GivenProperties& console) {
+  for (const auto& [key, value, help] : kConsoleOptions) {
+    const auto refusal = [key = key](const std::string& text) -> std::string {
+      try {
+        GivenProperties{}.give(key, text);
+        return "";
+      } catch (const InvalidInput& error) {
+        return error.what();
+      }
+    };
+    const std::function<void(const std::string&)> set = [&console, key = key](const std::string& text) {
+      console.give(key, text);
+    };
+    command.option("--" + std::string(key), set, help).check({refusal, ""}).value_name(value);
   }
 }
 
@@ -48,7 +79,11 @@ void add_machine_options(Subcommand& command, MachineOptions& options) {
   command.option("--rom", options.rom, "The cartridge image: a file, or builtin:NAME").required();
   const Option game =
       command.option("--game", options.game, "Use the rule of this game of the catalogue (racebeam games)");
-  command.option("--game-file", options.game_file, "Use the rule of this game file").excludes(game);
+  command
+      .option("--game-file", options.game_file,
+              "Use the rule of this game file, or of the file in this folder that is for the image")
+      .excludes(game);
+  add_console_options(command, options.console);
   const auto add_seed = [&command](const std::string& name, std::uint32_t& seed, const std::string& help) {
     command.option(name, seed, help).check(whole_number(0, kMostSeed)).shows_default();
   };
@@ -76,7 +111,7 @@ void tell_on_standard_error(const std::string& sentence) {
 Cartridge open_cartridge(const MachineOptions& options, const Tell& tell) {
   const auto image = load_image(options.rom);
   const Recognition recognition = recognise(*image, options.game, options.game_file);
-  const Cartridge cartridge{image, recognition.game};
+  const Cartridge cartridge{image, with_given(recognition.game, *image, options.console)};
   power_on(cartridge, options);
   warn_about(recognition, *image, tell);
   return cartridge;

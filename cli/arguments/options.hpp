@@ -20,10 +20,12 @@ struct MachineOptions {
   std::optional<std::string> game;       // the rule to use, by name
   std::optional<std::string> game_file;  // the rule to use, from the user's file
   Settings settings;
+  GivenProperties console;
   std::optional<int> mode, difficulty;  // the game's defaults if not given
 };
 
-// Adds --rom --game --game-file --seed --system-seed --frame-skip --sticky --color-averaging --rules --cpu
+// Adds --rom --game --game-file --scheme --left --right --format --ystart --height --seed --system-seed
+// --frame-skip --sticky --color-averaging --rules --cpu
 // --mode --difficulty. Set `options` to the subcommand's defaults first; it must outlive the parsing.
 void add_machine_options(Subcommand& command, MachineOptions& options);
 

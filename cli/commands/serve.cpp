@@ -191,8 +191,12 @@ Images offered_images(const ServeOptions& options) {
   check_folder("--roms", options.roms);
   Images images;
   if (!options.machine.rom.empty())
-    images.add_file(options.machine.rom, options.machine.game, options.machine.game_file);
-  if (!options.roms.empty()) images.add_folder(options.roms);
+    images.add_file(options.machine.rom, options.machine.game, options.machine.game_file,
+                    options.machine.console);
+  const std::string games = options.machine.game_file.value_or("");
+  std::vector<std::shared_ptr<const Game>> own;
+  if (std::filesystem::is_directory(games)) own = load_game_folder(games);
+  if (!options.roms.empty()) images.add_folder(options.roms, own);
   return images;
 }
 

@@ -7,15 +7,13 @@
 #include "emulator/cartridge/cartridge.hpp"
 #include "games/files/game_lists.hpp"
 #include "games/files/toml_section.hpp"
+#include "games/game/given_properties.hpp"
 #include "games/language/rule_compiler.hpp"
 
 namespace racebeam {
 namespace {
 
 constexpr int kLargestMode = 65535, kLargestDifficulty = 3;
-// The picture buffer has 300 lines (docs/spec/tia.md, 2), and PAL makes 250 of the usual 210.
-constexpr int kPictureLines = 300;
-constexpr int kLastYStart = kPictureLines - 250, kLeastHeight = 100, kMostHeight = 256;
 
 // Images
 
@@ -26,7 +24,7 @@ bool is_md5(const std::string& text) {
 }
 
 Properties properties_of(const Section& section) {
-  const std::vector<std::string> controllers = {"joystick", "paddles"};
+  const std::vector<std::string> controllers(kControllerNames.begin(), kControllerNames.end());
   const std::vector<std::string> formats = {"auto", "NTSC", "PAL", "PAL60", "SECAM"};
   const std::vector<std::string> difficulties = {"B", "A"};
   Properties made;

@@ -29,7 +29,8 @@ bool Game::accepts(const std::string& md5) const {
 
 Properties Game::properties_for(const std::string& md5) const {
   Properties properties = entry_for(*this, md5);
-  if (std::ranges::find(kSwappedImages, md5) != std::end(kSwappedImages)) properties.scheme = "F8 swapped";
+  const bool is_swapped = std::ranges::find(kSwappedImages, md5) != std::end(kSwappedImages);
+  if (is_swapped && properties.scheme.empty()) properties.scheme = "F8 swapped";
   return properties;
 }
 

@@ -48,7 +48,7 @@ consteval bool same_names(const One& one, const Other& other) {
   return std::ranges::equal(one, other, [](const auto& a, const auto& b) { return a.name == b.name; });
 }
 
-inline constexpr std::array<Setting, 17> kSettings = {{
+inline constexpr std::array<Setting, 23> kSettings = {{
     {"preset", "none or a preset's name", "a set of settings from the literature; other keys override it"},
     {"seed", "random, or 0 to 4294967295", "seed of everything that is random in play; random: the server chooses one, as with 0"},
     {"system_seed", "0 to 4294967295", "seed of the memory's contents at power-on"},
@@ -66,6 +66,12 @@ inline constexpr std::array<Setting, 17> kSettings = {{
     {"rules", "ale-0.12 or fixed", "rules of score and end: those of the reference, or corrected ones"},
     {"color_averaging", "0 or 1", "blend each screen with the one before it"},
     {"sound", "0 or 1", "generate the samples of the field audio"},
+    {"scheme", "auto or a scheme's name, with _ for a blank", "the cartridge's banks; auto: detected"},
+    {"left", "joystick or paddles", "controller in the left port"},
+    {"right", "joystick or paddles", "controller in the right port"},
+    {"format", "auto, ntsc, pal, pal60 or secam", "television standard; auto: detected"},
+    {"ystart", "0 to 50", "first line of the picture"},
+    {"height", "100 to 256", "lines of the picture; PAL and SECAM make 250 of 210"},
 }};
 
 inline constexpr std::array<Preset, 4> kPresets = {{

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "emulator/cartridge/cartridge.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
@@ -12,31 +13,36 @@ Images::Images() {
 }
 
 void Images::add_file(const std::string& path, const std::optional<std::string>& game,
-                      const std::optional<std::string>& game_file) {
+                      const std::optional<std::string>& game_file, const GivenProperties& console) {
   auto image = load_image(path);
-  Recognition recognition = recognise(*image, game, game_file);
-  const bool certain =
-      recognition.how != RecognisedBy::kFileName && recognition.how != RecognisedBy::kNothing;
-  add({std::move(image), std::move(recognition.game)}, certain);
+  const Recognition recognition = recognise(*image, game, game_file);
+  add(std::move(image), recognition, console);
 }
 
-void Images::add_folder(const std::string& folder) {
+void Images::add_folder(const std::string& folder, const std::vector<std::shared_ptr<const Game>>& own) {
   for (const std::string& path : image_files(folder)) {
     try {
-      add_file(path);
+      auto image = load_image(path);
+      const Recognition recognition = recognise_among(*image, own);
+      add(std::move(image), recognition, {});
     } catch (const InvalidInput&) {
       continue;  // `racebeam roms` reports the error
     }
   }
 }
 
-void Images::add(Cartridge cartridge, bool certain) {
+void Images::add(std::shared_ptr<const Image> image, const Recognition& recognition,
+                 const GivenProperties& console) {
+  const bool certain =
+      recognition.how != RecognisedBy::kFileName && recognition.how != RecognisedBy::kNothing;
+  const Cartridge cartridge{image, with_given(recognition.game, *image, console)};
+  scheme_of(*image->bytes, cartridge.game->properties_for(image->md5).scheme);  // throws
   const auto put = [&](auto& map, const std::string& key) {
     const auto [place, is_new] = map.try_emplace(key, Entry{cartridge, certain});
     if (!is_new && certain && !place->second.certain) place->second = {cartridge, certain};
   };
   put(by_name_, cartridge.game->name);
-  put(by_md5_, cartridge.image->md5);
+  put(by_md5_, image->md5);
 }
 
 const Cartridge* Images::find(std::string_view name) const {

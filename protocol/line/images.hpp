@@ -16,11 +16,12 @@ class Images {
  public:
   Images();  // those that are part of the program
 
-  // Both throw InvalidInput if the path cannot be read. Unreadable files of a folder are left out.
-  // game, game_file: the rule, as for recognise().
+  // Both throw InvalidInput if the path cannot be read, or no cartridge scheme fits the image. Such files of
+  // a folder are left out. game, game_file: the rule, as for recognise(). own: for recognise_among().
   void add_file(const std::string& path, const std::optional<std::string>& game = std::nullopt,
-                const std::optional<std::string>& game_file = std::nullopt);
-  void add_folder(const std::string& folder);
+                const std::optional<std::string>& game_file = std::nullopt,
+                const GivenProperties& console = {});
+  void add_folder(const std::string& folder, const std::vector<std::shared_ptr<const Game>>& own = {});
 
   // name: a game of the catalogue, the stem of an unknown image's file, or an MD5. Returns null if there is
   // no such image.
@@ -33,7 +34,8 @@ class Images {
   std::vector<std::string> doubts() const;  // a warning for each image that another image's rule scores
 
  private:
-  void add(Cartridge cartridge, bool certain);
+  void add(std::shared_ptr<const Image> image, const Recognition& recognition,
+           const GivenProperties& console);
 
   struct Entry {
     Cartridge cartridge;

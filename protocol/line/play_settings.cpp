@@ -10,6 +10,7 @@
 #include <limits>
 #include <system_error>
 
+#include "emulator/cartridge/cartridge.hpp"
 #include "protocol/description/tables.hpp"
 
 namespace racebeam {
@@ -102,6 +103,10 @@ void append_reward_limit(std::string& out, int limit, int none) {
   limit == none ? void(out += "none") : append_number(out, std::int64_t{limit});
 }
 
+Properties properties_of(const Environment& machine) {
+  return machine.game().properties_for(machine.image().md5);
+}
+
 // A short way to write the two functions of a row whose value is a number.
 #define READ(expression) [](PlaySettings& s, std::string_view value) { expression; }
 #define ECHO(expression)                                                               \
@@ -159,6 +164,21 @@ constexpr std::array kSettings = {
     setting("color_averaging", READ(s.machine.color_averaging = flag(value, "color_averaging")),
             ECHO(std::int64_t{s.machine.color_averaging})),
     setting("sound", READ(s.machine.sound = flag(value, "sound")), ECHO(std::int64_t{s.machine.sound})),
+    setting("scheme", READ(s.console.give("scheme", value)),
+            [](std::string& out, const PlaySettings&, const Environment& e) {
+              out += scheme_word(scheme_of(*e.image().bytes, properties_of(e).scheme).name);
+            }),
+    setting("left", READ(s.console.give("left", value)),
+            [](std::string& out, const PlaySettings&, const Environment& e) {
+              out += name_of(properties_of(e).left);
+            }),
+    setting("right", READ(s.console.give("right", value)),
+            [](std::string& out, const PlaySettings&, const Environment& e) {
+              out += name_of(properties_of(e).right);
+            }),
+    setting("format", READ(s.console.give("format", value)), nullptr),
+    setting("ystart", READ(s.console.give("ystart", value)), ECHO(std::int64_t{properties_of(e).ystart})),
+    setting("height", READ(s.console.give("height", value)), nullptr),
 };
 
 #undef READ
@@ -207,6 +227,7 @@ void read_settings(Words words, PlaySettings& settings, Words other_keys) {
 
 void append_settings(std::string& out, const PlaySettings& settings, const Environment& machine) {
   for (const SettingRow& row : kSettings) {
+    if (!row.append) continue;
     ((out += ' ') += row.name) += '=';
     row.append(out, settings, machine);
   }

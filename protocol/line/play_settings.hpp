@@ -9,6 +9,7 @@
 
 #include "environment/environment.hpp"
 #include "environment/input/action_set.hpp"
+#include "games/game/given_properties.hpp"
 #include "protocol/line/words.hpp"
 
 namespace racebeam {
@@ -18,6 +19,7 @@ struct PlaySettings {
 
   Settings machine;
   std::optional<int> mode, difficulty;  // the game's defaults if not given
+  GivenProperties console;
   ActionSet action_set = ActionSet::kFull;
   bool autoreset = false;  // an act after the end of an episode is a reset
   int noop_max = 0;        // an episode begins with 0 to noop_max - 1 frames of NOOP
@@ -29,6 +31,7 @@ struct SettingRow {
   std::string_view accepted;  // for people
   std::string_view summary;
   void (*set)(PlaySettings& settings, std::string_view value);  // throws RequestError
+  // Null if the replies have the key anyway.
   void (*append)(std::string& out, const PlaySettings& settings, const Environment& machine);
 };
 std::span<const SettingRow> setting_rows();

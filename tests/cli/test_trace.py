@@ -72,6 +72,12 @@ class Lines(unittest.TestCase):
     def test_a_difficulty_costs_one_more_reset_and_changes_the_game(self):
         self.assertNotEqual(played(), played("--difficulty", "1"))
 
+    def test_the_console_of_an_image_can_be_told(self):
+        self.assertEqual(played(), played("--scheme", "4K", "--left", "joystick", "--format", "ntsc", "--ystart", "34"))
+        for words in (("--left", "paddles"), ("--ystart", "50"), ("--height", "180"), ("--format", "pal")):
+            with self.subTest(option=words[0]):
+                self.assertNotEqual(played(), played(*words))
+
     def test_color_averaging_changes_screens_and_nothing_else(self):
         plain, blended = played(), played("--color-averaging")
         self.assertEqual([line.split()[:-1] for line in plain], [line.split()[:-1] for line in blended])

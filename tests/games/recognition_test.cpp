@@ -54,6 +54,23 @@ TEST_CASE("a game file that is given wins over the MD5") {
   CHECK_THROWS_WITH(recognise(image(kSeaquest, "seaquest"), "pong", file), Contains("not both"));
 }
 
+TEST_CASE("a folder of game files decides by MD5, then by name, before the catalogue") {
+  const Scratch scratch;
+  scratch.write("first.toml", kGame);
+  scratch.write("pong.toml", kGame + "[[image]]\nmd5 = '" + kSeaquest + "'\n");
+  scratch.write("notes.txt", "no game");
+  const auto found = [&](const std::string& md5, const std::string& stem) {
+    return recognise(image(md5, stem), std::nullopt, scratch.path("")).game;
+  };
+  CHECK(found(kSeaquest, "first")->name == "pong");
+  CHECK(found(kSeaquest, "first")->title == "Mine");
+  CHECK(found(kNobody, "first")->name == "first");
+  CHECK(found(kNobody, "kaboom")->title == "Kaboom!");
+  CHECK_FALSE(found(kNobody, "else")->has_rule());
+  scratch.write("wrong.toml", "title = 1");
+  CHECK_THROWS_WITH(found(kNobody, "else"), Contains("wrong.toml:1: title"));
+}
+
 TEST_CASE("an unknown image runs without a rule, under its file name") {
   const Recognition found = recognise(image(kNobody, "my_demo"));
   CHECK(found.game->name == "my_demo");

@@ -223,6 +223,12 @@ const Cases kSettings = {
     {"color_averaging", "load beamfall seed=7 color_averaging=1", "load beamfall seed=7 color_averaging=0",
      "act FIRE*30\nlook screen"},
     {"sound", kLoadDuel + " sound=1", kLoadDuel + " sound=0", "act NOOP*2\nlook audio"},
+    {"scheme", kLoadDuel + " scheme=2K", kLoadDuel + " scheme=4K", "act NOOP*9\nlook ram"},
+    {"left", kLoadDuel + " left=paddles", kLoadDuel + " left=joystick", "act LEFT\nlook ram"},
+    {"right", kLoadDuel + " right=paddles", kLoadDuel + " right=joystick", "act NOOP/LEFT\nlook ram"},
+    {"format", kLoadDuel + " format=pal", kLoadDuel + " format=ntsc", "look screen"},
+    {"ystart", "load beamfall seed=7 ystart=50", "load beamfall seed=7 ystart=34", "look screen"},
+    {"height", kLoadDuel + " height=200", kLoadDuel + " height=210", "look screen"},
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "emulator/cartridge/cartridge.hpp"
 #include "emulator/tia/registers/register_values.hpp"
 #include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
@@ -37,10 +38,7 @@ void append_words(std::string& out, std::string_view key, const List& words) {
   }
 }
 
-std::string_view format_name(Format format) {
-  constexpr std::array<std::string_view, 5> kNames = {"auto", "ntsc", "pal", "pal60", "secam"};
-  return kNames[static_cast<std::size_t>(format)];
-}
+std::string_view format_name(Format format) { return kFormatNames[static_cast<std::size_t>(format)]; }
 
 [[noreturn]] void refuse_game(const Images& images, std::string_view name) {
   if (find_game(name)) {
@@ -55,6 +53,13 @@ std::string_view format_name(Format format) {
       "there is no game " + quote(name) + ';' + (meant.empty() ? " games lists those that are here" : meant));
 }
 
+void append_console(std::string& out, const Cartridge& cartridge) {
+  const Properties properties = cartridge.game->properties_for(cartridge.image->md5);
+  append_pair(out, "scheme", scheme_word(scheme_of(*cartridge.image->bytes, properties.scheme).name));
+  append_pair(out, "left", name_of(properties.left));
+  append_pair(out, "right", name_of(properties.right));
+}
+
 void describe_game(Session& session, std::string_view name) {
   const Cartridge* cartridge = session.service.images->find(name);
   const auto game = cartridge ? cartridge->game : find_game(name);
@@ -64,6 +69,7 @@ void describe_game(Session& session, std::string_view name) {
   append_pair(out, "game", game->name);
   append_pair(out, "here", cartridge != nullptr);
   if (cartridge) append_pair(out, "md5", cartridge->image->md5);
+  if (cartridge) append_console(out, *cartridge);
   append_pair(out, "rule", game->has_rule());
   append_numbered(out, "modes", game->modes);
   append_numbered(out, "two_player_modes", game->two_player_modes);
@@ -182,6 +188,7 @@ void run_load(Session& session, Words arguments) {
   if (settings.machine.random_seed == 0) settings.machine.random_seed = parse_seed("random");
   // The cache of resets belongs to the process, and would keep the image when the session is gone.
   Cartridge cartridge = find_cartridge(session, arguments[0], words);
+  cartridge.game = with_given(cartridge.game, *cartridge.image, settings.console);
   std::unique_ptr<CodeOwner> own_image;
   if (session.service.images->same(*cartridge.image) == nullptr)
     own_image = std::make_unique<CodeOwner>(cartridge.image->bytes);

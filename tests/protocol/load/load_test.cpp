@@ -58,6 +58,36 @@ TEST_CASE("A refusal of a setting names the value that was given") {
   CHECK_THAT(client.ask("load beamfall as=space_invaders"), !Contains("before it takes"));
 }
 
+TEST_CASE("The console of an image can be told, is shown, and is refused where it does not fit") {
+  LineClient client;
+  const auto shown = [&](const std::string& words) {
+    const std::string reply = client.ask("load beamfall " + words);
+    CHECK(client.ask("settings") == reply);
+    std::string values;
+    for (const char* key : {"scheme", "left", "right", "format", "ystart", "height"})
+      values += (values.empty() ? "" : " ") + value(reply, key);
+    return values;
+  };
+  CHECK(shown("") == "4K joystick joystick ntsc 34 210");
+  CHECK(shown("scheme=auto left=paddles") == "4K paddles joystick ntsc 34 210");
+  CHECK(shown("scheme=2K right=paddles format=PAL ystart=40") == "2K joystick paddles pal 40 250");
+  CHECK(shown("height=180 scheme=CV_4K") == "CV_4K joystick joystick ntsc 34 180");
+  const std::string known = client.ask("games beamfall");
+  CHECK(value(known, "scheme") == "4K");
+  CHECK(value(known, "left") == "joystick");
+  for (const auto& [words, sentence] :
+       {std::pair("scheme=F8", "the cartridge scheme F8 needs an image of at least 8192 bytes"),
+        {"scheme=0840", "the cartridge scheme 0840 is not implemented"},
+        {"scheme=F9", "the cartridge scheme F9 is not known"},
+        {"left=keyboard", "left is 'keyboard'; it takes joystick, paddles"},
+        {"format=hd", "format is 'hd'; it takes auto, ntsc, pal, pal60, secam"},
+        {"height=99", "height is '99'; it takes a whole number from 100 to 256"},
+        {"ystart=51", "ystart is '51'; it takes a whole number from 0 to 50"},
+        {"ystart=50 height=256", "the sum of ystart and height is 306; it must be at most 300"}})
+    CHECK_THAT(client.ask("load beamfall " + std::string(words)),
+               StartsWith("error bad-value " + std::string(sentence)));
+}
+
 TEST_CASE("A random seed is a fresh one, wherever a seed is given") {
   LineClient client;
   const std::string first = value(client.ask("load beamfall seed=random"), "seed");

@@ -1,0 +1,96 @@
+#include "games/game/given_properties.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <span>
+
+#include "emulator/cartridge/cartridge.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::string_view kDetected = "auto";
+
+[[noreturn]] void refuse(std::string_view key, std::string_view value, const std::string& accepted) {
+  constexpr std::size_t kMostShown = 40;
+  throw InvalidInput(std::string(key) + " is '" + std::string(value.substr(0, kMostShown)) + "'; it takes " +
+                     accepted);
+}
+
+std::string lower(std::string_view text) {
+  std::string small(text);
+  std::ranges::transform(small, small.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return small;
+}
+
+template <typename Enum>
+Enum choice(std::string_view key, std::string_view value, std::span<const std::string_view> names) {
+  const auto found = std::ranges::find(names, lower(value));
+  if (found != names.end()) return static_cast<Enum>(found - names.begin());
+  std::string accepted;
+  for (const std::string_view name : names) (accepted += accepted.empty() ? "" : ", ") += name;
+  refuse(key, value, accepted);
+}
+
+int number(std::string_view key, std::string_view value, int least, int most) {
+  int number = 0;
+  const char* const end = value.data() + value.size();
+  const auto [rest, error] = std::from_chars(value.data(), end, number);
+  if (error == std::errc{} && rest == end && number >= least && number <= most) return number;
+  refuse(key, value, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+}
+
+std::string_view scheme(std::string_view value) {
+  if (value == kDetected) return {};
+  const auto names = scheme_names();
+  const auto found = std::ranges::find(names, value, scheme_word);
+  return found != names.end() ? *found : scheme_named(value).name;
+}
+
+}  // namespace
+
+void GivenProperties::give(std::string_view key, std::string_view value) {
+  if (key == "scheme") {
+    scheme = racebeam::scheme(value);
+  } else if (key == "left") {
+    left = choice<Controller>(key, value, kControllerNames);
+  } else if (key == "right") {
+    right = choice<Controller>(key, value, kControllerNames);
+  } else if (key == "format") {
+    format = choice<Format>(key, value, kFormatNames);
+  } else if (key == "height") {
+    height = number(key, value, kLeastHeight, kMostHeight);
+  } else if (key == "ystart") {
+    ystart = number(key, value, 0, kLastYStart);
+  } else {
+    throw InvalidInput("there is no property '" + std::string(key) +
+                       "' of a cartridge; there are scheme, left, right, format, height and ystart");
+  }
+}
+
+bool GivenProperties::empty() const { return !left && !right && !format && !scheme && !ystart && !height; }
+
+Properties GivenProperties::in(Properties properties) const {
+  properties.left = left.value_or(properties.left);
+  properties.right = right.value_or(properties.right);
+  properties.format = format.value_or(properties.format);
+  properties.scheme = scheme.value_or(properties.scheme);
+  properties.ystart = ystart.value_or(properties.ystart);
+  properties.height = height.value_or(properties.height);
+  const int lines = properties.ystart + properties.height;
+  if (lines > kPictureLines)
+    throw InvalidInput("the sum of ystart and height is " + std::to_string(lines) + "; it must be at most " +
+                       std::to_string(kPictureLines));
+  return properties;
+}
+
+std::string scheme_word(std::string_view name) {
+  std::string word(name);
+  std::ranges::replace(word, ' ', '_');
+  return word;
+}
+
+}  // namespace racebeam
