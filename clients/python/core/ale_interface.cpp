@@ -19,11 +19,14 @@ Drawing drawing_for(View view, bool averages) {
 }  // namespace
 
 void AleInterface::load(std::shared_ptr<const Image> image, const std::optional<std::string>& game) {
-  const Recognition found = recognise(*image, game);
-  if (!found.game->has_rule())
+  const std::string& file = keys_.strings.at("game_file");
+  const Recognition found =
+      file.empty() ? recognise(*image, game) : recognise(*image, std::nullopt, std::optional(file));
+  if (!found.game->has_rule() && file.empty() && !keys_.bools.at("unknown_images"))
     throw InvalidInput("no game is known for the image " + image->stem + " with MD5 " + image->md5 +
                        "; name the game whose rule it has, or use an image that `racebeam games` lists");
-  machine_ = std::make_shared<Machine>(lock_, std::move(image), found.game, keys_.settings());
+  auto rules = with_given(found.game, *image, keys_.console());
+  machine_ = std::make_shared<Machine>(lock_, std::move(image), std::move(rules), keys_.settings());
   keys_of_machine_ = keys_;
 }
 

@@ -36,8 +36,9 @@ class AleInterface {
   const Keys& keys() const { return keys_; }
   Lock& lock() const { return *lock_; }
 
-  // The caller holds lock(), for these and all below. Powers a machine on with the present keys. Throws
-  // InvalidInput when no game is known for the image, and `game` names none.
+  // The caller holds lock(), for these and all below. Powers a machine on with the present keys. The game is
+  // that of the key game_file, else `game`, else the image decides. Throws InvalidInput for an image of no
+  // known game, unless the key unknown_images is true.
   void load(std::shared_ptr<const Image> image, const std::optional<std::string>& game);
   bool is_loaded() const { return machine_ != nullptr; }
 

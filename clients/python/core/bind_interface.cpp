@@ -284,7 +284,11 @@ void bind_game(nb::class_<AleInterface>& interface) {
       .def("getGame", [](AleInterface& self) {
             const Turn turn(self.lock());
             return self.environment().game().name;
-          }, "Returns the name of the game.");
+          }, "Returns the name of the game.")
+      .def("doubt", [](AleInterface& self) {
+            const Turn turn(self.lock());
+            return doubt_about(self.environment().game(), self.environment().image());
+          }, "Returns a warning if the game's rule was written for another image, else an empty string.");
 }
 
 // States
@@ -349,11 +353,21 @@ using KeysAsTables =
     std::tuple<Keys::Table<int>, Keys::Table<bool>, Keys::Table<float>, Keys::Table<std::string>>;
 using Loaded = std::tuple<KeysAsTables, std::string, nb::bytes, std::string, nb::bytes>;
 
+// Another version may lack keys.
+template <class Value>
+void take(Keys::Table<Value>& keys, Keys::Table<Value> pickled) {
+  pickled.merge(keys);
+  keys = std::move(pickled);
+}
+
 KeysAsTables as_tables(const Keys& keys) { return {keys.ints, keys.bools, keys.floats, keys.strings}; }
 
 Keys as_keys(const KeysAsTables& tables) {
   Keys keys;
-  std::tie(keys.ints, keys.bools, keys.floats, keys.strings) = tables;
+  take(keys.ints, std::get<0>(tables));
+  take(keys.bools, std::get<1>(tables));
+  take(keys.floats, std::get<2>(tables));
+  take(keys.strings, std::get<3>(tables));
   return keys;
 }
 
@@ -378,7 +392,7 @@ Moment moment_of(AleInterface& self) {
 std::tuple<KeysAsTables, std::optional<Loaded>> pickled(AleInterface& self) {
   const Moment now = moment_of(self);
   if (!now.image) return {as_tables(now.keys), std::nullopt};
-  const std::vector<std::uint8_t>& image = *now.image->bytes;
+  const std::span<const std::uint8_t> image = now.image->file();
   return {as_tables(now.keys),
           Loaded{as_tables(now.keys_of_machine), now.image->stem, nb::bytes(image.data(), image.size()),
                  now.game, as_bytes(now.state.serialize())}};
@@ -391,7 +405,7 @@ void unpickle(AleInterface& self, const std::tuple<KeysAsTables, std::optional<L
     const auto& [keys_of_machine, stem, image, game, state] = *loaded;
     self.keys() = as_keys(keys_of_machine);
     const auto* const begin = static_cast<const std::uint8_t*>(image.data());
-    self.load(make_image({begin, begin + image.size()}, stem), game);
+    self.load(make_image({begin, begin + image.size()}, stem), find_game(game) ? std::optional(game) : std::nullopt);
     restore(self, AleState(std::string(state.c_str(), state.size())));
   }
   self.keys() = as_keys(keys);

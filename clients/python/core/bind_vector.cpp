@@ -1,4 +1,5 @@
 // VectorMachines: what they show goes into arrays that Python made.
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -7,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 #include <span>
 #include <stdexcept>
 
@@ -213,25 +216,43 @@ Bytes screen(VectorMachines& self, std::int64_t machine) {
 
 // Making them
 
-using GivenImage = std::pair<ImageArgument, std::string>;  // and the name of its game
+// And the name of its game; none: the game file's, or the image decides.
+using GivenImage = std::pair<ImageArgument, std::optional<std::string>>;
+using Console = std::map<std::string, std::string>;  // keys and values of GivenProperties
 
-Cartridge cartridge_of(const GivenImage& given) {
+Cartridge cartridge_of(const GivenImage& given, const std::optional<std::string>& game_file,
+                       const Console& console) {
   const auto& [where, game] = given;
-  auto image = image_of(where, game);
-  auto rules = recognise(*image, game).game;
+  GivenProperties properties;
+  for (const auto& [key, value] : console) properties.give(key, value);
+  auto image = image_of(where, game.value_or("bytes"));
+  auto rules = with_given(recognise(*image, game, game_file).game, *image, properties);
   return {std::move(image), std::move(rules)};
 }
 
 void make(VectorMachines* self, const std::vector<GivenImage>& images, const Given<std::int32_t>& of_machines,
-          const BatchSettings& settings) {
+          const BatchSettings& settings, const std::optional<std::string>& game_file,
+          const Console& console) {
   const WithoutGil other_threads_run;
   check_memory(of_machines.size());
   std::vector<Cartridge> games;
-  std::ranges::transform(images, std::back_inserter(games), cartridge_of);
+  for (const GivenImage& image : images) games.push_back(cartridge_of(image, game_file, console));
   std::vector<Cartridge> cartridges;
   for (const std::int32_t game : span_of(of_machines))
     cartridges.push_back(games.at(static_cast<std::size_t>(game)));
   new (self) VectorMachines(cartridges, settings);
+}
+
+// A sentence for each image that the rule of another one scores.
+std::vector<std::string> doubts(VectorMachines& self) {
+  const Turn turn(self.lock());
+  std::set<std::string> sentences;
+  for (std::size_t machine = 0; machine < self.batch().size(); ++machine) {
+    const Cartridge& cartridge = self.cartridge(machine);
+    sentences.insert(doubt_about(*cartridge.game, *cartridge.image));
+  }
+  sentences.erase("");
+  return {sentences.begin(), sentences.end()};
 }
 
 std::vector<std::size_t> numbers_of_actions(VectorMachines& self) {
@@ -265,8 +286,12 @@ void bind_vector(nb::module_& module) {
   const auto results = "results"_a.noconvert();
   nb::class_<VectorMachines>(module, "VectorMachines", "Machines that are stepped together on threads.")
       .def("__init__", make, "images"_a, "of_machines"_a.noconvert(), "settings"_a,
-           nb::sig("def __init__(self, images: list[tuple[str | os.PathLike[str] | bytes, str]], "
-                   "of_machines: NDArray[numpy.int32], settings: VectorSettings) -> None"))
+           "game_file"_a = nb::none(), "console"_a = Console(),
+           nb::sig(
+               "def __init__(self, images: list[tuple[str | os.PathLike[str] | bytes, str | None]], "
+               "of_machines: NDArray[numpy.int32], settings: VectorSettings, game_file: str | None = None, "
+               "console: dict[str, str] = {}) -> None"))
+      .def("doubts", doubts, "Returns a warning for each image that the rule of another image scores.")
       .def("step", step, "actions"_a.noconvert(), results)
       .def("step_joysticks", step_joysticks, "joysticks"_a.noconvert(), "threshold"_a, results)
       .def("send", send, "actions"_a.noconvert(), "machines"_a.noconvert())

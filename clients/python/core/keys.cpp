@@ -43,7 +43,9 @@ Keys::Keys()
            {"freq", 31400},
            {"tiafreq", 31400},
            {"volume", 100},
-           {"fragsize", 64}},
+           {"fragsize", 64},
+           {"height", -1},
+           {"ystart", -1}},
       bools{{"color_averaging", false},
             {"display_screen", false},
             {"restricted_action_set", false},
@@ -52,11 +54,20 @@ Keys::Keys()
             {"sound", false},
             {"sound_obs", false},
             {"truncate_on_loss_of_life", false},
-            {"clipvol", true}},
+            {"clipvol", true},
+            {"unknown_images", false}},
       floats{{"repeat_action_probability", 0.25F}},
-      strings{
-          {"cpu", "low"},   {"palette", "standard"}, {"record_screen_dir", ""}, {"record_sound_filename", ""},
-          {"rom_file", ""}, {"rules", "ale-0.12"}} {}
+      strings{{"cpu", "low"},
+              {"palette", "standard"},
+              {"record_screen_dir", ""},
+              {"record_sound_filename", ""},
+              {"rom_file", ""},
+              {"rules", "ale-0.12"},
+              {"game_file", ""},
+              {"scheme", ""},
+              {"left", ""},
+              {"right", ""},
+              {"format", ""}} {}
 
 Settings Keys::settings() const {
   for (const char* const key : {"record_screen_dir", "record_sound_filename"})
@@ -77,6 +88,15 @@ Settings Keys::settings() const {
   settings.paddle_min = ints.at("paddle_min");
   settings.paddle_max = ints.at("paddle_max");
   return settings;
+}
+
+GivenProperties Keys::console() const {
+  GivenProperties console;
+  for (const char* const key : {"scheme", "left", "right", "format"})
+    if (const std::string& value = strings.at(key); !value.empty()) console.give(key, value);
+  for (const char* const key : {"ystart", "height"})
+    if (const int value = ints.at(key); value != -1) console.give(key, std::to_string(value));
+  return console;
 }
 
 }  // namespace racebeam::python

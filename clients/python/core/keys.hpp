@@ -6,6 +6,7 @@
 #include <string>
 
 #include "environment/settings.hpp"
+#include "games/game/given_properties.hpp"
 
 namespace racebeam::python {
 
@@ -22,6 +23,9 @@ struct Keys {
 
   // Throws InvalidInput for a value that no environment takes. A seed of -1 becomes one from the clock.
   Settings settings() const;
+
+  // What the keys say about the console of the image; -1 and "" say nothing. Throws the same.
+  GivenProperties console() const;
 };
 
 }  // namespace racebeam::python

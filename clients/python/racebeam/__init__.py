@@ -26,6 +26,8 @@ from .wire.opening import connect, launch
 from .wire.session import Session
 
 if TYPE_CHECKING:
+    import os
+
     from .env import AtariEnv
     from .vector_env import AtariVectorEnv
 
@@ -48,6 +50,7 @@ __all__ = [
     "find_images",
     "games",
     "launch",
+    "register",
     "register_ale_ids",
 ]
 
@@ -65,6 +68,27 @@ def register_ale_ids() -> None:
     from .registration import register_ale_ids as register
 
     register()
+
+
+def register(game_file: str | os.PathLike[str], rom: Any, name: str | None = None) -> str:
+    """Registers a game of one's own with Gymnasium.
+
+    Args:
+        game_file: Path of the game file.
+        rom: Path or bytes of the cartridge image.
+        name: Name of the id in camel case. Default: that of the file, such as "MyGame" for my_game.toml.
+
+    Returns:
+        The id, such as "racebeam/MyGame-v5", for `gymnasium.make` and `gymnasium.make_vec`.
+
+    Raises:
+        ImportError: If Gymnasium is not installed.
+        InvalidInput: If the file or the image cannot be read, or is wrong.
+    """
+    _check_gymnasium("register")
+    from .registration import register as register_game
+
+    return register_game(game_file, rom, name)
 
 
 def _check_gymnasium(what: str) -> None:

@@ -9,6 +9,8 @@ from __future__ import annotations
 import enum
 import math
 import operator
+import os
+import warnings
 from collections.abc import Iterable
 from typing import Any, TypeVar
 
@@ -215,3 +217,44 @@ def seconds(name: str, value: Any) -> float | None:
     if number is not None and not 0 < number <= MOST:
         raise WrongValue(f"{name} is {number}; it takes None, or seconds above 0")
     return number
+
+
+# Games and images of one's own
+
+
+def path_of(game_file: Any) -> str | None:
+    """Returns the path of a game file as a string, or None.
+
+    Raises:
+        WrongType: If `game_file` is not a path.
+    """
+    if game_file is None:
+        return None
+    if isinstance(game_file, (str, os.PathLike)) and isinstance(os.fspath(game_file), str):
+        return os.fspath(game_file)
+    raise WrongType(f"game_file is {game_file!r}; it takes a path")
+
+
+def check_source(game: Any, rom: images.Rom | None, game_file: str | None, server: object) -> None:
+    """Checks that the arguments say which image is played by which rules, and only once.
+
+    Raises:
+        WrongValue: If they do not.
+    """
+    if game_file is not None and game is not None:
+        raise WrongValue(f"game is {game!r} and game_file is {game_file!r}; give one of them")
+    if game_file is not None and server is not None:
+        raise WrongValue("game_file is given with server; start the server with --game-file, and name the game")
+    if game is None and rom is None:
+        raise WrongValue("game is None; it takes a name, or None with rom=, or with rom= and game_file=")
+
+
+def console_of(**given: Any) -> dict[str, str]:
+    """Returns the settings of the console that are not None, as texts."""
+    return {key: str(value) for key, value in given.items() if value is not None}
+
+
+def warn_of(doubts: list[str]) -> None:
+    """Warns the caller of an environment's constructor."""
+    for sentence in doubts:
+        warnings.warn(sentence, UserWarning, stacklevel=3)

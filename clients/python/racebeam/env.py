@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numbers
 import operator
+import os
 from typing import Any, Literal, TypeAlias, TypedDict
 
 import gymnasium
@@ -19,14 +20,18 @@ from .arguments import (
     WrongType,
     WrongValue,
     check_choice,
+    check_source,
+    console_of,
     flag,
     image,
     join,
     optional_whole,
+    path_of,
     real,
     seconds,
     share,
     value_or,
+    warn_of,
     whole,
 )
 from .errors import InvalidInput
@@ -85,7 +90,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     is. Calls from two threads take turns.
 
     Args:
-        game: Name of the game, one of `racebeam.games()`.
+        game: Name of the game, one of `racebeam.games()` or of the server's, or None with `rom`.
         mode: Mode of the game, or None for its default.
         difficulty: Difficulty of the game, or None for its default.
         obs_type: Type of the observations, all uint8: "rgb" of shape (height, 160, 3), "grayscale" of shape (height,
@@ -106,6 +111,14 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             they are None.
         rules: "ale-0.12" for the rewards and ends of ALE 0.12, or "fixed" for corrected ones.
         rom: Path or bytes of the cartridge image. Default: the image that `racebeam.find_image` finds.
+        game_file: Path of a game file with the rules of `rom`, instead of `game`. Without both, the image decides; an
+            unknown one has no score.
+        scheme: Cartridge scheme of the image, such as "F8", or "auto". Default: that of the game.
+        left: Controller in the left port, "joystick" or "paddles". Default: that of the game.
+        right: Controller in the right port, "joystick" or "paddles". Default: that of the game.
+        format: Television standard, "ntsc", "pal", "pal60", "secam" or "auto". Default: that of the game.
+        ystart: First line of the picture, 0 to 50. Default: that of the game.
+        height: Lines of the picture, 100 to 256. Default: that of the game.
         two_player: Whether an action is a pair of indices for players A and B. `info` then has `reward_a`, which is
             also the reward, and `reward_b`.
         noop_max: Upper limit of the random number of NOOP frames that begin an episode: 0 to `noop_max` - 1.
@@ -145,7 +158,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
 
     def __init__(
         self,
-        game: str,
+        game: str | None = None,
         mode: int | None = None,
         difficulty: int | None = None,
         obs_type: Literal["rgb", "grayscale", "ram"] = "rgb",
@@ -161,6 +174,13 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         preset: str = "ale",
         rules: str = "ale-0.12",
         rom: Rom | None = None,
+        game_file: str | os.PathLike[str] | None = None,
+        scheme: str | None = None,
+        left: str | None = None,
+        right: str | None = None,
+        format: str | None = None,
+        ystart: int | None = None,
+        height: int | None = None,
         two_player: bool = False,
         noop_max: int | None = None,
         life_loss_ends: bool | None = None,
@@ -177,7 +197,8 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         two_player, continuous = flag("two_player", two_player), flag("continuous", continuous)
         if two_player and continuous:
             raise WrongValue("two_player and continuous are both True; a game for two takes only indices of actions")
-        self._game, self._rom = game, image(rom)
+        self._game, self._rom, self._game_file = game, image(rom), path_of(game_file)
+        check_source(game, self._rom, self._game_file, server)
         self._game_mode, self._game_difficulty = optional_whole("mode", mode), optional_whole("difficulty", difficulty)
         self._obs_type, self._view = obs_type, VIEWS[obs_type]
         self._frameskip = _frameskip(value_or(frameskip, usual.frameskip))
@@ -191,6 +212,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self._sound = flag("sound", sound) and render_mode == "human"
         self._window: Window | None = None
         self._is_closed = False
+        self._name = str(game)
         _check_reward_range(self._reward_range)
         sticky = share(
             "repeat_action_probability", value_or(repeat_action_probability, usual.repeat_action_probability)
@@ -200,11 +222,18 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         )
         life_loss_ends = flag("life_loss_ends", value_or(life_loss_ends, usual.life_loss_ends))
         is_full = flag("full_action_space", value_or(full_action_space, usual.full_action_space))
-        self._check_game(game)
+        if server is None and game is not None:
+            self._check_game(game)
         self.ale: Any = self._interface(server, token, seconds("timeout", timeout))
         self._set_keys(rules, sticky, limit, life_loss_ends)
+        self._set_console(
+            console_of(scheme=scheme, left=left, right=right, format=format),
+            {"ystart": optional_whole("ystart", ystart), "height": optional_whole("height", height)},
+        )
         self.seed_game()
         self.load_game()
+        self._name = str(self.ale.getGame())
+        warn_of(list(filter(None, [self.ale.doubt()])))
         self._set_spaces(is_full)
         self._open_window()
 
@@ -216,11 +245,11 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         return RemoteInterface(server, token, timeout)
 
     def __str__(self) -> str:
-        name = self._game if self.spec is None else self.spec.id
+        name = self._name if self.spec is None else self.spec.id
         return f"<{type(self).__name__}<{name}>>"
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}(game={self._game!r}, obs_type={self._obs_type!r}, frameskip={self._frameskip})"
+        return f"{type(self).__name__}(game={self._name!r}, obs_type={self._obs_type!r}, frameskip={self._frameskip})"
 
     def _set_keys(self, rules: str, sticky: float, limit: int | None, life_loss_ends: bool) -> None:
         """Sets what takes effect when the game is loaded."""
@@ -230,6 +259,16 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             self.ale.setInt("max_num_frames_per_episode", limit)
         self.ale.setBool("truncate_on_loss_of_life", life_loss_ends)
         self.ale.setBool("sound_obs", self.sound_obs or self._sound)
+
+    def _set_console(self, words: dict[str, str], numbers: dict[str, int | None]) -> None:
+        """Sets what the console must know of an image of one's own."""
+        self.ale.setString("game_file", self._game_file or "")
+        self.ale.setBool("unknown_images", self._game is None)
+        for key, word in words.items():
+            self.ale.setString(key, word)
+        for key, number in numbers.items():
+            if number is not None:
+                self.ale.setInt(key, number)
 
     # Seeds and images
 
@@ -261,7 +300,8 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         if isinstance(self.ale, RemoteInterface):
             self.ale.loadROM(self._rom, self._game)
         else:
-            self.ale.loadROM(images.find(self._game) if self._rom is None else self._rom, self._game)
+            rom = images.find(str(self._game)) if self._rom is None else self._rom
+            self.ale.loadROM(rom, self._game)
         mode = self._mode_for_two() if self._two_player else self._mode_for_one()
         if mode is not None:
             self.ale.setMode(mode)
@@ -276,7 +316,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             and self._game_mode not in offered
         ):
             raise InvalidInput(
-                f"{self._game} has mode {self._game_mode} only for two, which two_player=True plays; "
+                f"{self._name} has mode {self._game_mode} only for two, which two_player=True plays; "
                 f"for one it offers {join(offered)}"
             )
         return self._game_mode
@@ -284,11 +324,11 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     def _mode_for_two(self) -> int:
         offered: list[int] = self.ale.getTwoPlayerModes()
         if not offered:
-            raise InvalidInput(f"two_player is True, but {self._game} has no mode for two")
+            raise InvalidInput(f"two_player is True, but {self._name} has no mode for two")
         if self._game_mode is None:
             return offered[0]
         if self._game_mode not in offered:
-            raise InvalidInput(f"{self._game} has no mode {self._game_mode} for two; it offers {join(offered)}")
+            raise InvalidInput(f"{self._name} has no mode {self._game_mode} for two; it offers {join(offered)}")
         return self._game_mode
 
     # Spaces
@@ -525,7 +565,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     def _open_window(self) -> None:
         if self.render_mode == "human":
             height, width = self.ale.getScreenDims()
-            self._window = Window(images.titles()[self._game], width, height, self._sound)
+            self._window = Window(images.titles().get(self._name, self._name), width, height, self._sound)
 
     def _show_window(self) -> None:
         if self._window is None:
@@ -579,11 +619,11 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             self._window = None
         if isinstance(self.ale, RemoteInterface):
             self.ale.close()
-        self.ale = _Closed(self._game)
+        self.ale = _Closed(self._name)
 
     def _check_open(self, what: str) -> None:
         if self._is_closed:
-            raise _closed_error(what, self._game)
+            raise _closed_error(what, self._name)
 
 
 class _Closed:

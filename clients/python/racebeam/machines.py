@@ -69,5 +69,8 @@ class Machines(Protocol):
     def actions_of(self, machine: int) -> list[int]:
         """Returns the action set of a machine, as numbers of `Action`."""
 
+    def doubts(self) -> list[str]:
+        """Returns a warning for each image that the rule of another image scores."""
+
     def height(self) -> int:
         """Returns the rows of the screens."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib.abc
 import importlib.machinery
+import os
+import pathlib
 import sys
 import types
 from collections.abc import Sequence
@@ -13,7 +15,14 @@ import gymnasium
 
 from . import ale_games, images
 
-__all__ = ["register_ale_ids", "register_own_ids", "register_v0_v4_envs", "register_v5_envs", "rom_id_to_name"]
+__all__ = [
+    "register",
+    "register_ale_ids",
+    "register_own_ids",
+    "register_v0_v4_envs",
+    "register_v5_envs",
+    "rom_id_to_name",
+]
 
 ALE_PACKAGE = "racebeam.ale_py"
 FRAMES_OF_AN_EPISODE = 108000
@@ -79,6 +88,30 @@ def register_own_ids() -> None:
         _register(f"{name}-v5", "racebeam", True, game=game, preset="gym-v5")
         every_frame = {"frameskip": 1, "repeat_action_probability": 0.0}
         _register(f"{name}NoFrameskip-v4", "racebeam", False, game=game, preset="gym-v5", **every_frame)
+
+
+def register(game_file: str | os.PathLike[str], rom: images.Rom, name: str | None = None) -> str:
+    """Registers a game of one's own, with the settings of ALE/Pong-v5.
+
+    Args:
+        game_file: Path of the game file.
+        rom: Path or bytes of the cartridge image.
+        name: Name of the id in camel case. Default: that of the file, such as "MyGame" for my_game.toml.
+
+    Returns:
+        The id, such as "racebeam/MyGame-v5", for `gymnasium.make` and `gymnasium.make_vec`.
+
+    Raises:
+        InvalidInput: If the file or the image cannot be read, or is wrong.
+    """
+    from .env import AtariEnv
+
+    path = os.path.abspath(game_file)
+    image = rom if isinstance(rom, bytes) or str(rom).startswith(images.BUILT_IN) else os.path.abspath(rom)
+    AtariEnv(game_file=path, rom=image).close()
+    env_id = f"racebeam/{name or rom_id_to_name(pathlib.Path(path).stem)}-v5"
+    _register(env_id, "racebeam", True, game_file=path, rom=image, preset="gym-v5")
+    return env_id
 
 
 def _v5_ids() -> dict[str, str]:

@@ -14,7 +14,19 @@ from gymnasium import error, spaces
 from gymnasium.vector.utils import batch_space
 
 from . import _core, images, xla
-from .arguments import WrongType, WrongValue, image, real, seconds, value_or, whole
+from .arguments import (
+    WrongType,
+    WrongValue,
+    check_source,
+    console_of,
+    image,
+    path_of,
+    real,
+    seconds,
+    value_or,
+    warn_of,
+    whole,
+)
 from .autoreset import AutoresetMode, VectorEnv, check_supported
 from .errors import InvalidInput
 from .machines import Actions, Joysticks, Machines
@@ -94,6 +106,14 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         stack_start: Whether the first stack of an episode has "zeros", or "repeats" of its first screen.
         rules: "ale-0.12" for the rewards and ends of ALE 0.12, or "fixed" for corrected ones.
         rom: Path or bytes of the cartridge image. Default: the image that `racebeam.find_image` finds.
+        game_file: Path of a game file with the rules of `rom`, instead of `game`. Without both, the image decides; an
+            unknown one has no score.
+        scheme: Cartridge scheme of the images, such as "F8", or "auto". Default: those of the games.
+        left: Controller in the left port, "joystick" or "paddles". Default: that of the game.
+        right: Controller in the right port, "joystick" or "paddles". Default: that of the game.
+        format: Television standard, "ntsc", "pal", "pal60", "secam" or "auto". Default: that of the game.
+        ystart: First line of the picture, 0 to 50. Default: that of the game.
+        height: Lines of the picture, 100 to 256. Default: that of the game.
         seed: Seed of the first environment, from which seeds count up. The first `reset` uses it. Default: random.
         render_mode: "rgb_array" makes `render` return the screens. "human" opens a window, which shows the first 16
             environments at 60 frames per second.
@@ -138,7 +158,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
     def __init__(
         self,
-        game: str | Sequence[str],
+        game: str | Sequence[str] | None = None,
         num_envs: int | None = None,
         *,
         batch_size: int = 0,
@@ -170,6 +190,13 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         stack_start: str = "zeros",
         rules: str = "ale-0.12",
         rom: Rom | None = None,
+        game_file: str | os.PathLike[str] | None = None,
+        scheme: str | None = None,
+        left: str | None = None,
+        right: str | None = None,
+        format: str | None = None,
+        ystart: int | None = None,
+        height: int | None = None,
         seed: SupportsIndex | None = None,
         render_mode: Literal["human", "rgb_array"] | None = None,
         server: str | Sequence[str] | None = None,
@@ -177,7 +204,10 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         timeout: float | None = None,
     ) -> None:
         check_supported("AtariVectorEnv")
-        names, game_of_env = self._parse_games(game, num_envs)
+        rom, own_file = image(rom), path_of(game_file)
+        check_source(game, rom, own_file, server)
+        names, game_of_env = self._parse_games(game, num_envs, server is None)
+        console = console_of(scheme=scheme, left=left, right=right, format=format, ystart=ystart, height=height)
         usual = vector_preset(preset)
         options = VectorOptions(
             num_envs=len(game_of_env),
@@ -209,17 +239,19 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             seed=value_or(seed, secrets.randbits(32)),
         )
         self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
-        rom = image(rom)
         if server is None:
-            machines = make_local_machines(names, game_of_env, rom, options)
+            machines = make_local_machines(names, game_of_env, rom, options, own_file, console)
+        elif console:
+            raise WrongValue(f"{' and '.join(console)} are given with server; AtariEnv takes both")
         else:
             machines = _remote_machines(names, rom, options, server, token, seconds("timeout", timeout))
+        warn_of(machines.doubts())
         self._use(machines, names, game_of_env, options, None if seed is None else options.seed)
 
     def _use(
         self,
         machines: Machines,
-        names: list[str],
+        names: list[str | None],
         game_of_env: Numbers,
         options: VectorOptions,
         first_seed: int | None = None,
@@ -253,10 +285,16 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             title = images.titles()[names[0]] if len(names) == 1 else "racebeam"
             self._window = Grid(title, self.num_envs, SCREEN_WIDTH, self._machines.height())
 
-    def _parse_games(self, game: str | Sequence[str], num_envs: int | None) -> tuple[list[str], Numbers]:
-        """Returns the names of the games, and for each environment the index of its game."""
-        if isinstance(game, str):
-            self._check_game(game)
+    def _parse_games(
+        self, game: str | Sequence[str] | None, num_envs: int | None, is_local: bool = True
+    ) -> tuple[list[str | None], Numbers]:
+        """Returns the names of the games, and for each environment the index of its game.
+
+        A server checks its names itself, since it may know others.
+        """
+        if isinstance(game, str) or game is None:
+            if game is not None and is_local:
+                self._check_game(game)
             return [game], np.zeros(whole("num_envs", value_or(num_envs, 1), 1, MOST_ENVS), np.int32)
         if not isinstance(game, Sequence):
             raise WrongType(f"game is {game!r}; it takes a name, or a list of names")
@@ -266,9 +304,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         for name in game:
             if not isinstance(name, str):
                 raise WrongType(f"game has {name!r} in its list; it takes names of games")
-        names = list(dict.fromkeys(game))
+        names: list[str | None] = list(dict.fromkeys(game))
         for name in names:
-            self._check_game(name)
+            self._check_game(str(name))
         return names, np.array([names.index(name) for name in game], np.int32)
 
     def _make_spaces(self) -> None:
@@ -687,7 +725,14 @@ def _closed_error() -> error.ClosedEnvironmentError:
     return error.ClosedEnvironmentError("these environments were closed; make new ones")
 
 
-def make_local_machines(names: list[str], game_of_env: Numbers, rom: Rom | None, options: VectorOptions) -> Machines:
+def make_local_machines(
+    names: list[str | None],
+    game_of_env: Numbers,
+    rom: Rom | None,
+    options: VectorOptions,
+    game_file: str | None = None,
+    console: dict[str, str] | None = None,
+) -> Machines:
     """Makes the machines of a vector in this process.
 
     Args:
@@ -695,6 +740,8 @@ def make_local_machines(names: list[str], game_of_env: Numbers, rom: Rom | None,
         game_of_env: For each environment, the index of its game.
         rom: Path or bytes of the image, or None to find the images.
         options: Options of the environments.
+        game_file: Path of a game file, or None.
+        console: What the console must know of the images, as texts.
 
     Returns:
         The machines.
@@ -705,12 +752,12 @@ def make_local_machines(names: list[str], game_of_env: Numbers, rom: Rom | None,
     """
     if len(names) > 1 and rom is not None:
         raise WrongValue(f"there are {len(names)} games; rom and server take one")
-    found = [(images.find(name) if rom is None else rom, name) for name in names]
-    return _core.VectorMachines(found, game_of_env, options.core_settings())
+    found = [(images.find(str(name)) if rom is None else rom, name) for name in names]
+    return _core.VectorMachines(found, game_of_env, options.core_settings(), game_file, console or {})
 
 
 def _remote_machines(
-    names: list[str],
+    names: list[str | None],
     rom: Rom | None,
     options: VectorOptions,
     server: str | Sequence[str],

@@ -168,6 +168,8 @@ class RemoteInterface:
             "rules": keys.getString("rules"),
             "color_averaging": int(keys.getBool("color_averaging")),
             "sound": int(keys.getBool("sound_obs")),
+            **{key: keys.getString(key) for key in ("scheme", "left", "right", "format") if keys.getString(key)},
+            **{key: keys.getInt(key) for key in ("ystart", "height") if keys.getInt(key) != -1},
             **{side: NO_LIMITS.get(limit, limit) for side, limit in limits.items()},
         }
 
@@ -212,8 +214,12 @@ class RemoteInterface:
 
     def _image_to_send(self, game: str | None) -> str | None:
         """Returns the path of an image, or None if the server has one."""
-        images.check_name(str(game))
-        if int(self.session.game(str(game))["here"]) == 1:
+        try:
+            is_here = int(self.session.game(str(game))["here"]) == 1
+        except Refused:
+            images.check_name(str(game))
+            raise
+        if is_here:
             return None
         try:
             return images.find(str(game))
@@ -224,6 +230,17 @@ class RemoteInterface:
     def getGame(self) -> str:
         """Returns the name of the game."""
         return str(self.ask(self.session.settings)["game"])
+
+    @_exclusive
+    def doubt(self) -> str:
+        """Returns a warning if the game's rule was written for another image, else an empty string."""
+        shown = self.ask(self.session.settings)
+        if shown.get("image") != "other":
+            return ""
+        return (
+            f"the MD5 of this image, {shown['md5']}, is not that of the image which the rule of '{shown['game']}' was "
+            "written for; score and end may be wrong"
+        )
 
     def _list(self, key: str, command: str) -> list[int]:
         return [int(number) for number in self.ask(self.session.list_of, key, command)]

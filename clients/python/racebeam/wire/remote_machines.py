@@ -176,6 +176,10 @@ class RemoteMachines(Halves):
         """Returns the action set of a machine, as numbers of `Action`."""
         return self._actions
 
+    def doubts(self) -> list[str]:
+        """Returns a warning if the rule of another image scores this one."""
+        return list(filter(None, [self._machine.doubt()]))
+
     def height(self) -> int:
         """Returns the rows of the screens."""
         height, _ = self._machine.getScreenDims()
