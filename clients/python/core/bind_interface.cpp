@@ -405,7 +405,8 @@ void unpickle(AleInterface& self, const std::tuple<KeysAsTables, std::optional<L
     const auto& [keys_of_machine, stem, image, game, state] = *loaded;
     self.keys() = as_keys(keys_of_machine);
     const auto* const begin = static_cast<const std::uint8_t*>(image.data());
-    self.load(make_image({begin, begin + image.size()}, stem), find_game(game) ? std::optional(game) : std::nullopt);
+    self.load(make_image({begin, begin + image.size()}, stem),
+              find_game(game) ? std::optional(game) : std::nullopt);
     restore(self, AleState(std::string(state.c_str(), state.size())));
   }
   self.keys() = as_keys(keys);
