@@ -70,7 +70,6 @@ void Beam::aim(FrameBuffer& picture, const FrameBuffer* other, RenderMode mode, 
   unsought_ = draws_pixels() ? Collisions{0} : static_cast<Collisions>(~sought);
   sought_objects_ = objects_of(static_cast<Collisions>(~unsought_));
   cleared_ = false;
-  spans_ = 0;
   look_afresh();
   if (!draws_pixels()) meetings_ = unsought_ | tia_.collisions;
 }
@@ -186,7 +185,6 @@ RACEBEAM_INLINE void Beam::draw_visible(std::uint8_t* row, int first, int last) 
   }
   const bool score = (tia_.enabled & object_bit(kPlayfield)) != 0 && (tia_.ctrlpf & 2) != 0;
   seen_ |= tia_.enabled | kLit | (score ? kScoreSeen : 0);
-  ++spans_;
   collide(first, last);
   if (draws_pixels()) draw_pixels_(line_, tia_, row, first, last);
   if (exact_spans()) spill(row, first, last);

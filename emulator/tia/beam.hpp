@@ -116,8 +116,6 @@ class Beam {
   }
   bool cleared() const { return cleared_; }  // the collisions, since the step began
 
-  std::uint32_t spans() const { return spans_; }  // processed since the step began
-
   bool exact_spans() const { return mode_ == RenderMode::kExact; }
   bool draws_pixels() const { return mode_ != RenderMode::kNone; }
 
@@ -181,7 +179,6 @@ class Beam {
   Collisions unsought_ = 0;  // pairs that are not sought
   std::uint8_t sought_objects_ = 0;
   bool cleared_ = false;
-  std::uint32_t spans_ = 0;
   std::int32_t forgotten_ = 0;  // up to this pixel, forget_row() has been called
   RenderMode mode_ = RenderMode::kDrawn;
 };

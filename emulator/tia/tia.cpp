@@ -50,9 +50,6 @@ bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::
                     [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
 }
 
-// Instructions of the host, as counted in some games.
-constexpr std::uint32_t kWorkOfWrite = 60, kWorkOfRecall = 110, kWorkOfLikeness = 300, kWorkOfMiss = 200;
-
 }  // namespace
 
 void Tia::begin_frame() {
@@ -66,7 +63,6 @@ void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& l
                      Collisions sought) {
   beam_.aim(picture, other, mode, sought);
   asked_ = 0;
-  work_ = 0;
   watches_ = beam_.may_meet() || tia_.cosmic;
   log_ = &log;
   played_ = log.next;
@@ -95,7 +91,6 @@ bool Tia::follow_log() {
   skip(end_of_unseen());
   const TrackPolicy painter{beam_, tia_, reached_, watches_};
   painter.enabled();
-  work_ += kWorkOfWrite * static_cast<std::uint32_t>(log_->next - played_);
   RegisterEffects(tia_, frame_, video_, painter).play(played_, log_->next, log_->base);
   played_ = log_->next;
   return true;
@@ -139,7 +134,6 @@ bool Tia::stopped_inside(std::int32_t cycle) const {
 
 // Plays write by write, up to `next`.
 void Tia::play(const std::uint32_t* next) {
-  work_ += kWorkOfWrite * static_cast<std::uint32_t>(next - played_);
   RegisterEffects(tia_, frame_, video_, RenderPolicy{beam_, reached_}).play(played_, next, log_->base);
   played_ = next;
   if (beam_.exact_spans()) beam_.draw_to(reached_);
@@ -225,7 +219,6 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
     played_ = next;
     tia_.collisions |= record->meetings;
   }
-  work_ += kWorkOfRecall * static_cast<std::uint32_t>(record - first) + kWorkOfMiss;
   if (record == first) return enough;
   beam_.lose_track();
   registers.write(tia_);
@@ -239,7 +232,6 @@ void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
   tia_.enabled = enabled_objects(tia_);
   tia_.comb_armed = record.end.comb_armed;
   beam_.end_line();
-  work_ += kWorkOfLikeness;
   if (record.mask == nullptr) record.summarize(video_.pal);
 }
 

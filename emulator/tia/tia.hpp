@@ -26,11 +26,9 @@ class Tia {
   void empty_log(std::int32_t cycle);  // the same, and empties the log, whose cycles then count from `cycle`
   void touch(std::int32_t cycle);      // an access that changes no register: draws up to it
   void catch_up(std::int32_t cycle);   // plays all writes, and draws up to `cycle`
-  void find_collisions(std::int32_t cycle, Collisions asked);  // computes these latches as of `cycle`
-  Collisions asked() const { return asked_; }                  // latches that have been read in this step
-  bool cleared() const { return beam_.cleared(); }             // whether all latches have been, in this step
-  // Of this step: an estimate of the host's instructions.
-  std::uint32_t work() const { return work_ + 250 * beam_.spans(); }
+  void find_collisions(std::int32_t cycle, Collisions asked);   // computes these latches as of `cycle`
+  Collisions asked() const { return asked_; }                   // latches that have been read in this step
+  bool cleared() const { return beam_.cleared(); }              // whether all latches have been, in this step
   bool drew_all() const { return tia_.cursor >= beam_.end(); }  // whether the window is complete
   // catch_up() at the end of a picture. Returns false if an access that is not in the log may have left
   // visible pixels.
@@ -67,7 +65,6 @@ class Tia {
   const std::uint32_t* played_ = nullptr;  // entries up to here have been played
   LineRecord* recorded_ = nullptr;         // the cursor's line, as far as it has been drawn
   Collisions asked_ = 0;
-  std::uint32_t work_ = 0;
   bool watches_ = false;  // objects of a sought pair may meet, in a step without pixels
   // The clock that the reference's beam has reached; ours may be behind, with the same registers.
   std::int32_t reached_ = 0;
