@@ -79,6 +79,19 @@ class Sarsa:
         self.most_active, self.first_reward = 1, 0.0
         self.random, self.learning = Random(seed), True
 
+    def keep(self, path):
+        """Writes what was learned into a file."""
+        with open(path, "wb") as file:
+            np.savez_compressed(file, weights=self.weights, learned=[self.most_active, self.first_reward])
+
+    def restore(self, path):
+        """Reads a file of keep()."""
+        with np.load(path) as file:
+            weights, (self.most_active, self.first_reward) = file["weights"], file["learned"].tolist()
+        if weights.shape != self.weights.shape:
+            raise ValueError(f"its weights have the shape {weights.shape}, not {self.weights.shape}")
+        self.weights = weights
+
     def begin(self, features):
         self.traces[self.live] = 0
         self.live = np.empty(0, np.intp)
@@ -133,9 +146,11 @@ class Sarsa:
         self.live = live[decayed >= LEAST_TRACE]
 
 
-def play(session, agent, basic, load):
-    """Plays an episode. Returns its score and the actions."""
+def play(session, agent, basic, load, film):
+    """Plays an episode, and records it as `film` if that is a name. Returns its score and the actions."""
     session.load(**load)
+    if film:
+        session.record("gif", film)
     session.observe("reward", "ends", "screen:zlib")
     score, actions = 0, [agent.begin(basic.active(session.look("screen:zlib")["screen"]))]
     while True:
@@ -143,6 +158,8 @@ def play(session, agent, basic, load):
         score += reply["reward"]
         if reply["terminated"] or reply["truncated"]:
             agent.end(reply["reward"])
+            if film:
+                session.stop_recording()
             return score, actions
         actions.append(agent.next(reply["reward"], basic.active(reply["screen"])))
 
@@ -163,6 +180,18 @@ def draw(path, scores, title):
     pyplot.savefig(path, dpi=120)
 
 
+def show_progress(done, total, start):
+    """Shows how far the program is, and how long it still takes, if a person looks on."""
+    if sys.stderr.isatty():
+        left = (time.monotonic() - start) * (total - done) / done
+        print(
+            f"\r[{'#' * (30 * done // total):30}] {done} of {total} episodes, {left:.0f} s left ",
+            end="",
+            file=sys.stderr,
+        )
+        print(end="\n" if done == total else "", file=sys.stderr, flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("server", help="the program racebeam, or the address of a server, such as tcp://HOST:PORT")
@@ -181,22 +210,41 @@ def main():
     )
     parser.add_argument("--actions", action="store_true", help="print the actions of each episode")
     parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores")
+    parser.add_argument("--keep", metavar="FILE", help="the file for what was learned, at the end")
+    parser.add_argument("--play", metavar="FILE", help="begin with what this file has; --training 0 only plays")
+    parser.add_argument(
+        "--film", metavar="NAME", help="record the last episode as NAME.gif, in the folder of a server if it has one"
+    )
     options = parser.parse_args()
+    episodes = options.training + options.evaluation
     background = np.zeros(WIDTH * HEIGHT, np.uint8)
     if options.background:
         try:
             background = np.loadtxt(options.background, np.uint8, delimiter=",").reshape(WIDTH * HEIGHT)
         except (OSError, ValueError) as error:
             sys.exit(f"sarsa.py: --background is {options.background!r}: {error}; it takes 210 lines of 160 colours")
+    agent, basic = Sarsa(Basic.SIZE, options.agent_seed), Basic(background)
+    if options.play:
+        try:
+            agent.restore(options.play)
+        except (OSError, ValueError, KeyError) as error:
+            sys.exit(f"sarsa.py: --play is {options.play!r}: {error}; it takes a file of --keep")
     try:
-        opened = connect(options.server) if ":" in options.server else Session.start(options.server)
+        opened = (
+            connect(options.server) if ":" in options.server else Session.start(options.server, "--record-dir", ".")
+        )
     except (OSError, ValueError, Refused) as error:
         sys.exit(f"sarsa.py: no server at {options.server}: {error}")
-    agent, basic = Sarsa(Basic.SIZE, options.agent_seed), Basic(background)
+    print(
+        f"plan: {options.training} episodes with learning and {options.evaluation} without, "
+        f"of {options.frames:,} frames at most",
+        file=sys.stderr,
+    )
     start, decisions, scores = time.monotonic(), 0, []
     with opened as session:
-        for episode in range(options.training + options.evaluation):
+        for episode in range(episodes):
             agent.learning = episode < options.training
+            film = options.film if episode == episodes - 1 else None
             score, actions = play(
                 session,
                 agent,
@@ -207,6 +255,7 @@ def main():
                     "seed": options.seed + episode,
                     "max_episode_frames": options.frames,
                 },
+                film,
             )
             decisions += len(actions)
             scores.append(score)
@@ -216,6 +265,9 @@ def main():
                 f"episode {episode + 1}: score {score} in {len(actions)} decisions",
                 *actions if options.actions else [],
             )
+            show_progress(episode + 1, episodes, start)
+    if options.keep:
+        agent.keep(options.keep)
     print(f"{decisions / (time.monotonic() - start):.0f} decisions a second", file=sys.stderr)
     if options.curve:
         draw(options.curve, scores, f"SARSA on {options.game}")

@@ -52,6 +52,33 @@ class Examples(unittest.TestCase):
         )
         self.assertEqual(len(re.findall(r"training episode \d+: score \d+", said)), 3)
 
+    def test_what_sarsa_learned_is_kept_and_played_and_filmed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            learned, play = pathlib.Path(folder, "learned"), ("--frames", 3000, "--evaluation", 1, "--training")
+            first = self.run_example("sarsa.py", racebeam.program.path(), *play, 2, "--keep", learned)
+            again = [
+                self.run_example("sarsa.py", racebeam.program.path(), *play, 0, "--seed", 3, "--play", learned)
+                for _ in range(2)
+            ]
+            self.assertEqual(*again)
+            self.assertRegex(again[0], r"^evaluation episode 1: score \d+ in \d+ decisions\n$")
+            self.assertRegex(first, r"evaluation episode 3: score \d+")
+            said = subprocess.run(
+                [sys.executable, CLIENT / "sarsa.py", racebeam.program.path(), "--training", "1", "--film", "film"],
+                capture_output=True,
+                text=True,
+                cwd=folder,
+            )
+            self.assertRegex(said.stderr, r"^plan: 1 episodes with learning and 0 without, of 18,000 frames at most\n")
+            self.assertEqual(pathlib.Path(folder, "film.gif").read_bytes()[:6], b"GIF89a")
+            pathlib.Path(folder, "wrong").write_bytes(b"x")
+            said = subprocess.run(
+                [sys.executable, CLIENT / "sarsa.py", racebeam.program.path(), "--play", pathlib.Path(folder, "wrong")],
+                capture_output=True,
+                text=True,
+            )
+            self.assertRegex(said.stderr, r"sarsa.py: --play is '.*wrong': .*; it takes a file of --keep\n$")
+
     @needs("jax", "optax", "matplotlib")
     def test_ppo_on_ram(self):
         said = self.run_example("examples/ppo.py", "updraft", "--steps", 8192, "--curve", "CURVE")
