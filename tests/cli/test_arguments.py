@@ -130,13 +130,19 @@ class Options(Case):
 
     def test_what_the_console_of_an_image_does_not_take(self):
         for command, *words in MACHINES:
-            for option, value, reason in (("--scheme", "0840", "the cartridge scheme 0840 is not implemented"),
-                                          ("--left", "keyboard", "joystick, paddles"), ("--right", "", "joystick, paddles"),
-                                          ("--format", "hd", "auto, ntsc, pal, pal60, secam"),
-                                          ("--height", "99", "from 100 to 256"), ("--ystart", "51", "from 0 to 50")):
+            for option, value, reason in (
+                ("--scheme", "0840", "the cartridge scheme 0840 is not implemented"),
+                ("--left", "keyboard", "joystick, paddles"),
+                ("--right", "", "joystick, paddles"),
+                ("--format", "hd", "auto, ntsc, pal, pal60, secam"),
+                ("--height", "99", "from 100 to 256"),
+                ("--ystart", "51", "from 0 to 50"),
+            ):
                 with self.subTest(command=command, option=option):
                     self.refused(2, option + ".*" + reason, command, "--rom", GAME, *words, option, value)
-            self.refused(1, "scheme F8 needs an image of at least 8192", command, "--rom", GAME, *words, "--scheme", "F8")
+            self.refused(
+                1, "scheme F8 needs an image of at least 8192", command, "--rom", GAME, *words, "--scheme", "F8"
+            )
 
     def test_what_is_missing_is_named(self):
         self.refused(2, "--rom is required", "trace", "--actions", "-")

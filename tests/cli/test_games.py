@@ -113,8 +113,10 @@ class Roms(unittest.TestCase):
 
     def test_archives_are_looked_into_and_what_is_no_cartridge_is_unusable(self):
         image = bytes(range(256)) * 16
-        for name, files in (("one.zip", {"pong.bin": image, "readme.txt": b"hello"}),
-                            ("two.zip", {"a.bin": image, "b.bin": image})):
+        for name, files in (
+            ("one.zip", {"pong.bin": image, "readme.txt": b"hello"}),
+            ("two.zip", {"a.bin": image, "b.bin": image}),
+        ):
             with zipfile.ZipFile(os.path.join(self.folder, name), "w", zipfile.ZIP_DEFLATED) as archive:
                 for file, data in files.items():
                     archive.writestr(file, data)
@@ -123,12 +125,24 @@ class Roms(unittest.TestCase):
         self.put("modern.bin", image[:700] + b"DPC+" + bytes(32768 - 704))
         self.put("small.bin", image[:1024])
         found, _ = self.findings()
-        self.assertEqual({name: (image["verdict"], image["scheme"]) for name, image in found.items()},
-                         {"one.zip": ("by-name", "2K"), "two.zip": ("unusable", ""), "seven.7z": ("unusable", ""),
-                          "odd.bin": ("unusable", ""), "modern.bin": ("unusable", ""), "small.bin": ("unknown", "2K")})
+        self.assertEqual(
+            {name: (image["verdict"], image["scheme"]) for name, image in found.items()},
+            {
+                "one.zip": ("by-name", "2K"),
+                "two.zip": ("unusable", ""),
+                "seven.7z": ("unusable", ""),
+                "odd.bin": ("unusable", ""),
+                "modern.bin": ("unusable", ""),
+                "small.bin": ("unknown", "2K"),
+            },
+        )
         self.assertEqual(found["one.zip"]["md5"], hashlib.md5(image).hexdigest())
-        for file, sentence in (("two.zip", "a.bin, b.bin"), ("seven.7z", "7z archives are not read"),
-                               ("odd.bin", "3000 bytes"), ("modern.bin", "scheme DPC+, which is not implemented")):
+        for file, sentence in (
+            ("two.zip", "a.bin, b.bin"),
+            ("seven.7z", "7z archives are not read"),
+            ("odd.bin", "3000 bytes"),
+            ("modern.bin", "scheme DPC+, which is not implemented"),
+        ):
             self.assertIn(sentence, found[file]["note"])
         offered = run("serve", "--stdio", "--roms", self.folder, data=b"games\n")[1]
         self.assertEqual(offered, b"ok count=4 games=beamfall,pong,small,updraft\n")

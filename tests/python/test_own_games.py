@@ -16,7 +16,6 @@ package.require("gymnasium", "numpy")
 
 import gymnasium as gym
 import numpy as np
-
 import racebeam
 import racebeam.program
 
@@ -110,8 +109,12 @@ class Own(unittest.TestCase):
         self.assertEqual(racebeam.AtariEnv("beamfall", format="pal").observation_space.shape, (250, 160, 3))
         envs = racebeam.AtariVectorEnv("beamfall", 1, obs_type="rgb", height=180)
         self.assertEqual(envs.single_observation_space.shape[1], 180)
-        for words, sentence in (({"scheme": "F8"}, "8192"), ({"scheme": "0840"}, "0840 is not implemented"),
-                                ({"left": "keyboard"}, "joystick, paddles"), ({"height": 99}, "100 to 256")):
+        for words, sentence in (
+            ({"scheme": "F8"}, "8192"),
+            ({"scheme": "0840"}, "0840 is not implemented"),
+            ({"left": "keyboard"}, "joystick, paddles"),
+            ({"height": 99}, "100 to 256"),
+        ):
             for make in (racebeam.AtariEnv, racebeam.AtariVectorEnv):
                 self.assertRaisesRegex(racebeam.InvalidInput, sentence, make, "beamfall", **words)
 
@@ -126,15 +129,27 @@ class Own(unittest.TestCase):
 
     def test_a_game_that_only_the_server_knows(self):
         ready = self.folder / "ready"
-        command = [racebeam.program.path(), "serve", "--listen", f"unix:{self.folder}/s", "--ready-file", str(ready),
-                   "--rom", str(self.rom), "--game-file", str(self.file)]
+        command = [
+            racebeam.program.path(),
+            "serve",
+            "--listen",
+            f"unix:{self.folder}/s",
+            "--ready-file",
+            str(ready),
+            "--rom",
+            str(self.rom),
+            "--game-file",
+            str(self.file),
+        ]
         with subprocess.Popen(command, stderr=subprocess.DEVNULL) as process:
             self.addCleanup(process.wait)
             self.addCleanup(process.kill)
             while not ready.exists():
                 time.sleep(0.01)
             address = f"unix:{self.folder}/s"
-            self.assertEqual(played(racebeam.AtariEnv("my_game", server=address)), played(racebeam.AtariEnv("beamfall")))
+            self.assertEqual(
+                played(racebeam.AtariEnv("my_game", server=address)), played(racebeam.AtariEnv("beamfall"))
+            )
             self.assertRaises(racebeam.UnknownGame, racebeam.AtariEnv, "my_gam", server=address)
             tall = racebeam.AtariEnv("my_game", server=address, height=180)
             self.assertEqual(tall.observation_space.shape[0], 180)
