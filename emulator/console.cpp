@@ -153,6 +153,16 @@ std::span<const std::uint8_t> Console::previous_picture() const {
   return impl_->pictures.previous->pixels().first(impl_->picture_size());
 }
 
+std::span<const LineNumber> Console::picture_lines() const {
+  impl_->draw_now(impl_->pictures.current);
+  return impl_->pictures.current->lines();
+}
+
+std::span<const LineNumber> Console::previous_picture_lines() const {
+  impl_->draw_now(impl_->pictures.previous);
+  return impl_->pictures.previous->lines();
+}
+
 const FrameBuffers& Console::pictures() const { return impl_->pictures; }
 void Console::restore_pictures(const FrameBuffers& pictures) {
   impl_->settle_latches(*impl_->pictures.current);  // they follow from the picture

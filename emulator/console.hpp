@@ -61,6 +61,10 @@ class Console {
   int height() const;        // rows of picture(): the picture's height, at least 200
   std::span<const std::uint8_t> picture() const;           // height() x 160 palette indices, drawn last
   std::span<const std::uint8_t> previous_picture() const;  // the picture before it
+  // Which line each row of these pictures shows, at least height() of them. Rows of all pictures and machines
+  // that show the same line have the same pixels. kAnyLine says nothing about the pixels.
+  std::span<const LineNumber> picture_lines() const;
+  std::span<const LineNumber> previous_picture_lines() const;
   bool frame_is_open() const;  // the next step goes on with it, in the same picture
 
   // Both buffers in their order, for a saved state; undrawn ones as they are. They are shared until the

@@ -156,6 +156,14 @@ std::span<const std::uint8_t> Environment::previous_screen() const {
   if (impl_->went_on) return impl_->open_picture;
   return impl_->console.previous_picture();
 }
+std::span<const std::uint64_t> Environment::screen_lines() const {
+  if (impl_->blend != nullptr) return {};
+  return impl_->console.picture_lines();
+}
+std::span<const std::uint64_t> Environment::previous_screen_lines() const {
+  if (impl_->went_on) return {};
+  return impl_->console.previous_picture_lines();
+}
 Format Environment::format() const { return impl_->console.format(); }
 const Sound& Environment::sound() const { return impl_->console.sound(); }
 std::span<const std::uint8_t, kAudioSize> Environment::audio() const { return impl_->audio; }

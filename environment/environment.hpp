@@ -102,7 +102,10 @@ class Environment {
   int height() const;                                     // rows of the screen
   std::span<const std::uint8_t> screen() const;           // height x 160 palette indices, row-major
   std::span<const std::uint8_t> previous_screen() const;  // a frame ago; never averaged
-  Format format() const;                                  // never Format::kAuto
+  // Which line each row of these screens shows (Console::picture_lines()). Empty if that is not known.
+  std::span<const std::uint64_t> screen_lines() const;
+  std::span<const std::uint64_t> previous_screen_lines() const;
+  Format format() const;  // never Format::kAuto
   std::span<const std::uint8_t, kRamSize> ram() const;
   std::span<const std::uint8_t, kAudioSize> audio() const;   // of the last act; zeros without Settings::sound
   const Sound& sound() const;                                // the two channels that make it

@@ -42,6 +42,7 @@ class FrameBuffer {
   }
 
   LineNumber& shows(std::size_t row) { return shows_[row]; }
+  std::span<const LineNumber> lines() const { return shows_; }
 
   // Makes a row show `line`, by a copy from `other`. Returns false if that does not show it.
   bool copy_row(const FrameBuffer* other, std::size_t row, LineNumber line) {

@@ -27,7 +27,7 @@ struct Octet {
 // Both are common, since most of a row is background.
 template <std::size_t pictures>
 void make_rows(const std::array<const std::uint8_t*, pictures>& in, const BrightnessTable& table,
-               std::span<std::uint8_t> plane) {
+               RowFlags stale, std::span<std::uint8_t> plane) {
   const auto same_as_above = [&in](std::size_t at) {
     return std::ranges::all_of(
         in, [at](const std::uint8_t* picture) { return same_row(picture + at, picture + at - kRow); });
@@ -40,6 +40,7 @@ void make_rows(const std::array<const std::uint8_t*, pictures>& in, const Bright
   Octet<pictures> last;
   for (std::size_t i = 0; i < 8; ++i) last.bytes = last.bytes << 8 | table[0];
   for (std::size_t at = 0; at < plane.size(); at += kRow) {
+    if (stale[at / kRow] == 0) continue;
     if (at > 0 && same_as_above(at)) {
       std::memcpy(&plane[at], &plane[at - kRow], kRow);
       continue;
@@ -83,14 +84,14 @@ const std::array<BrightnessTable, 3>& colour_tables(Format format) {
   }
 }
 
-void make_plane(std::span<const std::uint8_t> screen, const BrightnessTable& table,
+void make_plane(std::span<const std::uint8_t> screen, const BrightnessTable& table, RowFlags stale,
                 std::span<std::uint8_t> plane) {
-  make_rows<1>({screen.data()}, table, plane);
+  make_rows<1>({screen.data()}, table, stale, plane);
 }
 
 void make_brighter_plane(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
-                         const BrightnessTable& table, std::span<std::uint8_t> plane) {
-  make_rows<2>({screen.data(), previous.data()}, table, plane);
+                         const BrightnessTable& table, RowFlags stale, std::span<std::uint8_t> plane) {
+  make_rows<2>({screen.data(), previous.data()}, table, stale, plane);
 }
 
 const ScreenResize& screen_resize(int height, int to_width, int to_height) {

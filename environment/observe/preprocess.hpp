@@ -19,12 +19,15 @@ using BrightnessTable = GreyTable;
 // Returns the tables of red, green and blue.
 const std::array<BrightnessTable, 3>& colour_tables(Format format);
 
-// Fill `plane` with the brightness of `screen`, or with the brighter of each two pixels. All spans must have
-// the same length, a multiple of 160.
-void make_plane(std::span<const std::uint8_t> screen, const BrightnessTable& table,
+// For each row: 0 if it is as it should be, else 1.
+using RowFlags = std::span<const std::uint8_t>;
+
+// Fill the rows of `plane` that `stale` names with the brightness of `screen`, or with the brighter of each
+// two pixels. All screens and planes must have the same length, 160 times that of `stale`.
+void make_plane(std::span<const std::uint8_t> screen, const BrightnessTable& table, RowFlags stale,
                 std::span<std::uint8_t> plane);
 void make_brighter_plane(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
-                         const BrightnessTable& table, std::span<std::uint8_t> plane);
+                         const BrightnessTable& table, RowFlags stale, std::span<std::uint8_t> plane);
 
 // Averages over areas if neither side grows; else interpolates. Both are OpenCV's INTER_AREA.
 using ScreenResize = std::variant<AreaResize, Enlargement>;

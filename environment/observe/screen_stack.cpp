@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "emulator/tia/line_cache/line_record.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
@@ -40,26 +41,55 @@ ScreenStack::ScreenStack(const StackSettings& settings, const Environment& envir
   const std::size_t reduced = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   screen_size_ = reduced * tables_.size();
   seen_.resize(plane_size_ * tables_.size());
+  sources_.resize(static_cast<std::size_t>(rows));
+  stale_.resize(sources_.size());
+  changed_.resize(sources_.size(), 1);
+  wanted_.resize(static_cast<std::size_t>(height));
   if (tables_.size() > 1) reduced_.resize(reduced);
   screens_.resize(screen_size_ * static_cast<std::size_t>(depth()));
 }
 
-void ScreenStack::clear() { std::ranges::fill(screens_, std::uint8_t{0}); }
+void ScreenStack::clear() {
+  std::ranges::fill(screens_, std::uint8_t{0});
+  all_changed();
+}
+
+void ScreenStack::all_changed() { std::ranges::fill(changed_, std::uint8_t{1}); }
+
+ScreenStack::Source ScreenStack::source(std::uint64_t line, std::uint64_t other) {
+  if (line == kAnyLine || other == kAnyLine) return {};
+  return {std::min(line, other), std::max(line, other)};
+}
+
+void ScreenStack::find_stale(const Environment& environment, bool pooled) {
+  const auto lines = environment.screen_lines();
+  const auto others = pooled ? environment.previous_screen_lines() : lines;
+  const bool known = !lines.empty() && !others.empty();
+  for (std::size_t row = 0; row < sources_.size(); ++row) {
+    const Source now = known ? source(lines[row], others[row]) : Source{};
+    stale_[row] = now == Source{} || now != sources_[row] ? 1 : 0;
+    changed_[row] |= stale_[row];
+    sources_[row] = now;
+  }
+}
 
 void ScreenStack::look(const Environment& environment, bool pooled) {
   const auto screen = environment.screen().first(plane_size_);
+  find_stale(environment, pooled);
   for (std::size_t channel = 0; channel < tables_.size(); ++channel) {
     if (pooled) {
-      make_brighter_plane(screen, environment.previous_screen().first(plane_size_), tables_[channel],
+      make_brighter_plane(screen, environment.previous_screen().first(plane_size_), tables_[channel], stale_,
                           plane(channel));
     } else {
-      make_plane(screen, tables_[channel], plane(channel));
+      make_plane(screen, tables_[channel], stale_, plane(channel));
     }
   }
 }
 
 void ScreenStack::look_at_previous(const Environment& environment) {
   const auto before = environment.previous_screen();
+  std::ranges::fill(sources_, Source{});
+  all_changed();
   for (std::size_t channel = 0; channel < tables_.size(); ++channel) {
     const auto seen = plane(channel);
     for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = std::max(seen[i], tables_[channel][before[i]]);
@@ -67,20 +97,42 @@ void ScreenStack::look_at_previous(const Environment& environment) {
 }
 
 void ScreenStack::reduce(std::size_t channel, std::span<std::uint8_t> to) {
-  const auto run = [&](const auto& resize) { resize(plane(channel), to); };
-  if (resize_ != nullptr) return std::visit(run, *resize_);
-  std::ranges::copy(plane(channel), to.begin());
+  if (resize_ == nullptr) {
+    std::ranges::copy(plane(channel), to.begin());
+  } else if (const auto* const area = std::get_if<AreaResize>(resize_)) {
+    (*area)(plane(channel), to, wanted_);
+  } else {
+    std::get<Enlargement> (*resize_)(plane(channel), to);
+  }
+}
+
+void ScreenStack::find_wanted() {
+  if (const auto* const area = resize_ != nullptr ? std::get_if<AreaResize>(resize_) : nullptr)
+    return area->depending(changed_, wanted_);
+  const bool changed = std::ranges::find(changed_, 1) != changed_.end();
+  std::ranges::fill(wanted_, static_cast<std::uint8_t>(changed));
 }
 
 void ScreenStack::push() {
+  const auto before = newest();
   if (++newest_ == static_cast<std::size_t>(depth())) newest_ = 0;
+  find_wanted();
+  std::ranges::fill(changed_, std::uint8_t{0});
+  if (std::ranges::find(wanted_, 1) != wanted_.end()) make_newest();
+  if (depth() == 1) return;
+  const std::size_t row = screen_size_ / wanted_.size();
+  for (std::size_t y = 0; y < wanted_.size(); ++y) {
+    if (wanted_[y] == 0) std::ranges::copy(before.subspan(y * row, row), &newest()[y * row]);
+  }
+}
+
+void ScreenStack::make_newest() {
   if (tables_.size() == 1) return reduce(0, newest());
   for (std::size_t channel = 0; channel < tables_.size(); ++channel) {
     reduce(channel, reduced_);
-    std::uint8_t* to = newest().data() + channel;
-    for (const std::uint8_t value : reduced_) {
-      *to = value;
-      to += tables_.size();
+    const std::size_t width = reduced_.size() / wanted_.size();
+    for (std::size_t at = 0; at < reduced_.size(); ++at) {
+      if (wanted_[at / width] != 0) newest()[at * tables_.size() + channel] = reduced_[at];
     }
   }
 }
@@ -108,6 +160,7 @@ std::vector<std::uint8_t> ScreenStack::bytes() const {
 void ScreenStack::set_bytes(std::span<const std::uint8_t> bytes) {
   std::ranges::copy(bytes, screens_.begin());
   newest_ = static_cast<std::size_t>(depth()) - 1;
+  all_changed();
 }
 
 }  // namespace racebeam

@@ -1,5 +1,6 @@
 // Screens as learning agents take them: resized, grey or in colour, the brighter of two frames, several in a
-// stack (docs/spec/environment.md, 15; the figures of OpenCV's INTER_AREA).
+// stack (docs/spec/environment.md, 15; the figures of OpenCV's INTER_AREA). Most rows show what they showed
+// at the last look. Those are found by the numbers of their lines, and neither read nor resized again.
 #pragma once
 
 #include <cstddef>
@@ -27,6 +28,9 @@ struct StackSettings {
 // The last `depth` screens of an environment; those that are not there yet are zero.
 class ScreenStack {
  public:
+  // What is kept of each row beside its pixels: the numbers of its lines, and three flags.
+  static constexpr std::size_t kBytesOfRow = 2 * sizeof(std::uint64_t) + 3;
+
   // For the screens of `environment`. Throws InvalidInput for a size that can't be made of them.
   ScreenStack(const StackSettings& settings, const Environment& environment);
 
@@ -60,13 +64,28 @@ class ScreenStack {
   std::span<std::uint8_t> plane(std::size_t channel) {
     return std::span(seen_).subspan(channel * plane_size_, plane_size_);
   }
+  // The lines that a row of the planes was made from, in order: the brighter of two does not depend on it.
+  struct Source {
+    std::uint64_t one = 0, other = 0;  // 0: the pixels are of unknown lines
+    bool operator==(const Source&) const = default;
+  };
+  static Source source(std::uint64_t line, std::uint64_t other);
+
+  void find_stale(const Environment& environment, bool pooled);
+  void find_wanted();
   void reduce(std::size_t channel, std::span<std::uint8_t> to);
+  void make_newest();
+  void all_changed();
 
   StackSettings settings_;
   const ScreenResize* resize_;               // null: screens stay as they are
   std::span<const BrightnessTable> tables_;  // one a channel
   std::size_t plane_size_, screen_size_;
   std::vector<std::uint8_t> seen_;     // planes, one after the other
+  std::vector<Source> sources_;        // of each row of the planes
+  std::vector<std::uint8_t> stale_;    // rows of the planes that this look must make
+  std::vector<std::uint8_t> changed_;  // rows of the planes that the newest screen does not show
+  std::vector<std::uint8_t> wanted_;   // rows of the next screen that differ from the newest
   std::vector<std::uint8_t> reduced_;  // one plane, where there are several
   std::vector<std::uint8_t> screens_;  // a ring
   std::size_t newest_ = 0;

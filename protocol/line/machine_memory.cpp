@@ -22,7 +22,8 @@ std::size_t MachineMemory::held(const Slot& slot) const {
   if (frame_of(slot) != rested_) bytes += rows * sizeof(LineRecord);
   if (const ScreenStack* const stack = slot.stack()) {
     const auto channels = static_cast<std::size_t>(stack->settings().channels());
-    bytes += stack->size() + channels * (rows * kScreenWidth + stack->screen_size());
+    bytes += stack->size() + channels * (rows * kScreenWidth + stack->screen_size()) +
+             rows * ScreenStack::kBytesOfRow;
   }
   return bytes;
 }
