@@ -133,7 +133,7 @@ class Options(Case):
             for option, value, reason in (
                 ("--scheme", "0840", "the cartridge scheme 0840 is not implemented"),
                 ("--left", "keyboard", "joystick, paddles"),
-                ("--right", "", "joystick, paddles"),
+                ("--right", "mouse", "joystick, paddles"),
                 ("--format", "hd", "auto, ntsc, pal, pal60, secam"),
                 ("--height", "99", "from 100 to 256"),
                 ("--ystart", "51", "from 0 to 50"),

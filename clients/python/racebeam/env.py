@@ -232,7 +232,6 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         )
         self.seed_game()
         self.load_game()
-        self._name = str(self.ale.getGame())
         warn_of(list(filter(None, [self.ale.doubt()])))
         self._set_spaces(is_full)
         self._open_window()
@@ -302,6 +301,8 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         else:
             rom = images.find(str(self._game)) if self._rom is None else self._rom
             self.ale.loadROM(rom, self._game)
+        if self._game is None:
+            self._name = str(self.ale.getGame())
         mode = self._mode_for_two() if self._two_player else self._mode_for_one()
         if mode is not None:
             self.ale.setMode(mode)
