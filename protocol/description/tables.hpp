@@ -71,7 +71,7 @@ inline constexpr std::array<Setting, 23> kSettings = {{
     {"right", "joystick or paddles", "controller in the right port"},
     {"format", "auto, ntsc, pal, pal60 or secam", "television standard; auto: detected"},
     {"ystart", "0 to 50", "first line of the picture"},
-    {"height", "100 to 256", "lines of the picture; PAL and SECAM make 250 of 210"},
+    {"height", "100 to 256", "lines of the picture, 200 at least; PAL and SECAM make 250 of 210"},
 }};
 
 inline constexpr std::array<Preset, 4> kPresets = {{

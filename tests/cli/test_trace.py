@@ -74,7 +74,7 @@ class Lines(unittest.TestCase):
 
     def test_the_console_of_an_image_can_be_told(self):
         self.assertEqual(played(), played("--scheme", "4K", "--left", "joystick", "--format", "ntsc", "--ystart", "34"))
-        for words in (("--left", "paddles"), ("--ystart", "50"), ("--height", "180"), ("--format", "pal")):
+        for words in (("--left", "paddles"), ("--ystart", "50"), ("--height", "220"), ("--format", "pal")):
             with self.subTest(option=words[0]):
                 self.assertNotEqual(played(), played(*words))
 

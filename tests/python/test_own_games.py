@@ -55,7 +55,7 @@ class Own(unittest.TestCase):
         self.assertGreater(sum(step[1] for step in expected), 0)
 
     def test_copies_keep_their_game(self):
-        env = racebeam.AtariEnv(game_file=self.file, rom=DUMP, height=180)
+        env = racebeam.AtariEnv(game_file=self.file, rom=DUMP, height=220)
         env.reset(seed=3)
         copies = [copy.deepcopy(env.ale), pickle.loads(pickle.dumps(env.ale))]
         rewards = [[ale.act(1) for _ in range(200)] for ale in (env.ale, *copies)]
@@ -91,7 +91,7 @@ class Own(unittest.TestCase):
         self.assertRaisesRegex(racebeam.InvalidInput, "no game is known", racebeam.ALEInterface().loadROM, DUMP)
 
     def test_another_dump_is_warned_of_once(self):
-        self.file.write_text(RULES + f"[[image]]\nmd5 = '{'0' * 32}'\nheight = 180\n")
+        self.file.write_text(RULES + f"[[image]]\nmd5 = '{'0' * 32}'\nheight = 220\n")
         for make in (racebeam.AtariEnv, racebeam.AtariVectorEnv):
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")
@@ -101,14 +101,14 @@ class Own(unittest.TestCase):
             self.assertEqual(len(caught), 1)
             self.assertIn("the rule of 'my_game' was written for", str(caught[0].message))
             self.assertEqual(pathlib.Path(caught[0].filename).name, pathlib.Path(__file__).name)
-        self.assertEqual(racebeam.AtariEnv(game_file=self.file, rom=IMAGE).observation_space.shape[0], 180)
+        self.assertEqual(racebeam.AtariEnv(game_file=self.file, rom=IMAGE).observation_space.shape[0], 220)
 
     def test_the_console_is_told_and_what_does_not_fit_is_refused(self):
-        env = racebeam.AtariEnv("beamfall", height=180, ystart=40, format="pal", left="paddles", scheme="2K")
-        self.assertEqual(env.observation_space.shape, (180, 160, 3))
+        env = racebeam.AtariEnv("beamfall", height=220, ystart=40, format="pal", left="paddles", scheme="2K")
+        self.assertEqual(env.observation_space.shape, (220, 160, 3))
         self.assertEqual(racebeam.AtariEnv("beamfall", format="pal").observation_space.shape, (250, 160, 3))
-        envs = racebeam.AtariVectorEnv("beamfall", 1, obs_type="rgb", height=180)
-        self.assertEqual(envs.single_observation_space.shape[1], 180)
+        envs = racebeam.AtariVectorEnv("beamfall", 1, obs_type="rgb", height=220)
+        self.assertEqual(envs.single_observation_space.shape[1], 220)
         for words, sentence in (
             ({"scheme": "F8"}, "8192"),
             ({"scheme": "0840"}, "0840 is not implemented"),
@@ -151,8 +151,8 @@ class Own(unittest.TestCase):
                 played(racebeam.AtariEnv("my_game", server=address)), played(racebeam.AtariEnv("beamfall"))
             )
             self.assertRaises(racebeam.UnknownGame, racebeam.AtariEnv, "my_gam", server=address)
-            tall = racebeam.AtariEnv("my_game", server=address, height=180)
-            self.assertEqual(tall.observation_space.shape[0], 180)
+            tall = racebeam.AtariEnv("my_game", server=address, height=220)
+            self.assertEqual(tall.observation_space.shape[0], 220)
             envs = racebeam.AtariVectorEnv("my_game", 2, server=address)
             self.assertEqual(envs.reset()[0].shape[0], 2)
             process.kill()

@@ -71,7 +71,7 @@ TEST_CASE("The console of an image can be told, is shown, and is refused where i
   CHECK(shown("") == "4K joystick joystick ntsc 34 210");
   CHECK(shown("scheme=auto left=paddles") == "4K paddles joystick ntsc 34 210");
   CHECK(shown("scheme=2K right=paddles format=PAL ystart=40") == "2K joystick paddles pal 40 250");
-  CHECK(shown("height=180 scheme=CV_4K") == "CV_4K joystick joystick ntsc 34 180");
+  CHECK(shown("height=220 scheme=CV_4K") == "CV_4K joystick joystick ntsc 34 220");
   const std::string known = client.ask("games beamfall");
   CHECK(value(known, "scheme") == "4K");
   CHECK(value(known, "left") == "joystick");
