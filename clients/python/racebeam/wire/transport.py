@@ -94,10 +94,13 @@ class SocketStream:
 
     Args:
         connection: The socket.
+
+    Attributes:
+        connection: The socket.
     """
 
     def __init__(self, connection: socket.socket) -> None:
-        self._connection, self._limit, self._data = connection, connection.gettimeout(), b""
+        self.connection, self._limit, self._data = connection, connection.gettimeout(), b""
         self._unsent = bytearray()
 
     def write(self, data: bytes) -> None:
@@ -123,7 +126,7 @@ class SocketStream:
         """
         data, self._unsent = self._unsent, bytearray()
         if data:
-            self._connection.sendall(data)
+            self.connection.sendall(data)
 
     def readline(self, most: int) -> bytes:
         """Reads a line.
@@ -142,7 +145,7 @@ class SocketStream:
         pieces, length = [self._data], len(self._data)
         while (end := pieces[-1].find(b"\n")) < 0 and length < most:
             self._limit_wait(until)
-            pieces.append(self._connection.recv(1 << 16))
+            pieces.append(self.connection.recv(1 << 16))
             length += len(pieces[-1])
             if not pieces[-1]:
                 break
@@ -170,7 +173,7 @@ class SocketStream:
         with memoryview(data) as view:
             while have < count:
                 self._limit_wait(until)
-                received = self._connection.recv_into(view[have:])
+                received = self.connection.recv_into(view[have:])
                 if received == 0:
                     break
                 have += received
@@ -181,16 +184,16 @@ class SocketStream:
     def close(self) -> None:
         """Closes the socket without waiting. Another thread that reads or writes gets an error."""
         with contextlib.suppress(OSError):  # the server has closed it
-            self._connection.shutdown(socket.SHUT_RDWR)
-        self._connection.close()
+            self.connection.shutdown(socket.SHUT_RDWR)
+        self.connection.close()
 
     def _deadline(self) -> float | None:
         return None if self._limit is None else time.monotonic() + self._limit
 
     def _limit_wait(self, until: float | None) -> None:
         if until is not None:
-            self._connection.settimeout(max(until - time.monotonic(), 1e-6))
+            self.connection.settimeout(max(until - time.monotonic(), 1e-6))
 
     def _restore_limit(self, until: float | None) -> None:
         if until is not None:
-            self._connection.settimeout(self._limit)
+            self.connection.settimeout(self._limit)
