@@ -132,6 +132,7 @@ std::vector<std::shared_ptr<const Game>> load_game_folder(const std::string& fol
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  if (files.empty()) throw InvalidInput(folder + ": this folder has no game files; their names end in .toml");
   std::ranges::sort(files);
   std::vector<std::shared_ptr<const Game>> games;
   std::ranges::transform(files, std::back_inserter(games), load_game_file);

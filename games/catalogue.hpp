@@ -43,7 +43,8 @@ std::vector<std::string_view> game_names();  // of catalogue(), in its order
 // Loads a game file of the user. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 std::shared_ptr<const Game> load_game_file(const std::string& path);
 
-// Loads all files of a folder that end in .toml. Throws InvalidInput for the first wrong one.
+// Loads all files of a folder that end in .toml. Throws InvalidInput for the first wrong one, and if there
+// are none.
 std::vector<std::shared_ptr<const Game>> load_game_folder(const std::string& folder);
 
 enum class RecognisedBy { kMd5, kGivenName, kGivenFile, kFileName, kNothing };

@@ -159,6 +159,12 @@ EpisodeLog log_of(const std::string& name, std::string_view bytes) {
 
 namespace {
 
+// Episodes of logs are played with the properties of the image (check_episode_settings()).
+bool is_console_key(std::string_view name) {
+  constexpr std::array<std::string_view, 6> kKeys = {"scheme", "left", "right", "format", "ystart", "height"};
+  return std::ranges::find(kKeys, name) != kKeys.end();
+}
+
 // The rows that would show the machine's value. Mode and difficulty are written only where they were set,
 // since setting them begins another episode.
 std::optional<std::int64_t> own_value(std::string_view name, const PlaySettings& settings) {
@@ -174,7 +180,7 @@ std::string words_of(const PlaySettings& settings, const Environment& machine) {
   for (const SettingRow& row : setting_rows()) {
     const bool own = std::ranges::find(kOwn, row.name) != kOwn.end();
     const auto value = own ? own_value(row.name, settings) : std::nullopt;
-    if (row.name == "preset" || (own && !value)) continue;
+    if (row.name == "preset" || is_console_key(row.name) || (own && !value)) continue;
     ((out += out.empty() ? "" : " ") += row.name) += '=';
     own ? append_number(out, *value) : row.append(out, settings, machine);
   }

@@ -48,6 +48,11 @@ void check_episode_settings(const PlaySettings& settings) {
     throw InvalidInput(
         "an episode is played with noop_max=0, autoreset=0 and action_set=full; sticky actions and seeds "
         "vary it");
+  if (!settings.console.empty())
+    throw InvalidInput(
+        "an episode is played with the properties of its image; scheme, left, right, format, ystart and "
+        "height "
+        "are not accepted");
 }
 
 Stage::Stage(const Cartridge& cartridge, const PlaySettings& settings, Drawing drawing)

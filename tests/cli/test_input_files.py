@@ -61,7 +61,9 @@ class Refused(unittest.TestCase):
         self.check("/dev/zero", "this is a device, not a file")
 
     def test_a_directory(self):
-        self.check(self.folder, "this is a directory, not a file")
+        self.check(
+            self.folder, "this is a directory, not a file|this folder has no game files; their names end in .toml"
+        )
 
     def test_a_file_that_is_not_there(self):
         self.check("nothing", "there is no such file")

@@ -104,7 +104,7 @@ class Pictures(InTerminal):
         terminal, wire, name = self.play("beamfall", graphics="kitty")
         expected = self.paused_picture(terminal, wire, name)
         self.assertGreater(len(set(expected)), 3)
-        self.assertEqual(terminal.picture, expected)
+        terminal.wait_until(lambda: terminal.picture == expected, "the picture")
         self.quit(terminal)
 
     def test_sixels_show_each_pixel(self):

@@ -9,8 +9,11 @@ import tempfile
 import threading
 import unittest
 
-from harness import PATIENCE, Server, main
+# isort: split
 from test_clients import SOURCE  # which finds the harness
+
+# isort: split
+from harness import PATIENCE, Server, main
 
 SHELL = os.path.join(SOURCE, "clients", "shell")
 TCP = ("serve", "--listen", "tcp://127.0.0.1:0")

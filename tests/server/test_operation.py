@@ -398,7 +398,7 @@ class Memory(unittest.TestCase):
         for memory, caches in (
             ("64M", "28 resets, 699050 bytes"),
             ("512M", "128 resets, 4194304 bytes"),
-            ("16M", "7 resets, 174762 bytes"),
+            ("24M", "10 resets, 262144 bytes"),
         ):
             with self.subTest(memory=memory), serve("--max-memory", memory) as server:
                 server.wait_for(f"caches: {caches} of code for an image, [0-9]+ for all$")

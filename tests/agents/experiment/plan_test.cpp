@@ -66,6 +66,10 @@ TEST_CASE("Mistakes in a plan are named with their line") {
   check("environment = \"max_episode_frames=0\"\n", "test.toml:3: environment: max_episode_frames is 0");
   check("environment = \"noop_max=30\"\n", "test.toml:3: environment: an episode is played with noop_max=0");
   check("environment = \"autoreset=1\"\n", "test.toml:3: environment: an episode is played with noop_max=0");
+  check("environment = \"height=220\"\n",
+        "test.toml:3: environment: an episode is played with the properties");
+  check("environment = \"left=paddles\"\n",
+        "test.toml:3: environment: an episode is played with the properties");
   check("environment = \"action_set=minimal\"\n", "test.toml:3: environment: an episode is played with");
   check("environment = \"seed=7\"\n",
         "test.toml:3: environment: seed is not accepted here; all seeds follow from the plan's key 'seed'");
