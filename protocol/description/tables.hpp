@@ -66,10 +66,10 @@ inline constexpr std::array<Setting, 23> kSettings = {{
     {"rules", "ale-0.12 or fixed", "rules of score and end: those of the reference, or corrected ones"},
     {"color_averaging", "0 or 1", "blend each screen with the one before it"},
     {"sound", "0 or 1", "generate the samples of the field audio"},
-    {"scheme", "auto or a scheme's name, with _ for a blank", "the cartridge's banks; auto: detected"},
+    {"scheme", "auto or a scheme's name, with _ for a blank", "how the cartridge switches its banks, where auto detects it"},
     {"left", "joystick or paddles", "controller in the left port"},
     {"right", "joystick or paddles", "controller in the right port"},
-    {"format", "auto, ntsc, pal, pal60 or secam", "television standard; auto: detected"},
+    {"format", "auto, ntsc, pal, pal60 or secam", "television standard, where auto detects it"},
     {"ystart", "0 to 50", "first line of the picture"},
     {"height", "100 to 256", "lines of the picture, 200 at least; PAL and SECAM make 250 of 210"},
 }};
