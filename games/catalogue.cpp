@@ -177,7 +177,8 @@ std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const I
 }
 
 std::string doubt_about(const Game& game, const Image& image) {
-  if (!game.has_rule() || game.accepts(image.md5)) return "";
+  const bool lists_images = std::ranges::any_of(game.images, &GameImage::accepted);
+  if (!game.has_rule() || !lists_images || game.accepts(image.md5)) return "";
   return "the MD5 of this image, " + image.md5 + ", is not that of the image which the rule of '" +
          game.name + "' was written for; score and end may be wrong";
 }

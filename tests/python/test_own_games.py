@@ -101,7 +101,7 @@ class Own(unittest.TestCase):
             self.assertEqual(len(caught), 1)
             self.assertIn("the rule of 'my_game' was written for", str(caught[0].message))
             self.assertEqual(pathlib.Path(caught[0].filename).name, pathlib.Path(__file__).name)
-        self.assertEqual(racebeam.AtariEnv(game_file=self.file, rom=IMAGE).observation_space.shape[0], 220)
+        self.assertEqual(racebeam.AtariEnv(game_file=self.file, rom=self.rom).observation_space.shape[0], 220)
 
     def test_the_console_is_told_and_what_does_not_fit_is_refused(self):
         env = racebeam.AtariEnv("beamfall", height=220, ystart=40, format="pal", left="paddles", scheme="2K")

@@ -282,7 +282,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self._make_spaces()
         self._window: Grid | None = None
         if self.render_mode == "human":
-            title = images.titles()[names[0]] if len(names) == 1 else "racebeam"
+            title = images.titles().get(str(names[0]), "racebeam") if len(names) == 1 else "racebeam"
             self._window = Grid(title, self.num_envs, SCREEN_WIDTH, self._machines.height())
 
     def _parse_games(
@@ -305,8 +305,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             if not isinstance(name, str):
                 raise WrongType(f"game has {name!r} in its list; it takes names of games")
         names: list[str | None] = list(dict.fromkeys(game))
-        for name in names:
-            self._check_game(str(name))
+        for each in names:
+            self._check_game(str(each))
         return names, np.array([names.index(name) for name in game], np.int32)
 
     def _make_spaces(self) -> None:
@@ -767,6 +767,7 @@ def _remote_machines(
     """Makes machines on one server, or on several."""
     if len(names) > 1:
         raise WrongValue(f"there are {len(names)} games; rom and server take one")
+    game = str(names[0])  # a server is told the game
     if isinstance(server, str):
-        return RemoteMachines(server, token, timeout, names[0], rom, options)
-    return SpreadMachines(server, token, timeout, names[0], rom, options)
+        return RemoteMachines(server, token, timeout, game, rom, options)
+    return SpreadMachines(server, token, timeout, game, rom, options)
