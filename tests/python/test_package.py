@@ -5,6 +5,7 @@ import importlib.metadata
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -208,6 +209,9 @@ class Readme(unittest.TestCase):
                     if not all(map(has, needs)) or ("Pong" in example and "pong" not in package.roms()):
                         continue
                     with tempfile.TemporaryDirectory() as folder:
+                        if "my_game" in example:
+                            shutil.copy(package.SOURCE / "games/catalogue/beamfall.toml", f"{folder}/my_game.toml")
+                            shutil.copy(package.SOURCE / "games/homebrew/beamfall.bin", f"{folder}/my_game.bin")
                         done = python(example, folder=folder)
                     self.assertEqual((done.returncode, done.stderr), (0, ""))
 
