@@ -71,7 +71,7 @@ def register_ale_ids() -> None:
 
 
 def register(game_file: str | os.PathLike[str], rom: Any, name: str | None = None) -> str:
-    """Registers a game of one's own with Gymnasium.
+    """Registers your own game with Gymnasium.
 
     Args:
         game_file: Path of the game file.

@@ -260,7 +260,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self.ale.setBool("sound_obs", self.sound_obs or self._sound)
 
     def _set_console(self, words: dict[str, str], numbers: dict[str, int | None]) -> None:
-        """Sets what the console must know of an image of one's own."""
+        """Sets what the console must know of your own image."""
         self.ale.setString("game_file", self._game_file or "")
         self.ale.setBool("unknown_images", self._game is None)
         for key, word in words.items():

@@ -91,7 +91,7 @@ def register_own_ids() -> None:
 
 
 def register(game_file: str | os.PathLike[str], rom: images.Rom, name: str | None = None) -> str:
-    """Registers a game of one's own, with the settings of ALE/Pong-v5.
+    """Registers your own game, with the settings of ALE/Pong-v5.
 
     Args:
         game_file: Path of the game file.
