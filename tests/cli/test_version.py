@@ -42,10 +42,10 @@ class Version(unittest.TestCase):
         self.assertEqual(version.differences(), [])
 
     def test_the_wheel_takes_it_from_cmake(self):
-        project = tomllib.loads((ROOT / "clients/python/pyproject.toml").read_text())
+        project = tomllib.loads((ROOT / "pyproject.toml").read_text())
         self.assertIn("version", project["project"]["dynamic"])
         source = project["tool"]["scikit-build"]["metadata"]["version"]
-        self.assertEqual((ROOT / "clients/python" / source["input"]).resolve(), ROOT / "CMakeLists.txt")
+        self.assertEqual(source["input"], "CMakeLists.txt")
         found = re.search(source["regex"], (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)
         self.assertEqual(found["value"], version.decided())
 
