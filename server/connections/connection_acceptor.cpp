@@ -40,6 +40,22 @@ void take_over(Socket& socket, int descriptor) {
   }
 }
 
+constexpr auto kPatience = 800ms;     // of a client that comes when the memory is short
+constexpr auto kBetweenLooks = 20ms;  // whether there is memory for it
+constexpr int kMostWaiting = 64;
+
+// A client waits for memory as long as this exists.
+class Waiting {
+ public:
+  explicit Waiting(int& count) : count_(++count) {}
+  ~Waiting() { --count_; }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+ private:
+  int& count_;
+};
+
 bool has_memory_for_one_more(const Service& service) {
   constexpr std::uint64_t kSession = 1 << 20;
   const auto& memory = memory_of(service);
@@ -198,9 +214,9 @@ void ConnectionAcceptor::admit(Socket socket, Loop& loop, Listener& listener) {
   if (endpoint.tls) carrier.tls = access_.tls()->context();
   if (endpoint.web) carrier.site = &access_.site();
   const Service& service = service_of(listener);
-  admit(std::make_shared<Client>(std::move(socket), loop, std::move(name), memory_of(service),
-                                 carrier_bytes(endpoint)),
-        service, std::move(carrier), endpoint);
+  receive(std::make_shared<Client>(std::move(socket), loop, std::move(name), memory_of(service),
+                                   carrier_bytes(endpoint)),
+          service, std::move(carrier), endpoint);
 }
 
 void ConnectionAcceptor::admit_over_http(int descriptor, HttpRequest request, const std::string& address) {
@@ -211,9 +227,28 @@ void ConnectionAcceptor::admit_over_http(int descriptor, HttpRequest request, co
   std::string name = address + " client " + std::to_string(++from_http_);
   const Endpoint endpoint{TcpAddress(), false, false, true};
   const Service& service = access_.guarded();
-  admit(std::make_shared<Client>(std::move(socket), loop, std::move(name), memory_of(service),
-                                 carrier_bytes(endpoint)),
-        service, Carrier{nullptr, &access_.site(), std::move(request)}, endpoint);
+  receive(std::make_shared<Client>(std::move(socket), loop, std::move(name), memory_of(service),
+                                   carrier_bytes(endpoint)),
+          service, Carrier{nullptr, &access_.site(), std::move(request)}, endpoint);
+}
+
+void ConnectionAcceptor::receive(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
+                                 const Endpoint& endpoint) {
+  if (has_memory_for_one_more(service) || waiting_ >= kMostWaiting)
+    admit(std::move(client), service, std::move(carrier), endpoint);
+  else
+    spawn(loops_.first().context,
+          admit_after_relief(std::move(client), service, std::move(carrier), endpoint));
+}
+
+// Sessions that hold much are ended within two looks of IdleMonitor. Those who come meanwhile wait for that.
+Task<> ConnectionAcceptor::admit_after_relief(std::shared_ptr<Client> client, const Service& service,
+                                              Carrier carrier, Endpoint endpoint) {
+  const Waiting place(waiting_);
+  const auto end = client->came() + kPatience;
+  while (!has_memory_for_one_more(service) && Clock::now() < end)
+    co_await pause(loops_.first().context, kBetweenLooks);
+  if (!closed_) admit(std::move(client), service, std::move(carrier), endpoint);
 }
 
 void ConnectionAcceptor::admit(std::shared_ptr<Client> client, const Service& service, Carrier carrier,

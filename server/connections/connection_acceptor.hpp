@@ -45,6 +45,11 @@ class ConnectionAcceptor {
   Task<> welcome(Listener& listener);
   // The reason against one more session; nothing if there is none.
   std::optional<std::string> obstacle(const Service& service);
+  // Admits the client at once, or when memory has been made for it. All this is on the first loop's thread.
+  void receive(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
+               const Endpoint& endpoint);
+  Task<> admit_after_relief(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
+                            Endpoint endpoint);
   void admit(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
              const Endpoint& endpoint);
   void admit(Socket socket, Loop& loop, Listener& listener);
@@ -58,6 +63,7 @@ class ConnectionAcceptor {
   std::list<Listener> listeners_;
   int max_connections_ = 0;
   int from_http_ = 0;    // number of clients of --http
+  int waiting_ = 0;      // clients that wait for memory
   std::set<int> taken_;  // inherited descriptors that are in use
   bool closed_ = false;
 };

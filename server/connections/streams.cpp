@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -45,6 +46,21 @@ bool refuse_other_file(const std::string& path) {
   if (::stat(path.c_str(), &found) != 0) return false;
   if (!S_ISFIFO(found.st_mode)) throw AddressError(path + " exists, but is not a named pipe");
   return true;
+}
+
+bool is_pipe(int descriptor) {
+  struct stat found {};
+  return ::fstat(descriptor, &found) == 0 && (S_ISFIFO(found.st_mode) || S_ISSOCK(found.st_mode));
+}
+
+// A client in the same step, which has made the pipe itself, is not slowed down. The two cannot be told
+// apart.
+void warn_of_srun() {
+  if (std::getenv("SLURM_STEP_ID") == nullptr || !is_pipe(STDOUT_FILENO)) return;
+  log_warning(
+      "this is a step of a Slurm job: if srun forwards standard output, replies above 1,024 bytes take some "
+      "40 ms "
+      "more; --listen and a socket avoid that");
 }
 
 // Returns the pipe if it was missing, to be removed at the end.
@@ -218,6 +234,7 @@ bool StreamSession::connect() {
   const std::string what = conversation_->description();
   if (std::holds_alternative<StandardStreams>(address_)) {
     log(what + ", on standard input and output");
+    warn_of_srun();
     streams_.use(STDIN_FILENO, STDOUT_FILENO);
     return true;
   }

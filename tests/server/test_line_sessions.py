@@ -9,7 +9,7 @@ import threading
 import time
 import unittest
 
-from harness import GAME, LOAD, PATIENCE, Server, Session, connect_tcp, connect_unix, main, run, sanitized
+from harness import GAME, LOAD, PATIENCE, Server, Session, Wire, ask, connect_tcp, connect_unix, main, run, sanitized
 
 LONG = b"branch root " + b"NOOP*400,FIRE*600 " * 800 + b"\n"  # about 800,000 frames: seconds
 
@@ -134,6 +134,17 @@ class Netcat(unittest.TestCase):
                 with self.subTest(where=where[0]):
                     self.assertEqual(self.converse(requests, "-N", *where), expected)
                     self.assertEqual(self.converse(requests + b"quit\n", *where), expected + b"ok\n")
+
+
+class Srun(unittest.TestCase):
+    def test_a_server_in_a_step_of_a_job_warns_of_slow_streams(self):
+        warning = "if srun forwards standard output"
+        for environment, warns in (({"SLURM_STEP_ID": "0"}, True), ({}, False)):
+            with self.subTest(environment), Server("serve", "--stdio", streams=True, **environment) as server:
+                wire = Wire(os.dup(server.process.stdout.fileno()), os.dup(server.process.stdin.fileno()))
+                ask(wire, b"hello")
+                self.assertEqual(warning in "\n".join(server.log()), warns)
+                wire.close()
 
 
 class Sessions(unittest.TestCase):

@@ -161,6 +161,20 @@ class Memory(unittest.TestCase):
         self.check_newcomers(port)
         self.assertRegex(ask(waiting, b"step NOOP"), b"^ok ")
 
+    def test_clients_without_room_wait_together_and_are_refused(self):
+        port = self.start("--max-memory", "48M")
+        crowd = []
+        while len(crowd) < 800:  # one owner, whose sessions hold equally little: none of them is ended
+            crowd.append(self.connect(port))
+            crowd[-1].send(b"load beamfall\nact FIRE*60\n")
+            if crowd[-1].read(1 << 16).startswith(b"error busy "):
+                break
+        began = time.monotonic()
+        late = [self.connect(port) for _ in range(100)]
+        for wire in late:
+            self.assertRegex(wire.read(1 << 16), b"^error busy .*hold all the memory")
+        self.assertLess(time.monotonic() - began, 3 * QUICK)
+
     def test_a_long_line_without_memory_is_refused_and_the_session_goes_on(self):
         port = self.start("--max-memory", "64M", "--max-line", "100000000")
         wire = self.connect(port)
