@@ -13,7 +13,7 @@ namespace {
 constexpr int kMostInstructions = 20000;
 constexpr std::array<std::string_view, 8> kPlainSchemes = {"2K", "4K", "F8", "F8 swapped",
                                                            "F6", "F4", "E0", "MB"};
-constexpr unsigned kFirstHotSpot = 0xFC0;  // the lowest of all schemes
+constexpr unsigned kFirstHotSpot = 0xFC0;  // the lowest of these schemes
 
 struct Unknown {};  // thrown where the analysis ends
 

@@ -1,7 +1,8 @@
 // Atari's own schemes. 2K and 4K: the image, without banks. F8, F6, F4: two, four or eight banks of 4K. An
 // access to one of the addresses up to $1FF9 or $1FFB selects a bank. With SC ("super chip"): 128 bytes of
 // RAM, written at $1000-$107F and read at $1080-$10FF; the write port reads as ROM. CBS's FA is similar, with
-// three banks and 256 bytes of RAM at $1000-$10FF and $1100-$11FF.
+// three banks and 256 bytes of RAM at $1000-$10FF and $1100-$11FF. The homebrew schemes EF, DF and BF have
+// 16, 32 or 64 banks, selected from $1FE0, $1FC0 or $1F80 on.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"
@@ -9,7 +10,6 @@
 namespace racebeam::atari {
 
 constexpr unsigned kBankSize = 4096;
-constexpr unsigned kHotPage = kBankSize - MemoryMap::kPageSize;
 
 inline const std::uint8_t* bank(const CartridgeSlot& slot) {
   return slot.rom.data() + kBankSize * slot.state.bank[0];
@@ -22,10 +22,12 @@ inline void map_plain(CartridgeSlot& slot) {
   for (unsigned offset = 0; offset < kBankSize; offset += size) slot.map.show(offset, slot.rom.data(), size);
 }
 
+// The hot spots are in one page. Where that is not the last page, they begin with it.
 inline void map(CartridgeSlot& slot) {
-  slot.map.show(0, bank(slot), kBankSize - MemoryMap::kPageSize);
+  const unsigned quiet = slot.scheme.hotspot % MemoryMap::kPageSize;
+  slot.map.show(0, bank(slot), kBankSize);
   slot.map.show(slot.scheme.ram, slot.ram.data(), slot.scheme.ram);
-  slot.map.hide(kHotPage, MemoryMap::kPageSize, slot.scheme.hotspot - kHotPage);
+  slot.map.hide(slot.scheme.hotspot - quiet, MemoryMap::kPageSize, quiet);
 }
 
 inline void touch(CartridgeSlot& slot, std::uint16_t address) {

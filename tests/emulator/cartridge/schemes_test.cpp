@@ -60,21 +60,39 @@ struct BankScheme {
 };
 
 constexpr BankScheme kBankSchemes[] = {
-    {"F8", 8192, false, 0x1FF8, 1, true},  {"F8SC", 8192, true, 0x1FF8, 1, true},
-    {"F6", 16384, false, 0x1FF6, 0, true}, {"F6SC", 16384, true, 0x1FF6, 0, true},
-    {"F4", 32768, false, 0x1FF4, 0, true}, {"F4SC", 32768, true, 0x1FF4, 0, false},
+    {"F8", 8192, false, 0x1FF8, 1, true},   {"F8SC", 8192, true, 0x1FF8, 1, true},
+    {"F6", 16384, false, 0x1FF6, 0, true},  {"F6SC", 16384, true, 0x1FF6, 0, true},
+    {"F4", 32768, false, 0x1FF4, 0, true},  {"F4SC", 32768, true, 0x1FF4, 0, false},
+    {"EF", 65536, false, 0x1FE0, 1, true},  {"EFSC", 65536, true, 0x1FE0, 15, true},
+    {"DF", 131072, false, 0x1FC0, 1, true}, {"DFSC", 131072, true, 0x1FC0, 15, true},
+    {"BF", 262144, false, 0x1F80, 1, true}, {"BFSC", 262144, true, 0x1F80, 15, true},
 };
 
-void check_bank(Bench& bench, const Rom& rom, unsigned bank) {
-  for (unsigned offset = 0x100; offset < 0x1000 - 12; offset += 61)
-    REQUIRE(int{bench.see(0x1000 + offset)} == int{rom[bank * 4096 + offset]});
+// Each bank has its number in the bytes from $F00 on.
+Rom banked_image(const BankScheme& scheme) {
+  Rom rom = filled(scheme.size, 4096, scheme.ram);
+  for (std::size_t bank = 0; bank < scheme.size / 4096; ++bank)
+    std::fill_n(rom.begin() + static_cast<long>(4096 * bank + 0xF00), 0x80, bank);
+  return rom;
 }
 
-TEST_CASE("F8, F6 and F4 switch banks at their hot spots, and a read gets the new bank's byte") {
+Bench bench_of(const BankScheme& scheme) {
+  Properties properties = ntsc();
+  properties.scheme = scheme.name;
+  return Bench(banked_image(scheme), properties);
+}
+
+void check_bank(Bench& bench, const Rom& rom, unsigned bank) {
+  for (unsigned offset = 0x100; offset < 0xF80; offset += 61)
+    REQUIRE(int{bench.see(0x1000 + offset)} == int{rom[bank * 4096 + offset]});
+  REQUIRE(unsigned{bench.see(0x1F10)} == bank);
+}
+
+TEST_CASE("Schemes of Atari's kind switch banks at their hot spots, and a read gets the new bank's byte") {
   for (const BankScheme& scheme : kBankSchemes) {
     INFO(scheme.name);
-    const Rom rom = filled(scheme.size, 4096, scheme.ram);
-    Bench bench(rom);
+    const Rom rom = banked_image(scheme);
+    Bench bench = bench_of(scheme);
     expect_scheme(bench, scheme.name);
     const unsigned banks = static_cast<unsigned>(scheme.size / 4096);
     check_bank(bench, rom, scheme.initial);
@@ -99,8 +117,8 @@ TEST_CASE("On-board RAM is written at one port and read at the other") {
   for (const BankScheme& scheme : kBankSchemes) {
     if (!scheme.ram) continue;
     INFO(scheme.name);
-    const Rom rom = filled(scheme.size, 4096, true);
-    Bench bench(rom);
+    const Rom rom = banked_image(scheme);
+    Bench bench = bench_of(scheme);
     for (unsigned i = 0; i < 128; ++i) bench.write_at(0, 0x1000 + i, 200 - i);
     for (unsigned i = 0; i < 128; ++i) {
       CHECK(int{bench.see(0x1000 + i)} ==
@@ -118,13 +136,15 @@ TEST_CASE("A reset selects the first bank and fills the RAM anew from the genera
   for (const BankScheme& scheme : kBankSchemes) {
     INFO(scheme.name);
     SystemGenerator generator(4753849);
-    Console console(std::make_shared<Rom>(filled(scheme.size, 4096, scheme.ram)), ntsc(), generator);
+    Properties properties = ntsc();
+    properties.scheme = scheme.name;
+    Console console(std::make_shared<Rom>(banked_image(scheme)), properties, generator);
     const std::uint32_t draws = scheme.ram ? 129 : 1;
     CHECK(console.state().drawn == 129 + draws);
     const State before = console.state();
     console.reset();
     CHECK(console.state().drawn == 129 + 2 * draws);
-    CHECK(int{console.peek(0x1105)} == static_cast<int>(16 * scheme.initial + 5));
+    CHECK(unsigned{console.peek(0x1F10)} == scheme.initial);
     CHECK((before.cartridge.ram != console.state().cartridge.ram) == scheme.ram);
   }
 }

@@ -106,6 +106,26 @@ struct ModelCv : Copyable<ModelCv> {
   }
 };
 
+// EF, DF and BF: `kBanks` banks, selected from `kFirst` on, and `kRam` bytes of RAM.
+template <unsigned kFirst, unsigned kBanks, unsigned kInitial, unsigned kRam>
+struct ModelLarge : Copyable<ModelLarge<kFirst, kBanks, kInitial, kRam>> {
+  using Copyable<ModelLarge>::Copyable;
+  unsigned bank = kInitial;
+  std::array<unsigned, kRam + 1> ram{};
+  void access(unsigned a) {
+    if (a >= kFirst && a < kFirst + kBanks) bank = a - kFirst;
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    const bool is_port = a >= 0x1000 + kRam && a < 0x1000 + 2 * kRam;
+    return is_port ? ram[a - 0x1000 - kRam] : this->image[bank * 4096 + (a & 0xFFF)];
+  }
+  void write(unsigned a, unsigned v) override {
+    access(a);
+    if (a < 0x1000 + kRam) ram[a - 0x1000] = v;
+  }
+};
+
 struct ModelMb : Copyable<ModelMb> {
   using Copyable::Copyable;
   unsigned bank = 1;

@@ -88,6 +88,7 @@ const std::vector<Most> kMost = {
     {"F4SC", 0, 7},  {"FASC", 0, 2},       {"E0", 0, 7},    {"E0", 1, 7},    {"E0", 2, 7},   {"E0", 3, 7},
     {"E7", 0, 7},    {"E7", 1, 3},         {"DPC", 0, 1},   {"3F", 0, 3},    {"3E", 0, 7},   {"3E", 1, 31},
     {"3E", 2, 1},    {"UA", 0, 1},         {"AR", 0, kAny}, {"AR", 1, kAny}, {"AR", 2, 1},   {"MB", 0, 15},
+    {"EF", 0, 15},   {"EFSC", 0, 15},      {"DF", 0, 31},   {"DFSC", 0, 31}, {"BF", 0, 63},  {"BFSC", 0, 63},
     {"MC", 0, kAny}, {"MC", 1, kAny},      {"MC", 2, kAny}, {"MC", 3, kAny}, {"MC", 4, 1}};
 
 std::uint8_t most_of(std::string_view scheme, std::size_t index) {

@@ -1,0 +1,138 @@
+// The detection of an image's scheme (docs/spec/cartridges.md, 2).
+#include <algorithm>
+#include <initializer_list>
+#include <span>
+
+#include "emulator/cartridge/cartridge.hpp"
+#include "emulator/cartridge/mappers/marks.hpp"
+#include "emulator/cartridge/mappers/tigervision.hpp"
+
+namespace racebeam {
+namespace {
+
+using Signature = std::initializer_list<std::uint8_t>;
+
+// Searches as the reference does: the last possible position is not examined, and after a hit one more byte
+// is skipped.
+bool contains(const Rom& rom, Signature signature, int hits = 1) {
+  const std::size_t length = signature.size();
+  for (std::size_t i = 0; i + length + 1 <= rom.size(); ++i) {
+    if (!std::equal(signature.begin(), signature.end(), rom.begin() + static_cast<std::ptrdiff_t>(i)))
+      continue;
+    if (--hits == 0) return true;
+    i += length;
+  }
+  return false;
+}
+
+bool contains_any(const Rom& rom, std::initializer_list<Signature> signatures) {
+  return std::any_of(signatures.begin(), signatures.end(),
+                     [&](const Signature& s) { return contains(rom, s); });
+}
+
+bool all_equal(std::span<const std::uint8_t> bytes) {
+  return std::all_of(bytes.begin(), bytes.end(), [&](std::uint8_t b) { return b == bytes.front(); });
+}
+
+bool halves_equal(const Rom& rom) {
+  const auto middle = rom.begin() + static_cast<std::ptrdiff_t>(rom.size() / 2);
+  return std::equal(rom.begin(), middle, middle);
+}
+
+// On-board RAM hides the first 256 bytes of each bank. Their content is therefore the same in each bank.
+bool is_sc(const Rom& rom) {
+  const std::span<const std::uint8_t> bytes(rom);
+  for (std::size_t bank = 0; bank < rom.size(); bank += 4096)
+    if (!all_equal(bytes.subspan(bank, 256))) return false;
+  return true;
+}
+
+bool is_cv(const Rom& rom) { return contains_any(rom, {{0x9D, 0xFF, 0xF3}, {0x99, 0x00, 0xF4}}); }
+bool is_3e(const Rom& rom) { return contains(rom, {0x85, 0x3E, 0xA9, 0x00}); }
+bool is_3f(const Rom& rom) { return contains(rom, {0x85, 0x3F}, 2); }
+bool is_ua(const Rom& rom) { return contains(rom, {0x8D, 0x40, 0x02}); }
+
+bool is_e0(const Rom& rom) {
+  return contains_any(rom, {{0x8D, 0xE0, 0x1F},
+                            {0x8D, 0xE0, 0x5F},
+                            {0x8D, 0xE9, 0xFF},
+                            {0xAD, 0xE9, 0xFF},
+                            {0xAD, 0xED, 0xFF},
+                            {0xAD, 0xF3, 0xBF}});
+}
+
+bool is_fe(const Rom& rom) {
+  return contains_any(rom, {{0x20, 0x00, 0xD0, 0xC6, 0xC5},
+                            {0x20, 0xC3, 0xF8, 0xA5, 0x82},
+                            {0xD0, 0xFB, 0x20, 0x73, 0xFE},
+                            {0x20, 0x00, 0xF0, 0x84, 0xD6}});
+}
+
+bool is_e7(const Rom& rom) {
+  const auto differs = [&](std::size_t from) {
+    return std::any_of(rom.begin() + static_cast<std::ptrdiff_t>(from),
+                       rom.begin() + static_cast<std::ptrdiff_t>(from + 32),
+                       [&](std::uint8_t b) { return b != rom[0x3800]; });
+  };
+  return all_equal(std::span(rom).subspan(0x3800, 0x200)) && (differs(0x37E0) || differs(0x3A00));
+}
+
+std::string_view name_8k(const Rom& rom) {
+  if (is_sc(rom)) return "F8SC";
+  if (halves_equal(rom)) return "4K";
+  if (is_e0(rom)) return "E0";
+  if (is_3e(rom)) return "3E";
+  if (is_3f(rom)) return "3F";
+  if (is_ua(rom)) return "UA";
+  return is_fe(rom) ? "FE" : "F8";
+}
+
+std::string_view name_16k(const Rom& rom) {
+  if (is_sc(rom)) return "F6SC";
+  if (is_e7(rom)) return "E7";
+  if (is_3e(rom)) return "3E";
+  return is_3f(rom) ? "3F" : "F6";
+}
+
+// Two schemes can have any size. Otherwise the size decides.
+std::string_view name_large(const Rom& rom, std::string_view otherwise) {
+  if (is_3e(rom)) return "3E";
+  return is_3f(rom) ? "3F" : otherwise;
+}
+
+// A scheme of Atari's kind that its hot spots show, with or without RAM.
+std::string_view with_ports(std::string_view scheme, bool has_ports) {
+  if (!has_ports) return scheme;
+  if (scheme == "EF") return "EFSC";
+  if (scheme == "DF") return "DFSC";
+  return scheme == "BF" ? "BFSC" : scheme;
+}
+
+// The reference has only the tests of this function.
+std::string_view scheme_by_size(const Rom& rom) {
+  if (!rom.empty() && rom.size() % 8448 == 0) return "AR";
+  switch (rom.size()) {
+    case 2048: return is_cv(rom) ? "CV" : "2K";
+    case 4096: return is_cv(rom) ? "CV 4K" : halves_equal(rom) ? "2K" : "4K";
+    case 8192: return name_8k(rom);
+    case 10240:
+    case 10495:
+    case 10496: return "DPC";
+    case 12288: return "FASC";
+    case 16384: return name_16k(rom);
+    case 32768: return is_sc(rom) ? "F4SC" : name_large(rom, "F4");
+    case 65536: return name_large(rom, "MB");
+    case 131072: return name_large(rom, "MC");
+    default: return rom.size() < tigervision::kBankSize ? "" : name_large(rom, "");
+  }
+}
+
+}  // namespace
+
+std::string_view scheme_name(const Rom& rom) {
+  if (const std::string_view text = scheme_by_text(rom); !text.empty()) return text;
+  const std::string_view accessed = scheme_by_accesses(rom);
+  return accessed.empty() ? scheme_by_size(rom) : with_ports(accessed, is_sc(rom));
+}
+
+}  // namespace racebeam

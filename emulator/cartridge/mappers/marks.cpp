@@ -1,0 +1,95 @@
+#include "emulator/cartridge/mappers/marks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cstddef>
+
+namespace racebeam {
+namespace {
+
+// Tools that make images of these schemes write a text into them.
+struct Text {
+  std::string_view text;
+  int hits;           // short texts must be there more than once
+  std::size_t least;  // bytes of the smallest image of the scheme
+  std::string_view scheme;
+};
+
+constexpr Text kTexts[] = {
+    {"DPC+", 1, 8192, "DPC+"},   {"PLUSCDFJ", 1, 8192, "CDFJ+"}, {"CDF", 2, 8192, "CDF"},
+    {"BUS", 2, 32768, "BUS"},    {"EFEF", 1, 65536, "EF"},       {"EFSC", 1, 65536, "EFSC"},
+    {"DFDF", 1, 131072, "DF"},   {"DFSC", 1, 131072, "DFSC"},    {"BFBF", 1, 262144, "BF"},
+    {"BFSC", 1, 262144, "BFSC"}, {"TJ3E", 1, 2048, "3E+"},       {"3EX", 2, 8192, "3EX"},
+    {"MDMC", 1, 8192, "MDM"},    {"LENIN", 1, 32768, "CTY"},
+};
+
+// Other images have only the code that accesses the hot spots: addresses from `first` on, `step` apart, or
+// the same with `mirror` added. Random bytes and random programs contain many accesses, too. They hardly ever
+// access `least` of the hot spots, or have an access at one offset in several banks. A real program has that:
+// after the access, it goes on at the next offset of the other bank.
+struct HotSpots {
+  std::size_t size;  // of the image
+  unsigned first, step, count, mirror, least;
+  std::string_view scheme;
+};
+
+constexpr HotSpots kHotSpots[] = {
+    {65536, 0x1FE0, 1, 16, 0xE000, 16, "EF"},
+    {65536, 0x080D, 16, 16, 0, 6, "X07"},
+    {131072, 0x1FC0, 1, 32, 0xE000, 16, "DF"},
+    {262144, 0x1F80, 1, 64, 0xE000, 32, "BF"},
+};
+constexpr std::size_t kMostHotSpots = 64, kBank = 4096;
+constexpr int kAlike = 4;  // banks with an access at one offset
+
+bool has(std::string_view image, const Text& wanted) {
+  if (image.size() < wanted.least) return false;
+  int hits = 0;
+  for (auto at = image.find(wanted.text); at != image.npos && hits < wanted.hits; ++hits)
+    at = image.find(wanted.text, at + wanted.text.size());
+  return hits == wanted.hits;
+}
+
+// LDA, STA, BIT and NOP of an absolute address: the instructions that select a bank and change little else.
+bool is_access(std::uint8_t opcode) {
+  constexpr std::uint8_t kOpcodes[] = {0xAD, 0x8D, 0x2C, 0x0C};
+  return std::ranges::find(kOpcodes, opcode) != std::end(kOpcodes);
+}
+
+// LDA and STA with an index that is the bank's number, counted from 0 or 1.
+bool is_indexed(std::uint8_t opcode) {
+  constexpr std::uint8_t kOpcodes[] = {0xBD, 0xB9, 0x9D, 0x99};
+  return std::ranges::find(kOpcodes, opcode) != std::end(kOpcodes);
+}
+
+bool accesses(const Rom& rom, const HotSpots& spots) {
+  if (rom.size() != spots.size) return false;
+  std::bitset<kMostHotSpots> found;
+  std::array<std::uint8_t, kBank> alike{};
+  for (std::size_t i = 0; i + 2 < rom.size(); ++i) {
+    unsigned address = rom[i + 1] | rom[i + 2] * 256U;
+    if (address + 1 >= spots.mirror + spots.first) address -= spots.mirror;
+    const unsigned distance = address - spots.first, number = distance / spots.step;
+    const bool direct = is_access(rom[i]) && distance % spots.step == 0 && number < spots.count;
+    if (direct) found.set(number);
+    if (!direct && !(is_indexed(rom[i]) && distance + 1 <= 1)) continue;
+    if (++alike[i % kBank] == kAlike) return true;
+  }
+  return found.count() >= spots.least;
+}
+
+}  // namespace
+
+std::string_view scheme_by_text(const Rom& rom) {
+  const std::string_view image(reinterpret_cast<const char*>(rom.data()), rom.size());
+  const auto text = std::ranges::find_if(kTexts, [&](const Text& one) { return has(image, one); });
+  return text != std::end(kTexts) ? text->scheme : std::string_view();
+}
+
+std::string_view scheme_by_accesses(const Rom& rom) {
+  const auto spots = std::ranges::find_if(kHotSpots, [&](const HotSpots& one) { return accesses(rom, one); });
+  return spots != std::end(kHotSpots) ? spots->scheme : std::string_view();
+}
+
+}  // namespace racebeam
