@@ -20,6 +20,7 @@ inline void reset(CartridgeSlot& slot) { slot.state.bank[0] = slot.scheme.initia
 inline void map_plain(CartridgeSlot& slot) {
   const unsigned size = slot.scheme.image;  // 2K shows twice
   for (unsigned offset = 0; offset < kBankSize; offset += size) slot.map.show(offset, slot.rom.data(), size);
+  slot.map.show(slot.scheme.ram, slot.ram.data(), slot.scheme.ram);
 }
 
 // The hot spots are in one page. Where that is not the last page, they begin with it.

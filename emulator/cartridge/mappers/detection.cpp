@@ -39,13 +39,31 @@ bool halves_equal(const Rom& rom) {
   return std::equal(rom.begin(), middle, middle);
 }
 
-// On-board RAM hides the first 256 bytes of each bank. Their content is therefore the same in each bank.
-bool is_sc(const Rom& rom) {
-  const std::span<const std::uint8_t> bytes(rom);
-  for (std::size_t bank = 0; bank < rom.size(); bank += 4096)
-    if (!all_equal(bytes.subspan(bank, 256))) return false;
+using Bytes = std::span<const std::uint8_t>;
+
+bool has_period(Bytes bytes, std::size_t period) {
+  return std::ranges::equal(bytes.first(bytes.size() - period), bytes.subspan(period));
+}
+
+// Whether the first 256 bytes of each bank repeat after `period` bytes.
+bool banks_begin_with_period(const Rom& rom, std::size_t period) {
+  constexpr std::size_t kBank = 4096, kPorts = 256;
+  for (std::size_t bank = 0; bank < rom.size(); bank += kBank)
+    if (!has_period(Bytes(rom).subspan(bank, kPorts), period)) return false;
   return true;
 }
+
+// On-board RAM hides the first 256 bytes of each bank. Tools fill them with one byte.
+bool is_sc(const Rom& rom) { return banks_begin_with_period(rom, 1); }
+
+// A dump of a cartridge has the contents of the RAM there, once for each port. A shorter period is a pattern
+// of the program's.
+bool has_ports(const Rom& rom) {
+  return is_sc(rom) || (banks_begin_with_period(rom, 128) && !banks_begin_with_period(rom, 64));
+}
+
+// In front of the reset vector.
+bool is_marked_sc(const Rom& rom) { return rom[rom.size() - 6] == 'S' && rom[rom.size() - 5] == 'C'; }
 
 bool is_cv(const Rom& rom) { return contains_any(rom, {{0x9D, 0xFF, 0xF3}, {0x99, 0x00, 0xF4}}); }
 bool is_3e(const Rom& rom) { return contains(rom, {0x85, 0x3E, 0xA9, 0x00}); }
@@ -77,9 +95,18 @@ bool is_e7(const Rom& rom) {
   return all_equal(std::span(rom).subspan(0x3800, 0x200)) && (differs(0x37E0) || differs(0x3A00));
 }
 
+// The reference has only these tests, but for has_ports() and is_marked_sc().
+std::string_view name_4k(const Rom& rom) {
+  if (is_cv(rom)) return "CV 4K";
+  if (is_sc(rom) && is_marked_sc(rom)) return "4KSC";
+  if (halves_equal(rom)) return "2K";
+  return has_ports(rom) && !is_sc(rom) ? "4KSC" : "4K";
+}
+
 std::string_view name_8k(const Rom& rom) {
   if (is_sc(rom)) return "F8SC";
   if (halves_equal(rom)) return "4K";
+  if (has_ports(rom)) return "F8SC";
   if (is_e0(rom)) return "E0";
   if (is_3e(rom)) return "3E";
   if (is_3f(rom)) return "3F";
@@ -88,7 +115,7 @@ std::string_view name_8k(const Rom& rom) {
 }
 
 std::string_view name_16k(const Rom& rom) {
-  if (is_sc(rom)) return "F6SC";
+  if (has_ports(rom)) return "F6SC";
   if (is_e7(rom)) return "E7";
   if (is_3e(rom)) return "3E";
   return is_3f(rom) ? "3F" : "F6";
@@ -108,19 +135,18 @@ std::string_view with_ports(std::string_view scheme, bool has_ports) {
   return scheme == "BF" ? "BFSC" : scheme;
 }
 
-// The reference has only the tests of this function.
 std::string_view scheme_by_size(const Rom& rom) {
   if (!rom.empty() && rom.size() % 8448 == 0) return "AR";
   switch (rom.size()) {
     case 2048: return is_cv(rom) ? "CV" : "2K";
-    case 4096: return is_cv(rom) ? "CV 4K" : halves_equal(rom) ? "2K" : "4K";
+    case 4096: return name_4k(rom);
     case 8192: return name_8k(rom);
     case 10240:
     case 10495:
     case 10496: return "DPC";
     case 12288: return "FASC";
     case 16384: return name_16k(rom);
-    case 32768: return is_sc(rom) ? "F4SC" : name_large(rom, "F4");
+    case 32768: return has_ports(rom) ? "F4SC" : name_large(rom, "F4");
     case 65536: return name_large(rom, "MB");
     case 131072: return name_large(rom, "MC");
     default: return rom.size() < tigervision::kBankSize ? "" : name_large(rom, "");
@@ -132,7 +158,7 @@ std::string_view scheme_by_size(const Rom& rom) {
 std::string_view scheme_name(const Rom& rom) {
   if (const std::string_view text = scheme_by_text(rom); !text.empty()) return text;
   const std::string_view accessed = scheme_by_accesses(rom);
-  return accessed.empty() ? scheme_by_size(rom) : with_ports(accessed, is_sc(rom));
+  return accessed.empty() ? scheme_by_size(rom) : with_ports(accessed, has_ports(rom));
 }
 
 }  // namespace racebeam

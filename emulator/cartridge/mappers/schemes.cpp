@@ -27,18 +27,14 @@ std::uint8_t no_hidden_page(CartridgeSlot&, std::uint16_t, std::int32_t) { retur
 
 bool no_banks(const CartridgeSlot&, const CartridgeState& state) { return banks_unused(state, 0); }
 
-// F4SC's hot spots react to reads only.
-Delivery write_f4sc(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
-  return atari::write_ram(slot, address, value);
-}
-
 // clang-format off
 constexpr Delivery (*kIgnore)(CartridgeSlot&, std::uint16_t, std::uint8_t) = atari::ignore_write;
 
 //                               reset                   map                  read            write                  admits
 constexpr MapperOps kPlain    = {atari::reset,           atari::map_plain,    no_hidden_page, kIgnore,               atari::admits};
 constexpr MapperOps kAtari    = {atari::reset,           atari::map,          atari::read,    atari::write,          atari::admits};
-constexpr MapperOps kF4sc     = {atari::reset,           atari::map,          atari::read,    write_f4sc,            atari::admits};
+constexpr MapperOps kPlainSc  = {atari::reset,           atari::map_plain,    no_hidden_page, atari::write_ram,      atari::admits};
+constexpr MapperOps kF4sc     = {atari::reset,           atari::map,          atari::read,    atari::write_ram,      atari::admits};  // reads only select
 constexpr MapperOps kE0       = {parker::reset,          parker::map,         parker::read,   parker::write,         parker::admits};
 constexpr MapperOps kE7       = {mnetwork::reset,        mnetwork::map,       mnetwork::read, mnetwork::write,       mnetwork::admits};
 constexpr MapperOps kFe       = {activision::reset,      activision::map,     no_hidden_page, kIgnore,               no_banks};
@@ -58,6 +54,7 @@ constexpr Scheme kSchemes[] = {
     // ops      name          image  hotspot banks init  ram  random  TIA
     {kPlain,    "2K",           2048, 0,        1, 0,     0, false, false},
     {kPlain,    "4K",           4096, 0,        1, 0,     0, false, false},
+    {kPlainSc,  "4KSC",         4096, 0,        1, 0,   128, true,  false},
     {kAtari,    "F8",           8192, 0xFF8,    2, 1,     0, false, false},
     {kAtari,    "F8 swapped",   8192, 0xFF8,    2, 0,     0, false, false},
     {kAtari,    "F8SC",         8192, 0xFF8,    2, 1,   128, true,  false},

@@ -100,6 +100,40 @@ TEST_CASE("Halves, RAM ports and constant bytes") {
           "F8SC"}});
 }
 
+// An image whose banks begin with 128 bytes that are not all equal, twice.
+Rom with_repeated_ports(std::size_t size) {
+  Rom rom = mixed(size);
+  for (auto bank = rom.begin(); bank != rom.end(); bank += 4096) std::copy_n(bank, 128, bank + 128);
+  return rom;
+}
+
+Rom marked_sc(Rom rom) {
+  rom[rom.size() - 6] = 'S';
+  rom[rom.size() - 5] = 'C';
+  return rom;
+}
+
+TEST_CASE("RAM ports show by their contents, too, which repeat in each bank") {
+  Rom in_one_bank = mixed(8192), pattern = mixed(8192), almost = with_repeated_ports(8192);
+  std::copy_n(in_one_bank.begin(), 128, in_one_bank.begin() + 128);
+  almost[4096 + 255] ^= 1;
+  for (std::size_t i = 0; i < pattern.size(); ++i) pattern[i] = static_cast<std::uint8_t>(i % 64 + i / 4096);
+  Rom padded = with_repeated_ports(16384);  // without the ports, this would be E7
+  std::fill_n(padded.begin() + 0x3800, 0x200, 0xFF);
+  check({{"4K", with_repeated_ports(4096), "4KSC"},
+         {"8K", with_repeated_ports(8192), "F8SC"},
+         {"16K", with_repeated_ports(16384), "F6SC"},
+         {"32K", with_repeated_ports(32768), "F4SC"},
+         {"16K, padded", padded, "F6SC"},
+         {"only the first bank", in_one_bank, "F8"},
+         {"a pattern of 64 bytes", pattern, "F8"},
+         {"but for one byte", almost, "F8"},
+         {"4K, equal bytes", with_ram_ports(4096), "4K"},
+         {"4K, equal bytes, marked", marked_sc(with_ram_ports(4096)), "4KSC"},
+         {"4K, marked only", marked_sc(mixed(4096)), "4K"},
+         {"4K with equal halves", with_halves_equal(4096), "2K"}});
+}
+
 TEST_CASE("Every signature is found") {
   check({{"E0, 1", mixed(8192, {{700, {0x8D, 0xE0, 0x1F}}}), "E0"},
          {"E0, 2", mixed(8192, {{700, {0x8D, 0xE0, 0x5F}}}), "E0"},

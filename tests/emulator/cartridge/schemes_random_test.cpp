@@ -29,6 +29,7 @@ std::unique_ptr<CartridgeModel> make(const Rom& rom) {
 }
 
 const std::vector<Case> kCases = {
+    {"4KSC", 4096, make<Model4ksc>, {{0x1000, 0x100}}},
     {"FASC", 12288, make<ModelFasc>, {{0x1FF8, 3}, {0x1000, 0x200}}},
     {"E7", 16384, make<ModelE7>, {{0x1FE0, 12}, {0x1FE7, 1}, {0x1000, 0x800}, {0x1800, 0x200}}},
     {"3E", 16384, make<Model3e>, {{0x003E, 2}, {0x103E, 2}, {0x1000, 0x800}, {0x0000, 0x40}}},

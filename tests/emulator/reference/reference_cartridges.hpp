@@ -30,6 +30,17 @@ struct Copyable : CartridgeModel {
   }
 };
 
+struct Model4ksc : Copyable<Model4ksc> {
+  using Copyable::Copyable;
+  std::array<unsigned, 128> ram{};
+  unsigned read(unsigned a, int) override {
+    return a >= 0x1080 && a <= 0x10FF ? ram[a - 0x1080] : image[a & 0xFFF];
+  }
+  void write(unsigned a, unsigned v) override {
+    if (a <= 0x107F) ram[a - 0x1000] = v;
+  }
+};
+
 struct ModelFasc : Copyable<ModelFasc> {
   using Copyable::Copyable;
   unsigned bank = 2;
