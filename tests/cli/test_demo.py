@@ -11,6 +11,10 @@ from harness import BINARY, PATIENCE, SOURCE, main
 EPISODE = "docs/results/own-games/logs/updraft-uct-1/1.episode"
 
 
+def run_program(*command):
+    return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=PATIENCE).returncode
+
+
 class Demo(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -47,9 +51,28 @@ class Demo(unittest.TestCase):
             with self.subTest(redirection=redirection):
                 done = self.run_demo(redirection)
                 self.assertEqual(done.returncode, 0, done)
+                self.check_text(done.stdout.decode())
                 self.assertEqual(sorted(os.listdir(self.path("build/demo"))), ["beamfall.png", "updraft.gif"])
                 shutil.rmtree(self.path("build/demo"))
                 self.assertEqual(os.listdir(self.scratch), [])
+
+    def check_text(self, text):
+        """It tells of a score, a film and a speed, and ends with three commands that the program has."""
+        self.assertRegex(
+            text,
+            r"(?s)Score \d+ in \d+ frames.*updraft\.gif: \d+ frames\n.*"
+            r"runs at \d+ frames a second on one processor, \d+ times as fast as a console\n\nTry next:\n",
+        )
+        commands = [line.split("#")[0].split() for line in text.partition("Try next:\n")[2].splitlines()]
+        self.assertEqual(len(commands), 3)
+        for program, command, *options in commands:
+            self.assertEqual(run_program(program, command, *options, "--help"), 0)
+
+    def test_a_build_is_announced_before_it_begins(self):
+        self.script("scripts/setup", "[[ $1 != --check ]] && exit 9 || exit 1")  # a package is missing
+        done = self.run_demo("</dev/null")
+        self.assertEqual((done.returncode, done.stderr), (9, b""))
+        self.assertRegex(done.stdout.decode(), r"^demo: racebeam is built first, which takes about \w+ minutes on two")
 
     def test_one_whose_server_fails_says_so_and_ends_the_player(self):
         self.script("build/release/racebeam", "exit 7")
