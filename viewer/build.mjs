@@ -1,13 +1,27 @@
 // Bundles the page into dist/, or into the folder that is given. `--tests KIND [NAME]`: bundles the tests in test/KIND, or those
 // whose files begin with NAME, for Node, into build/viewer/KIND/all.test.js.
 
-import { copyFileSync, mkdirSync, readdirSync, rmSync, symlinkSync } from "node:fs";
+import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
-const common = { absWorkingDir: here, bundle: true, format: "esm", target: "es2022", logLevel: "warning", charset: "utf8" };
+const catalogue = path.join(here, "../games/catalogue");
+
+/** The titles of the catalogue's games, by their names. */
+function titles() {
+  const files = readdirSync(catalogue).filter((file) => file.endsWith(".toml")).sort();
+  return Object.fromEntries(files.map((file) => {
+    const [, title] = /^title\s*=\s*(".*")/m.exec(readFileSync(path.join(catalogue, file), "utf8"));
+    return [path.basename(file, ".toml"), JSON.parse(title)];
+  }));
+}
+
+const common = {
+  absWorkingDir: here, bundle: true, format: "esm", target: "es2022", logLevel: "warning", charset: "utf8",
+  define: { TITLES: JSON.stringify(titles()) },
+};
 
 async function page(folder) {
   const small = { ...common, outdir: folder, minify: true, legalComments: "none" };

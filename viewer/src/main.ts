@@ -1,4 +1,4 @@
-import { byId, tell } from "./page/elements.js";
+import { byId, markCurrent, tell } from "./page/elements.js";
 import { Server } from "./page/server.js";
 import { PlayView } from "./play/play_view.js";
 import { ReplayView } from "./replay/replay_view.js";
@@ -38,8 +38,7 @@ function show(view: View): void {
   shown = view;
   for (const each of VIEWS) {
     byId(`${each}-view`, HTMLElement).hidden = each !== view;
-    const link = document.querySelector(`nav a[href="#${each}"]`);
-    each === view ? link?.setAttribute("aria-current", "page") : link?.removeAttribute("aria-current");
+    markCurrent(document.querySelector<HTMLElement>(`nav a[href="#${each}"]`)!, each === view, "page");
   }
   play.active = view === "play";
   replay.active = view === "replay";
@@ -48,4 +47,4 @@ function show(view: View): void {
 
 addEventListener("hashchange", navigate);
 navigate();
-await Promise.all([play.begin(), replay.follow(location.hash)]);
+await replay.follow(location.hash);

@@ -41,6 +41,29 @@ function score(indices: readonly number[], coding: "bcd" | "binary"): string {
   return parts.join(" + ");
 }
 
+/** What the rule of the game file gives for these bytes of RAM. */
+export interface Outcome {
+  score?: number;
+  lives?: number;
+  over?: boolean;
+}
+
+/** The decimal number of bytes with two digits each, as the game file's bcd() reads them: digits are not checked. */
+function decimal(bytes: readonly number[]): number {
+  return bytes.reduce((sum, byte, place) => sum + (10 * (byte >> 4) + (byte & 15)) * 100 ** place, 0);
+}
+
+/** Does what the rule of gameFile() would do with these bytes of RAM. Leaves out what was not found. */
+export function outcome({ score: indices, coding, lives, over }: Pick<Findings, "score" | "coding" | "lives" | "over">, ram: Uint8Array): Outcome {
+  const bytes = indices.map((index) => ram[index] ?? 0);
+  const left = lives === undefined ? undefined : ram[lives] ?? 0;
+  return {
+    ...(bytes.length ? { score: coding === "bcd" ? decimal(bytes) : bytes.reduce((sum, byte, place) => sum + byte * 256 ** place, 0) } : {}),
+    ...(left === undefined ? {} : { lives: left }),
+    ...(over ? { over: ram[over.index] === over.value } : left === undefined ? {} : { over: left === 0 }),
+  };
+}
+
 function terminal({ over, lives }: Findings): string {
   return over ? `ram[${address(over.index)}] == ${hex(over.value)}` : lives === undefined ? "0" : "lives == 0";
 }

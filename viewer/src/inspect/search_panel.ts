@@ -1,10 +1,17 @@
 import { byId, make, offer, tell } from "../page/elements.js";
-import { gameFile, type Findings } from "./draft.js";
+import { gameFile, outcome, type Findings } from "./draft.js";
 import { addressOf, byteOf, MemorySearch, type Comparison } from "./search.js";
 
 const MOST_LISTED = 12;
 const ROLES = [["", "-"], ["score0", "score, lowest digits"], ["score1", "score, next"], ["score2", "score, highest"], ["lives", "lives"],
   ["over", "game over at this value"]] as const;
+const NOTHING = "No byte has a part in the rule yet. Say in the list which byte is which.";
+
+/** A byte's part in the rule, and its value when the user said so. */
+interface Part {
+  role: string;
+  value: number;
+}
 
 /** The part of the page that searches memory, and saves what was found as a draft of a game file. */
 export class SearchPanel {
@@ -14,7 +21,8 @@ export class SearchPanel {
   about: () => Pick<Findings, "title" | "md5" | "minimal"> = () => ({ title: "", md5: "", minimal: [0] });
 
   readonly #search = new MemorySearch();
-  readonly #roles = new Map<number, string>();
+  readonly #parts = new Map<number, Part>();
+  readonly #values = new Map<number, HTMLElement>(); // the cells of the bytes that are listed
   #ram = new Uint8Array(128);
   #first: Uint8Array | undefined; // RAM when the search began
 
@@ -35,37 +43,44 @@ export class SearchPanel {
       this.#list();
     };
     byId("search-new", HTMLButtonElement).onclick = () => this.begin();
+    byId("coding", HTMLSelectElement).onchange = () => this.#preview();
     byId("draft", HTMLButtonElement).onclick = () => this.#save();
   }
 
   /** Begins a search with the next RAM that is shown. */
   begin(): void {
     this.#first = undefined;
-    this.#roles.clear();
+    this.#parts.clear();
     this.show(this.#ram);
     this.#list();
   }
 
+  /** Takes RAM as it is now, and shows the values of the bytes that are listed. */
   show(ram: Uint8Array): void {
     this.#ram = new Uint8Array(ram);
     if (!this.#first) {
       this.#first = this.#ram;
       this.#search.begin(this.#ram);
     }
+    this.#values.forEach((cell, index) => tell(cell, this.#value(index)));
+    this.#preview();
   }
 
   /** The text of the game file. */
   draft(): string {
-    const index = (role: string) => [...this.#roles].find(([, each]) => each === role)?.[0];
+    return gameFile({ ...this.about(), ...this.#findings() });
+  }
+
+  #findings(): Pick<Findings, "score" | "coding" | "lives" | "livesAtStart" | "over"> {
+    const index = (role: string) => [...this.#parts].find(([, part]) => part.role === role)?.[0];
     const score = ["score0", "score1", "score2"].map(index).filter((each) => each !== undefined);
     const [lives, over] = [index("lives"), index("over")];
-    return gameFile({
-      ...this.about(),
+    return {
       score,
       coding: byId("coding", HTMLSelectElement).value === "binary" ? "binary" : "bcd",
       ...(lives === undefined ? {} : { lives, livesAtStart: this.#first?.[lives] ?? 0 }),
-      ...(over === undefined ? {} : { over: { index: over, value: this.#ram[over] ?? 0 } }),
-    });
+      ...(over === undefined ? {} : { over: { index: over, value: this.#parts.get(over)!.value } }),
+    };
   }
 
   #narrow(comparison: Comparison, value?: number): void {
@@ -75,24 +90,58 @@ export class SearchPanel {
 
   #list(): void {
     const { candidates, depth } = this.#search;
-    const listed = [...new Set([...this.#roles.keys(), ...(depth ? candidates : [])])].slice(0, MOST_LISTED);
-    tell(byId("found", HTMLElement), depth ? `${candidates.length} of 128 bytes fit.` : "");
+    const listed = [...new Set([...this.#parts.keys(), ...(depth ? candidates : [])])].slice(0, MOST_LISTED);
+    const none = "No byte did all of that. Undo takes the last step back.";
+    tell(byId("found", HTMLElement), !depth ? "" : candidates.length ? `${candidates.length} of 128 bytes fit.` : none);
+    this.#values.clear();
+    byId("listed", HTMLTableElement).hidden = listed.length === 0;
     byId("candidates", HTMLTableSectionElement).replaceChildren(...listed.map((index) => this.#row(index)));
+    this.#preview();
     this.changed(depth ? candidates : []);
   }
 
   #row(index: number): HTMLTableRowElement {
-    const role = make("select", { onchange: () => this.#roles.set(index, role.value) });
+    const role = make("select", { onchange: () => this.#assign(index, role.value) });
     role.setAttribute("aria-label", `Part of the rule of ${addressOf(index)}`);
-    offer(role, ROLES, this.#roles.get(index) ?? "");
+    offer(role, ROLES, this.#parts.get(index)?.role ?? "");
+    const value = make("td", { textContent: this.#value(index) });
+    this.#values.set(index, value);
+    return make("tr", {}, make("td", { textContent: addressOf(index) }), value, make("td", {}, role));
+  }
+
+  #value(index: number): string {
     const value = this.#ram[index] ?? 0;
-    const shown = `$${value.toString(16).toUpperCase().padStart(2, "0")} = ${value}`;
-    return make("tr", {}, make("td", { textContent: addressOf(index) }), make("td", { textContent: shown }), make("td", {}, role));
+    return `$${value.toString(16).toUpperCase().padStart(2, "0")} = ${value}`;
+  }
+
+  #assign(index: number, role: string): void {
+    if (role) {
+      this.#parts.set(index, { role, value: this.#ram[index] ?? 0 });
+    } else {
+      this.#parts.delete(index);
+    }
+    tell(byId("draft-problem", HTMLElement), "");
+    this.#preview();
+  }
+
+  /** Says what the draft's rule gives at this moment. */
+  #preview(): void {
+    const { score, lives, over } = outcome(this.#findings(), this.#ram);
+    const parts = [
+      ...(score === undefined ? [] : [`score ${score}`]),
+      ...(lives === undefined ? [] : [`lives ${lives}`]),
+      ...(over === undefined ? [] : [over ? "the game is over" : "the game goes on"]),
+    ];
+    tell(byId("preview", HTMLElement), parts.length ? `The draft's rule gives now: ${parts.join(", ")}.` : NOTHING);
   }
 
   #save(): void {
-    const address = URL.createObjectURL(new Blob([this.draft()], { type: "application/toml" }));
-    make("a", { href: address, download: `${this.about().title || "game"}.toml` }).click();
-    setTimeout(() => URL.revokeObjectURL(address), 1000);
+    const problem = byId("draft-problem", HTMLElement);
+    tell(problem, this.#parts.size ? "" : `There is nothing to save. ${NOTHING}`);
+    if (this.#parts.size) {
+      const address = URL.createObjectURL(new Blob([this.draft()], { type: "application/toml" }));
+      make("a", { href: address, download: `${this.about().title || "game"}.toml` }).click();
+      setTimeout(() => URL.revokeObjectURL(address), 1000);
+    }
   }
 }

@@ -42,6 +42,11 @@ export function tell(element: HTMLElement, text: string): void {
   }
 }
 
+/** Marks the one of several elements that is shown. */
+export function markCurrent(element: HTMLElement, current: boolean, what = "true"): void {
+  current ? element.setAttribute("aria-current", what) : element.removeAttribute("aria-current");
+}
+
 /** Fills a list of choices: values and their texts. */
 export function offer(select: HTMLSelectElement, choices: readonly (readonly [string, string])[], chosen?: string): void {
   select.replaceChildren(...choices.map(([value, text]) => make("option", { value, textContent: text, selected: value === chosen })));

@@ -2,6 +2,7 @@ import { connect, RefusedError, type Group, type Session } from "racebeam";
 import { byId, tell } from "./elements.js";
 
 const PATIENCE = 30_000; // milliseconds until a reply
+const PICTURES = "pictures"; // sessions of any page that make small pictures
 const WAITS = [250, 500, 1000, 2000]; // milliseconds between attempts to reach a server that has gone
 
 /** A session and what the server says of itself. */
@@ -12,6 +13,8 @@ interface Opened {
 
 /** The server that the page came from. It may ask for a token, which the user then gives once. */
 export class Server {
+  readonly #claimed = new WeakSet<Session>();
+  readonly #own = new Set<string>(); // names of this page's sessions, where the server shares all sessions
   #token: string | undefined;
   #asking: Promise<string> | undefined;
 
@@ -45,6 +48,23 @@ export class Server {
     return { session, limits };
   }
 
+  /** Names a session that has loaded a game, so that the page knows it among the shared ones, where the server shares all. */
+  async claim(session: Session, purpose: "player" | "replay" | typeof PICTURES): Promise<void> {
+    if (!this.#claimed.has(session)) {
+      this.#claimed.add(session);
+      if (await sharesAll(session)) {
+        const name = `${purpose}-${crypto.getRandomValues(new Uint32Array(1))[0]!.toString(36)}`;
+        await session.share(name);
+        this.#own.add(name);
+      }
+    }
+  }
+
+  /** Whether a shared session is this page's own, or only makes some page's pictures. */
+  owns(name: string): boolean {
+    return this.#own.has(name) || name.startsWith(`${PICTURES}-`);
+  }
+
   /** A new session, as soon as the server answers. `waiting` is called before each pause. */
   async reopen(waiting: (error: unknown) => void): Promise<Opened> {
     for (let attempt = 0; ; ++attempt) {
@@ -55,6 +75,19 @@ export class Server {
         await new Promise((resolve) => setTimeout(resolve, WAITS[Math.min(attempt, WAITS.length - 1)]));
       }
     }
+  }
+}
+
+/** Whether the server shares all sessions: it then refuses to unshare one. */
+async function sharesAll(session: Session): Promise<boolean> {
+  try {
+    await session.unshare();
+    return false;
+  } catch (error) {
+    if (error instanceof RefusedError) {
+      return true;
+    }
+    throw error;
   }
 }
 

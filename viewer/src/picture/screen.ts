@@ -26,7 +26,7 @@ export class Screen {
     this.#colours = colours;
     this.canvas.width = WIDTH;
     this.canvas.height = height;
-    this.canvas.style.aspectRatio = String(pictureAspect(format, height));
+    this.canvas.style.setProperty("--aspect", String(pictureAspect(format, height)));
     this.#image = this.#context.createImageData(WIDTH, height);
     this.#pixels = new Uint32Array(this.#image.data.buffer);
   }

@@ -1,37 +1,57 @@
 import type { Group } from "racebeam";
-import { byId, offer } from "../page/elements.js";
+import { byId, offer, tell } from "../page/elements.js";
+import { GameList } from "./game_list.js";
+import type { Pictures } from "./pictures.js";
 import type { Choice, Game } from "./player.js";
+
+/** The difficulty switches: button, side, and the bit that stands for A. */
+const SWITCHES = [["left-switch", "Left", 1], ["right-switch", "Right", 2]] as const;
 
 function list(value: unknown): string[] {
   return String(value ?? "").split(",").filter(Boolean);
 }
 
-/** The lists of games, modes and difficulties. */
+/** The games, and the modes and difficulties of the one that is loaded. */
 export class GameChoice {
   /** Called when the user has chosen. */
   chosen: (choice: Choice) => void = () => {};
 
-  readonly #game = byId("game", HTMLSelectElement);
+  readonly #games: GameList;
   readonly #mode = byId("mode", HTMLSelectElement);
-  readonly #difficulty = byId("difficulty", HTMLSelectElement);
+  #game: Game | undefined;
 
-  constructor() {
-    this.#game.onchange = () => this.chosen({ game: this.#game.value });
-    this.#mode.onchange = this.#difficulty.onchange = () =>
-      this.chosen({ game: this.#game.value, mode: Number(this.#mode.value), difficulty: Number(this.#difficulty.value) });
+  constructor(pictures: Pictures) {
+    this.#games = new GameList(pictures);
+    this.#games.chosen = (game) => this.chosen({ game });
+    this.#mode.onchange = () => this.#choose({ mode: Number(this.#mode.value) });
+    for (const [id, , bit] of SWITCHES) {
+      byId(id, HTMLButtonElement).onclick = () => this.#choose({ difficulty: (this.#game?.difficulty ?? 0) ^ bit });
+    }
   }
 
   /** Offers games. */
   offer(games: readonly string[]): void {
-    offer(this.#game, games.map((name) => [name, name]), games[0]);
+    this.#games.offer(games);
   }
 
-  /** Shows a game that was loaded, and offers its modes and difficulties. `described`: the reply of `games GAME`. */
-  show(game: Game, described: Group): void {
+  /** Shows a game that was loaded, its modes and its difficulties. `described`: the reply of `games GAME`. */
+  show(game: Game, described: Group, difficulties: readonly number[]): void {
+    this.#game = game;
+    this.#games.mark(game.name);
     const two = new Set(list(described.two_player_modes));
     const modes = new Set([...list(described.modes), ...two]);
-    this.#game.value = game.name;
     offer(this.#mode, [...modes].map((mode) => [mode, two.has(mode) ? `${mode}, two players` : mode]), String(game.mode));
-    offer(this.#difficulty, list(described.difficulties).map((each) => [each, each]), String(game.difficulty));
+    for (const [id, side, bit] of SWITCHES) {
+      const button = byId(id, HTMLButtonElement);
+      button.disabled = !difficulties.includes(game.difficulty ^ bit);
+      tell(button, `${side}: ${game.difficulty & bit ? "A" : "B"}`);
+    }
+  }
+
+  #choose(change: Partial<Choice>): void {
+    if (this.#game) {
+      const { name, mode, difficulty } = this.#game;
+      this.chosen({ game: name, mode, difficulty, ...change });
+    }
   }
 }

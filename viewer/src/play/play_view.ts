@@ -6,12 +6,14 @@ import { Touch } from "../input/touch.js";
 import { Inspector } from "../inspect/inspector.js";
 import { byId, tell } from "../page/elements.js";
 import type { Server } from "../page/server.js";
+import { titleOf } from "../page/titles.js";
 import { Screen } from "../picture/screen.js";
 import { soundRate } from "../picture/shape.js";
 import type { Episode } from "../replay/log.js";
 import { Speaker } from "../sound/speaker.js";
 import { Figures } from "./figures.js";
 import { GameChoice } from "./game_choice.js";
+import { Pictures } from "./pictures.js";
 import { Player, type Choice, type Motion, type Shown } from "./player.js";
 
 const INSPECTED = ["grey84:delta", "tia:raw"]; // fields of the panels
@@ -30,17 +32,19 @@ export class PlayView {
   readonly #speaker = new Speaker();
   readonly #inspector = new Inspector();
   readonly #figures = new Figures(byId("figures", HTMLElement));
-  readonly #choice = new GameChoice();
+  readonly #choice: GameChoice;
   readonly #keyboard: Keyboard;
   readonly #touch: Touch;
   #player: Player | undefined;
   #session: Session | undefined;
   #lost = false;
   #active = false;
+  #begun = false;
   #minimal: number[] = [0]; // actions of the game
 
   constructor(server: Server) {
     this.#server = server;
+    this.#choice = new GameChoice(new Pictures(server));
     const press = (time: number) => this.#player?.latency.press(time);
     this.#keyboard = new Keyboard(this.#stage, press);
     this.#touch = new Touch(byId("pad", HTMLElement), byId("fire", HTMLElement), press);
@@ -52,8 +56,8 @@ export class PlayView {
     };
   }
 
-  /** Opens the session, if there is none, and offers the games. */
-  async begin(): Promise<void> {
+  /** Opens the session, and offers the games. */
+  async #begin(): Promise<void> {
     await this.#open();
     const games = await this.#session!.games();
     this.#choice.offer(games);
@@ -67,11 +71,15 @@ export class PlayView {
     }
   }
 
-  /** The view is shown or hidden. Hidden, the game pauses. */
+  /** The view is shown or hidden. Hidden, the game pauses. A session is opened when it is first shown. */
   set active(active: boolean) {
     this.#active = active;
     if (active) {
       requestAnimationFrame((now) => this.#tick(now));
+      if (!this.#begun) {
+        this.#begun = true;
+        void this.#begin().catch((error) => this.#lose(error));
+      }
     } else if (this.#player?.motion !== "paused") {
       this.#move("paused");
     }
@@ -102,10 +110,12 @@ export class PlayView {
     this.told("The connection is lost. Trying again.");
     const { game, acts = [] } = this.#player ?? {};
     try {
-      await this.#open();
       if (game) {
         const { name, mode, difficulty, seed } = game;
+        await this.#open();
         await this.#load({ game: name, mode, difficulty, seed }, acts);
+      } else {
+        await this.#begin();
       }
     } catch (again) {
       this.#lost = false;
@@ -118,28 +128,41 @@ export class PlayView {
     this.#move("paused");
     const game = await player.load(choice, acts);
     this.told("");
+    await this.#server.claim(this.#session!, "player");
     const colours = await this.#session!.palette();
     this.#screen.become(colours, game.format, game.height);
     this.#speaker.rate = soundRate(game.format);
     this.#inspector.begin(colours, await this.#session!.names());
     const described = await this.#session!.game(game.name).catch((): Group => ({})); // an image without rules has no description
     this.#minimal = String(described.minimal ?? "0").split(",").map(Number);
-    this.#choice.show(game, described);
-    this.#screen.canvas.setAttribute("aria-label", `Screen of ${game.name}`);
+    this.#choice.show(game, described, await this.#session!.difficulties());
+    this.#screen.canvas.setAttribute("aria-label", `Screen of ${titleOf(game.name)}`);
     const last = await this.#session!.look("screen");
     this.#screen.draw(last.screen);
-    this.#curtain(acts.length ? "Continue" : `Play ${game.name}`);
+    this.#curtain(acts.length ? "Continue" : `Play ${titleOf(game.name)}`);
+  }
+
+  /** The user has chosen a game or a setting: the new game begins at once if the one before was being played. */
+  async #choose(choice: Choice): Promise<void> {
+    const playing = this.#player?.motion === "playing" && choice.game === this.#player.game?.name;
+    await this.#load(choice);
+    this.#stage.scrollIntoView({ block: "nearest" });
+    if (playing) {
+      this.#go();
+    } else {
+      this.#start.focus({ preventScroll: true });
+    }
   }
 
   #listen(): void {
     const click = (id: string, action: () => void) => byId(id, HTMLButtonElement).addEventListener("click", action);
-    this.#choice.chosen = (choice) => void this.#load(choice).catch((error) => this.#lose(error));
+    this.#choice.chosen = (choice) => void this.#choose(choice).catch((error) => this.#lose(error));
     this.#start.onclick = () => this.#go();
-    click("pause", () => this.#move(this.#player?.motion === "playing" ? "paused" : "playing"));
+    click("pause", () => (this.#player?.motion === "playing" ? this.#move("paused") : this.#go()));
     click("back", () => this.#single(-1));
     click("step", () => this.#single(1));
     click("new", () => void this.#again());
-    click("sound", () => this.#mute());
+    click("mute", () => this.#mute());
     click("full", () => void this.#fill());
     click("inspect", () => void this.#inspect());
     click("replay-this", () => this.#replayThis());
@@ -165,6 +188,9 @@ export class PlayView {
       KeyM: () => this.#mute(),
       KeyF: () => void this.#fill(),
       KeyI: () => void this.#inspect(),
+      KeyT: () => this.#showFigures(),
+      Digit1: () => byId("left-switch", HTMLButtonElement).click(),
+      Digit2: () => byId("right-switch", HTMLButtonElement).click(),
       Backspace: () => this.#move("rewinding"),
     };
     const action = actions[event.code];
@@ -191,7 +217,8 @@ export class PlayView {
     const player = this.#player;
     if (player) {
       player.motion = motion;
-      byId("pause", HTMLButtonElement).setAttribute("aria-pressed", String(motion === "paused"));
+      this.#stage.dataset.motion = motion;
+      tell(byId("pause-text", HTMLElement), motion === "playing" ? "Pause" : "Play");
       if (motion === "playing") {
         void this.#speaker.start();
         this.#start.hidden = true;
@@ -223,7 +250,12 @@ export class PlayView {
 
   #mute(): void {
     this.#speaker.on = !this.#speaker.on;
-    byId("sound", HTMLButtonElement).setAttribute("aria-pressed", String(this.#speaker.on));
+    byId("mute", HTMLButtonElement).setAttribute("aria-pressed", String(!this.#speaker.on));
+  }
+
+  #showFigures(): void {
+    const figures = byId("figures", HTMLElement);
+    figures.hidden = !figures.hidden;
   }
 
   async #fill(): Promise<void> {
@@ -233,7 +265,9 @@ export class PlayView {
 
   async #inspect(): Promise<void> {
     this.#inspector.open = !this.#inspector.open;
+    byId("play-columns", HTMLElement).classList.toggle("inspecting", this.#inspector.open);
     byId("inspect", HTMLButtonElement).setAttribute("aria-pressed", String(this.#inspector.open));
+    this.#stage.scrollIntoView({ block: "nearest" });
     await this.#player?.observe(this.#inspector.open ? INSPECTED : []).catch((error) => this.#lose(error));
   }
 
@@ -242,7 +276,7 @@ export class PlayView {
     if (game) {
       const { name, mode, difficulty, seed } = game;
       const settings = { seed: String(seed), mode: String(mode), difficulty: String(difficulty), sticky: "0", frame_skip: "1" };
-      this.replay({ title: `${name}, played here`, game: name, settings, acts: [...acts] });
+      this.replay({ title: `${titleOf(name)}, played here`, game: name, settings, acts: [...acts] });
     }
   }
 

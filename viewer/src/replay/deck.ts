@@ -62,6 +62,7 @@ export class Deck {
     this.records = limits.recording === 1;
     this.#track = new Track(session, this.episode, limits.max_states);
     this.#outcome = await this.#track.prepare((done) => (progress.value = done));
+    await this.#server.claim(session, "replay");
     this.#screen.become(await session.palette(), String(this.#track.loaded.format), this.#track.loaded.height);
     progress.hidden = true;
     this.#shown = -1;
@@ -145,7 +146,7 @@ export class Deck {
       `score ${track.score(step)} of ${track.score(track.length)}`,
       `lives ${lives}`,
       act === undefined ? "start" : spoken(act),
-      ...(checked === undefined ? [] : [checked ? "plays as logged" : "does not play as logged"]),
+      ...(checked === undefined ? [] : [checked ? "score, lives and end as logged" : "does not play as logged"]),
     ].join(" · ");
   }
 }

@@ -150,7 +150,7 @@ export class ReplayView {
       this.#goTo(0);
     }
     this.#runs = runs;
-    byId("run", HTMLButtonElement).setAttribute("aria-pressed", String(runs));
+    tell(byId("run", HTMLButtonElement), runs ? "Pause" : "Play");
     this.#pacer.restart((this.#decks[0]?.frameRate ?? 60) * Number(this.#speed.value));
     if (runs) {
       void this.#speaker.start();

@@ -1,6 +1,7 @@
 import { RefusedError, type Group, type Session } from "racebeam";
-import { byId, copyOf, make, part, tell } from "../page/elements.js";
+import { byId, copyOf, make, markCurrent, part, tell } from "../page/elements.js";
 import type { Server } from "../page/server.js";
+import { titleOf } from "../page/titles.js";
 import { Feed } from "./feed.js";
 
 const LIST_EVERY = 1000; // milliseconds
@@ -62,7 +63,7 @@ export class WatchView {
       const now = await new Promise<number>(requestAnimationFrame);
       if (now - this.#listed >= LIST_EVERY) {
         this.#listed = now;
-        this.#list(session, await session.shared());
+        this.#list(session, (await session.shared()).filter(({ name }) => !this.#server.owns(String(name))));
       }
       const thumbnails = now - this.#drawn >= THUMBNAILS_EVERY;
       this.#drawn = thumbnails ? now : this.#drawn;
@@ -93,7 +94,7 @@ export class WatchView {
       const tile = this.#tiles.get(String(group.name)) ?? this.#add(session, String(group.name));
       tell(part(tile.button, "facts", HTMLElement), facts(group));
       if (this.#large?.name === group.name) {
-        tell(byId("watched-title", HTMLElement), `${group.name}: ${group.game}`);
+        tell(byId("watched-title", HTMLElement), `${group.name}: ${titleOf(String(group.game))}`);
       }
     }
     byId("watch-none", HTMLElement).hidden = shared.length > 0;
@@ -109,7 +110,6 @@ export class WatchView {
     tell(part(button, "name", HTMLElement), name);
     const tile = { element, button, feed: new Feed(session, name, part(button, "screen", HTMLCanvasElement)) };
     button.onclick = () => this.#enlarge(session, name);
-    button.setAttribute("aria-pressed", "false");
     byId("wall", HTMLElement).append(element);
     this.#tiles.set(name, tile);
     return tile;
@@ -132,7 +132,7 @@ export class WatchView {
     this.#large = new Feed(session, name, byId("watched-screen", HTMLCanvasElement));
     byId("watched", HTMLElement).hidden = false;
     byId("watched-screen", HTMLCanvasElement).setAttribute("aria-label", `Screen of ${name}`);
-    this.#tiles.forEach(({ button }, each) => button.setAttribute("aria-pressed", String(each === name)));
+    this.#tiles.forEach(({ button }, each) => markCurrent(button, each === name));
   }
 
   #describe(group: Group): void {
@@ -144,5 +144,5 @@ export class WatchView {
 
 /** What is known of a shared session, for people. */
 function facts({ game, score, episode, fps }: Group): string {
-  return `${game} · score ${score} · episode ${episode} · ${Math.round(Number(fps))} frames/s`;
+  return `${titleOf(String(game))} · score ${score} · episode ${episode} · ${Math.round(Number(fps))} frames/s`;
 }

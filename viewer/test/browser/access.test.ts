@@ -45,17 +45,16 @@ describe("accessibility", () => {
       assert.deepEqual(await findings(page, rules && [...rules]), []);
       await page.getByRole("button", { name: "Play beamfall" }).click();
       await page.keyboard.press("KeyI");
-      await page.waitForTimeout(300);
+      await page.locator("#ram .changed").first().waitFor();
       await page.keyboard.press("KeyP");
       await page.getByRole("button", { name: "Unchanged" }).click();
-      await page.waitForTimeout(600); // marks of changes fade
       assert.deepEqual(await findings(page, rules && [...rules]), []);
       await page.getByRole("link", { name: "Replay" }).click();
       await page.locator("#log").setInputFiles(log);
       await page.locator("#transport").waitFor();
       assert.deepEqual(await findings(page, rules && [...rules]), []);
       await page.getByRole("link", { name: "Watch" }).click();
-      await page.waitForTimeout(300);
+      await page.getByRole("heading", { name: "No session is shared" }).waitFor();
       assert.deepEqual(await findings(page, rules && [...rules]), []);
       await page.context().close();
     });
@@ -69,7 +68,7 @@ describe("accessibility", () => {
       await page.keyboard.press("Tab");
       visited.add(await page.evaluate(() => document.activeElement?.id || document.activeElement?.textContent?.trim() || "none"));
     }
-    for (const each of ["Skip to the content", "Play", "Watch", "Replay", "stage", "start", "pause", "inspect", "game", "picture", "replay-this"]) {
+    for (const each of ["Skip to the content", "Play", "Watch", "Replay", "stage", "start", "pause", "inspect", "Beamfall", "Updraft", "left-switch", "picture", "replay-this"]) {
       assert.ok(visited.has(each), `${each} is not among ${[...visited]}`);
     }
     await page.context().close();
@@ -82,6 +81,17 @@ describe("accessibility", () => {
     await page.keyboard.press("Enter");
     assert.equal(await page.evaluate(() => document.activeElement?.id), "main");
     assert.ok(await page.getByRole("heading", { name: "Replay an episode" }).isVisible());
+    await page.context().close();
+  });
+
+  test("on a phone the games come first, and nothing covers the picture", async () => {
+    const page = await tabs.open(server.address, PHONE);
+    const start = page.getByRole("button", { name: "Play beamfall" });
+    await start.waitFor();
+    const [list, picture, button] = await Promise.all([page.locator("#games"), page.locator("#screen"), start].map((each) => each.boundingBox()));
+    assert.ok(list!.y + list!.height <= picture!.y, "the list is above the picture");
+    assert.ok(picture!.y + picture!.height <= button!.y, "the button is below the picture");
+    assert.ok(button!.y + button!.height <= PHONE.viewport.height, "the button is seen");
     await page.context().close();
   });
 
@@ -100,6 +110,20 @@ describe("accessibility", () => {
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), PHONE.viewport.width);
     await page.context().close();
   });
+
+  for (const viewport of [{ width: 1280, height: 800 }, { width: 960, height: 640 }, PHONE.viewport]) {
+    test(`the panels open where they are seen beside the game, ${viewport.width} pixels wide`, async () => {
+      const page = await tabs.open(server.address, { viewport });
+      await page.getByRole("button", { name: "Play beamfall" }).click();
+      await page.keyboard.press("KeyI");
+      for (const part of ["#screen", "#ram"]) {
+        const { x, y, width } = (await page.locator(part).boundingBox())!;
+        assert.ok(y >= 0 && y < viewport.height - 60, `${part} is at ${y}`);
+        assert.ok(x >= 0 && x + width <= viewport.width + 1, `${part} ends at ${x + width}`);
+      }
+      await page.context().close();
+    });
+  }
 
   test("the picture has the shape of a television's", async () => {
     const page = await tabs.open(server.address);

@@ -121,7 +121,7 @@ export async function until(condition: () => Promise<boolean>, what: string): Pr
 
 /** Waits until the game is paused, and the frame that the page shows stays. */
 export async function paused(page: Page): Promise<void> {
-  await page.locator('#pause[aria-pressed="true"]').waitFor();
+  await page.locator('#stage[data-motion="paused"]').waitFor();
   await until(async () => await numberIn(page, "#frame") === (await page.waitForTimeout(200), await numberIn(page, "#frame")), "a stop");
 }
 

@@ -29,16 +29,18 @@ describe("the panels of Inspect", () => {
     return parseInt(await page.locator("#ram td").nth(1 + address - 0x80).textContent() ?? "", 16);
   }
 
-  /** Fires until the score has changed, and pauses. */
+  /** Flies and fires until the score has changed, and pauses. If the game is over, a new one begins. */
   async function score(): Promise<void> {
-    const before = await numberIn(page, "#score");
     await page.locator("#stage").focus();
-    if (await page.locator("#pause").getAttribute("aria-pressed") === "true") {
+    if (await page.locator("#stage").getAttribute("data-motion") === "paused") {
       await page.keyboard.press("KeyP");
     }
+    const before = await numberIn(page, "#score");
     await page.keyboard.down("Space");
-    await until(async () => await numberIn(page, "#score") > before, "a score");
+    await page.keyboard.down("ArrowRight");
+    await until(async () => await numberIn(page, "#score") !== before && await numberIn(page, "#score") > 0, "a score");
     await page.keyboard.press("KeyP");
+    await page.keyboard.up("ArrowRight");
     await page.keyboard.up("Space");
     await paused(page);
   }
@@ -86,8 +88,23 @@ describe("the panels of Inspect", () => {
     await page.getByText("A byte is a number from 0 to 255").waitFor();
   });
 
-  test("the draft is a game file that the program takes", async () => {
+  test("nothing is saved before something was found", async () => {
+    await page.getByRole("button", { name: "Save a draft" }).click();
+    await page.getByText("There is nothing to save.").waitFor();
+  });
+
+  test("values of the list, and what the draft's rule gives, follow the game", async () => {
     await page.getByLabel("Part of the rule of $84").selectOption("score0");
+    const given = async () => Number(/gives now: score (\d+)\.$/.exec(await page.locator("#preview").textContent() ?? "")?.[1]);
+    const listed = async () => parseInt(/\$([0-9A-F]{2}) = /.exec(await page.locator("#candidates tr").filter({ hasText: "$84" }).textContent() ?? "")![1]!, 16);
+    for (let round = 0; round < 2; ++round) {
+      await until(async () => await given() === await numberIn(page, "#score") % 100, "the score of the draft");
+      await until(async () => await listed() === await byte(0x84), "the value of the list");
+      await score();
+    }
+  });
+
+  test("the draft is a game file that the program takes", async () => {
     const download = page.waitForEvent("download");
     await page.getByRole("button", { name: "Save a draft" }).click();
     const file = path.join(server.folder, "draft.toml");
@@ -97,7 +114,7 @@ describe("the panels of Inspect", () => {
     const actions = path.join(server.folder, "actions");
     writeFileSync(actions, "1\n".repeat(300));
     const printed = execFileSync(process.env.RACEBEAM_BINARY!, ["serve", "--stdio", "--game-file", file, "--rom", image],
-      { input: "load beamfall sticky=0 seed=1\nact FIRE*600\n", encoding: "utf8" });
+      { input: "load draft sticky=0 seed=1\nact FIRE*600\n", encoding: "utf8" });
     assert.match(printed, /^ok reward=[1-9]\d* /m, printed);
   });
 

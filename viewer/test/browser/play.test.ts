@@ -33,6 +33,13 @@ describe("the view Play", () => {
     await until(async () => (await page.keyboard.press("KeyN"), await frame() < before), "a new game");
   }
 
+  test("nothing looks pressed or running before the game begins", async () => {
+    await page.getByRole("button", { name: "Play beamfall" }).waitFor();
+    assert.equal(await page.locator('#play-view [aria-pressed="true"]').count(), 0);
+    assert.match(await page.locator("#pause").textContent() ?? "", /^Play/);
+    assert.ok(await page.locator("#figures").isHidden());
+  });
+
   test("beamfall is played to a score by keys", async () => {
     await page.getByRole("button", { name: "Play beamfall" }).click();
     await page.keyboard.down("Space");
@@ -40,6 +47,14 @@ describe("the view Play", () => {
     await until(async () => await numberIn(page, "#score") > 0, "a score");
     await page.keyboard.up("ArrowRight");
     await page.keyboard.up("Space");
+    assert.match(await page.locator("#pause").textContent() ?? "", /^Pause/);
+  });
+
+  test("a key shows how fast the page is, and hides it", async () => {
+    await page.keyboard.press("KeyT");
+    await page.locator("#figures").getByText("pictures/s").waitFor();
+    await page.keyboard.press("KeyT");
+    assert.ok(await page.locator("#figures").isHidden());
   });
 
   test("the sound runs once the user has played", async () => {
@@ -108,12 +123,17 @@ describe("the view Play", () => {
 
   test("a new game, another difficulty, another game", async () => {
     await begin();
-    await page.locator("#difficulty").selectOption("1");
-    await page.getByRole("button", { name: "Play beamfall" }).click();
+    const left = page.locator("#left-switch");
+    assert.equal(await left.textContent(), "Left: B");
+    await page.keyboard.press("Digit1"); // the new game goes on by itself
+    await left.filter({ hasText: "Left: A" }).waitFor();
     await frames(5);
-    assert.equal(await page.locator("#difficulty").inputValue(), "1");
-    await page.locator("#game").selectOption("updraft");
+    await left.click();
+    await left.filter({ hasText: "Left: B" }).waitFor();
+    assert.ok(await page.locator("#right-switch").isDisabled()); // beamfall has no use for it
+    await page.getByRole("button", { name: "Updraft", exact: true }).click();
     await page.getByRole("button", { name: "Play updraft" }).click();
     await frames(5);
+    assert.equal(await page.locator('#game-list [aria-current="true"]').textContent(), "Updraft");
   });
 });

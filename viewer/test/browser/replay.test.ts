@@ -35,7 +35,7 @@ describe("the view Replay", () => {
 
   test("a log plays as it says, frame by frame", async () => {
     await page.locator("#log").setInputFiles(logs[0]!);
-    await until(async () => /plays as logged/.test(await facts() ?? ""), "the episode");
+    await until(async () => /score, lives and end as logged/.test(await facts() ?? ""), "the episode");
     assert.match(await page.locator("#place").textContent() ?? "", /^frame 0 of \d{3,}$/);
   });
 
@@ -75,7 +75,9 @@ describe("the view Replay", () => {
     const rate = await measured(async () => {
       await scrub(0);
       const begun = Date.now();
+      assert.equal(await page.locator("#run").textContent(), "Play");
       await page.locator("#run").click();
+      assert.equal(await page.locator("#run").textContent(), "Pause");
       await until(async () => await place() >= 180, "180 frames");
       const found = (1000 * await place()) / (Date.now() - begun);
       await page.locator("#run").click();
@@ -111,7 +113,7 @@ describe("the view Replay", () => {
 
   test("an episode with sticky actions stands beside the other", async () => {
     await page.locator("#log").setInputFiles(logs[2]!);
-    await until(async () => /plays as logged/.test(await facts(1) ?? ""), "the second episode");
+    await until(async () => /score, lives and end as logged/.test(await facts(1) ?? ""), "the second episode");
     await scrub(400);
     await Promise.all([settled(0), settled(1)]);
     assert.notEqual(await screen(0), await screen(1));

@@ -19,7 +19,7 @@ test("the view Replay with an episode of an agent", async () => {
     await server.start([]);
     const page = await tabs.open(`${server.address}#replay`, { viewport: { width: 800, height: 650 }, colorScheme: "dark" });
     await page.locator("#log").setInputFiles(LOG);
-    await page.locator('[data-part="facts"]').filter({ hasText: "plays as logged" }).waitFor();
+    await page.locator('[data-part="facts"]').filter({ hasText: "as logged" }).waitFor();
     for (let frame = 0; frame <= LAST; frame += EVERY) {
       await page.locator("#timeline").fill(String(frame));
       await page.locator('.deck[aria-busy="false"]').waitFor();

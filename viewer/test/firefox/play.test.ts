@@ -37,7 +37,7 @@ describe("the page in Firefox", () => {
   const press = (name: string) => page.locator(`::-p-aria(${name})`).click();
 
   test("beamfall is played to a score by keys", async () => {
-    await press("Play beamfall");
+    await press("Play Beamfall");
     await page.keyboard.down(" ");
     await page.keyboard.down("ArrowRight");
     await until(async () => await number("#score") > 0, "a score");
@@ -53,7 +53,7 @@ describe("the page in Firefox", () => {
 
   test("the game stops and goes on", async () => {
     await page.keyboard.press("p");
-    await page.waitForSelector('#pause[aria-pressed="true"]');
+    await page.waitForSelector('#stage[data-motion="paused"]');
     await page.keyboard.press("p");
     const stopped = await number("#frame");
     await until(async () => await number("#frame") > stopped + 10, "more frames");

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { gameFile } from "../../src/inspect/draft.js";
+import { gameFile, outcome } from "../../src/inspect/draft.js";
 import { used } from "../../src/inspect/palette.js";
 import { addressOf, byteOf, MemorySearch } from "../../src/inspect/search.js";
 
@@ -70,6 +70,14 @@ test("a draft says what is missing", () => {
   assert.match(text, /^score {4}= 0 {2}# not found yet$/m);
   assert.match(text, /^terminal = ram\[0x82\] == 0xFF$/m);
   assert.match(gameFile({ ...FOUND, score: [] }), /^terminal = 0 {2}# not found yet$/m);
+});
+
+test("a draft's rule gives what its game file would give", () => {
+  const bytes = ram({ 1: 3, 2: 0x01, 3: 0x23, 4: 0x45, 5: 7 });
+  assert.deepEqual(outcome({ score: [4, 3, 2], coding: "bcd", lives: 1 }, bytes), { score: 12345, lives: 3, over: false });
+  assert.deepEqual(outcome({ score: [4, 3], coding: "binary" }, bytes), { score: 0x2345 });
+  assert.deepEqual(outcome({ score: [], coding: "bcd", over: { index: 5, value: 7 } }, bytes), { over: true });
+  assert.deepEqual(outcome({ score: [4], coding: "bcd", lives: 9 }, bytes), { score: 45, lives: 0, over: true });
 });
 
 test("a score may have any number of bytes", () => {
