@@ -87,8 +87,8 @@ void as_invalid_input(const std::function<void()>& work) {
 
 class PlanReader {
  public:
-  PlanReader(std::string_view text, const std::string& file)
-      : source_{text, file}, table_(parse_toml(source_)), top_(source_, table_, "") {}
+  PlanReader(std::string_view text, const std::string& file, const Images& images)
+      : source_{text, file}, table_(parse_toml(source_)), top_(source_, table_, ""), images_(images) {}
 
   Plan read() {
     top_.allow(kTopKeys);
@@ -212,7 +212,7 @@ class PlanReader {
       return;
     }
     check_ = [this](const toml::node& at, std::string_view key, const std::string& name) {
-      if (!find_game(name))
+      if (!images_.rules(name))
         top_.refuse(at, key,
                     "there is no game " + quote(name) + ";" + did_you_mean(name, game_names()) +
                         " racebeam games lists them");
@@ -338,6 +338,7 @@ class PlanReader {
   TomlSource source_;
   toml::table table_;
   Section top_;
+  const Images& images_;
   std::function<void(const toml::node& at, std::string_view key, const std::string& name)> check_;
   TrialLength learners_;
   Plan plan_;
@@ -390,15 +391,17 @@ std::uint32_t seed_from(const Plan& plan, const Unit& unit, std::string_view pur
 
 }  // namespace
 
-Plan parse_plan(std::string_view text, const std::string& file) { return PlanReader(text, file).read(); }
+Plan parse_plan(std::string_view text, const std::string& file, const Images& images) {
+  return PlanReader(text, file, images).read();
+}
 
-Plan load_plan(const std::string& name_or_file) {
+Plan load_plan(const std::string& name_or_file, const Images& images) {
   const auto shipped = std::ranges::find(shipped_plans(), name_or_file, &ShippedPlan::name);
-  if (shipped != shipped_plans().end()) return parse_plan(shipped->text, "plan " + name_or_file);
+  if (shipped != shipped_plans().end()) return parse_plan(shipped->text, "plan " + name_or_file, images);
   if (name_or_file.find_first_of("./") == std::string::npos)
     throw InvalidInput("there is no plan " + quote(name_or_file) + "; shipped are " +
                        list_of(shipped_plans()) + "; a file's name contains . or /");
-  return parse_plan(read_input_file("plan", name_or_file, kMostPlanBytes), name_or_file);
+  return parse_plan(read_input_file("plan", name_or_file, kMostPlanBytes), name_or_file, images);
 }
 
 std::vector<std::string> games_without_image(const Plan& plan, const Images& images) {

@@ -61,11 +61,12 @@ struct Unit {
 
 constexpr std::size_t kMostPlanBytes = std::size_t{1} << 20;  // of a plan's file
 
-// `file` is for errors. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
-Plan parse_plan(std::string_view text, const std::string& file);
+// Its games are those of the catalogue, and those with rules among `images`. `file` is for errors. Throws
+// InvalidInput: "FILE:LINE: FIELD: sentence".
+Plan parse_plan(std::string_view text, const std::string& file, const Images& images = {});
 
 // A shipped plan by its name, else a file.
-Plan load_plan(const std::string& name_or_file);
+Plan load_plan(const std::string& name_or_file, const Images& images = {});
 
 // Sets the MD5s of the images and the version. Throws InvalidInput, which names all games without an image,
 // a plan of other images or of another version, and a mode or difficulty that a game lacks.

@@ -104,9 +104,9 @@ class RowJudge {
 };
 
 // The plan of results, which has the images and the version.
-Plan plan_of(const ResultsFolder& folder) {
+Plan plan_of(const ResultsFolder& folder, const Images& images) {
   const std::string text = read_input_file("plan", folder.plan(), kMostPlanBytes);
-  Plan plan = parse_plan(text, folder.plan());
+  Plan plan = parse_plan(text, folder.plan(), images);
   if (plan.version.empty()) throw InvalidInput(folder.plan() + ": it lacks the key 'version'");
   for (const PlanGame& game : plan.games)
     if (game.image_md5.empty())
@@ -125,7 +125,7 @@ class Verification {
   Verification(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
                const Finding& finding)
       : folder_(folder),
-        plan_(plan_of(folder)),
+        plan_(plan_of(folder, images)),
         units_(units_of(plan_)),
         wanted_(units_),
         pool_(threads),

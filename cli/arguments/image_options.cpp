@@ -1,6 +1,7 @@
 #include "cli/arguments/image_options.hpp"
 
 #include "cli/arguments/options.hpp"
+#include "cli/arguments/own_games.hpp"
 #include "system/resources.hpp"
 
 namespace racebeam {
@@ -16,6 +17,8 @@ void add_image_options(Subcommand& command, ImageOptions& options) {
               "A folder with cartridge images; may be repeated. Without it, the games that are built in")
       .one_a_time()
       .variable("RACEBEAM_ROMS");
+  command.option("--game-file", options.game_file,
+                 "A game file, or a folder of them, with the rules of images in these folders that it lists");
   command.option("--threads", options.threads, "Threads that play; 0: one for each processor")
       .check(whole_number(0, kMostThreads))
       .shows_default();
@@ -24,7 +27,13 @@ void add_image_options(Subcommand& command, ImageOptions& options) {
 
 Images images_of(const ImageOptions& options) {
   Images images;
-  for (const std::string& folder : options.folders) images.add_folder(folder);
+  const OwnGames own(options.game_file);
+  std::string places = "the program's own games";
+  for (const std::string& folder : options.folders) {
+    images.add_folder(folder, own.games());
+    places += ", --roms " + folder;
+  }
+  own.check_use(images, places);
   return images;
 }
 

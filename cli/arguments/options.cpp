@@ -81,7 +81,9 @@ void add_machine_options(Subcommand& command, MachineOptions& options) {
       command.option("--game", options.game, "Use the rule of this game of the catalogue (racebeam games)");
   command
       .option("--game-file", options.game_file,
-              "Use the rule of this game file, or of the file in this folder that is for the image")
+              "Use the rule of this game file for the image, and for those of --roms that it lists; in a "
+              "folder, the "
+              "file that is for an image")
       .excludes(game);
   add_console_options(command, options.console);
   const auto add_seed = [&command](const std::string& name, std::uint32_t& seed, const std::string& help) {

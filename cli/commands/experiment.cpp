@@ -137,8 +137,8 @@ void print_cost(const Plan& plan, const Images& images) {
 }
 
 void run(const ExperimentOptions& options) {
-  Plan plan = load_plan(options.plan);
   const Images images = images_of(options.images);
+  Plan plan = load_plan(options.plan, images);
   const Shard shard = shard_of(options.shard).value_or(Shard{1, 1});
   if (options.dry_run) {
     print_units(plan, shard);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "cli/arguments/own_games.hpp"
 #include "cli/commands/serve.hpp"
 #include "cli/commands/serve_options.hpp"
 #include "cli/commands/supervisor.hpp"
@@ -63,30 +64,28 @@ void check_for_page(const ServeOptions& options) {
   if (options.classic) refuse("--classic");
 }
 
-std::string places(const ServeOptions& options) {
-  std::string all = "the program's own games";
-  if (!options.machine.rom.empty()) all += ", --rom " + options.machine.rom;
-  return all + (options.roms.empty() ? "; --roms DIR names a folder of images" : ", --roms " + options.roms);
-}
-
 void check_game(const std::string& name, const ServeOptions& options) {
   const Images images = offered_images(options);
   if (images.find(name) != nullptr) return;
   const auto names = game_names();
   if (std::ranges::find(names, name) != names.end())
-    throw UsageError("GAME: there is no image of " + name + " in these places: " + places(options));
+    throw UsageError("GAME: there is no image of " + name + " in these places: " + places_of_images(options));
   throw UsageError("GAME: there is no game '" + name + "';" + did_you_mean(name, names) +
                    " racebeam games lists them");
 }
 
-// The game to begin with: GAME, else that of --rom, else an empty text.
+// The game to begin with: GAME, else that of --rom, else that of --game-file, else an empty text.
 std::string first_game(const PlayOptions& options) {
   const MachineOptions& machine = options.serve.machine;
   if (!options.game.empty()) {
     check_game(options.game, options.serve);
     return options.game;
   }
-  return machine.rom.empty() ? std::string() : open_cartridge(machine, [](const std::string&) {}).game->name;
+  if (!machine.rom.empty()) return open_cartridge(machine, [](const std::string&) {}).game->name;
+  const OwnGames own(machine.game_file.value_or(""));
+  if (own.games().size() != 1) return {};
+  own.check_use(offered_images(options.serve), places_of_images(options.serve));
+  return own.games().front()->name;
 }
 
 // The address of the page, with the token in the part that a browser does not send.

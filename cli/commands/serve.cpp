@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "cli/arguments/own_games.hpp"
 #include "cli/commands/serve_options.hpp"
 #include "cli/commands/shared_caches.hpp"
 #include "emulator/translator/translator.hpp"
@@ -193,11 +194,17 @@ Images offered_images(const ServeOptions& options) {
   if (!options.machine.rom.empty())
     images.add_file(options.machine.rom, options.machine.game, options.machine.game_file,
                     options.machine.console);
-  const std::string games = options.machine.game_file.value_or("");
-  std::vector<std::shared_ptr<const Game>> own;
-  if (std::filesystem::is_directory(games)) own = load_game_folder(games);
-  if (!options.roms.empty()) images.add_folder(options.roms, own);
+  const OwnGames own(options.machine.game_file.value_or(""));
+  if (!options.roms.empty()) images.add_folder(options.roms, own.games());
+  const bool is_given = !options.machine.rom.empty() && own.games().size() == 1;  // to the image of --rom
+  if (!is_given) own.check_use(images, places_of_images(options));
   return images;
+}
+
+std::string places_of_images(const ServeOptions& options) {
+  std::string all = "the program's own games";
+  if (!options.machine.rom.empty()) all += ", --rom " + options.machine.rom;
+  return all + (options.roms.empty() ? "; --roms DIR names a folder of images" : ", --roms " + options.roms);
 }
 
 int run_server(ServeOptions& options, const std::vector<Setting>& settings) {

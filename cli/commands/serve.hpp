@@ -1,6 +1,7 @@
 // racebeam serve: a machine for each client.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "protocol/line/images.hpp"
@@ -14,9 +15,11 @@ struct Setting;
 
 void add_serve(Subcommand& program);
 
-// The built-in images, and those of --rom and --roms. Throws std::invalid_argument if one of the
-// two cannot be read.
+// The built-in images, and those of --rom and --roms. Throws InvalidInput if one of the two cannot be read,
+// or if --game-file has the rules of none of them.
 Images offered_images(const ServeOptions& options);
+
+std::string places_of_images(const ServeOptions& options);  // for messages
 
 // Serves until the end. `settings`: from complete(), after which `options` may be changed. Returns the exit
 // status; the reason of a failure has been written. Throws for settings that do not fit together.
