@@ -46,7 +46,7 @@ describe("the page in Firefox", () => {
   });
 
   test("the picture changes", async () => {
-    const picture = () => page.$eval("#screen", (canvas) => canvas.toDataURL());
+    const picture = () => page.$eval("#screen", (canvas) => (canvas as HTMLCanvasElement).toDataURL());
     const first = await picture();
     await until(async () => await picture() !== first, "another picture");
   });
