@@ -9,6 +9,7 @@
 #include "agents/base/sealed_file.hpp"
 #include "agents/experiment/log_judge.hpp"
 #include "agents/experiment/verify.hpp"
+#include "agents/experiment/verify_submission.hpp"
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/options.hpp"
 #include "system/input_file.hpp"
@@ -23,7 +24,9 @@ Each row that is not confirmed gets a line. With --table, also says whether a ta
 these results: it must contain the SHA-256 of results.csv or of curves.csv. The numbers in a table are not checked,
 nor is curves.csv, since episodes of training leave no logs.
 
-RESULTS may be one log, whose name ends with .episode: what it says of itself is confirmed, without a plan.
+RESULTS may be a submission, which has agent.toml and no plan: rows are compared with their logs, and logs with what
+the machine gives. That does not prove who chose the actions. RESULTS may be one log, whose name ends with .episode:
+what it says of itself is confirmed.
 
 Exit status: 0 all rows are confirmed; 1 rows, logs or tables are wrong, missing or too many; 2 nothing is wrong,
 but some rows could not be checked, such as those of a game without an image.
@@ -103,9 +106,10 @@ int run(const VerifyOptions& options) {
   if (is_log(options.results)) return verify_log(options);
   const ResultsFolder folder(options.results);
   const auto start = Clock::now();
+  const auto check = is_submission(folder) ? verify_submission : verify;
   const Verdict verdict =
-      verify(folder, images_of(options.images), threads_of(options.images), options.images.cpu,
-             [](const std::string& line) { std::printf("%s\n", printable(line).c_str()); });
+      check(folder, images_of(options.images), threads_of(options.images), options.images.cpu,
+            [](const std::string& line) { std::printf("%s\n", printable(line).c_str()); });
   const double seconds = seconds_since(start);
   bool tables = true;
   const Digests digests = digests_of(folder);
@@ -122,7 +126,8 @@ void add_verify(Subcommand& program) {
   const auto options = std::make_shared<VerifyOptions>();
   Subcommand command = program.add_subcommand(
       "verify", "Play the episodes of an experiment again, and confirm its scores", kVerifyFooter);
-  command.option("RESULTS", options->results, "The folder of the results, or one log").required();
+  command.option("RESULTS", options->results, "The folder of results or of a submission, or one log")
+      .required();
   command.option("--table", options->tables, "A table or report that was made from them; may be repeated")
       .one_a_time();
   add_image_options(command, options->images);

@@ -3,7 +3,18 @@
 import numpy as np
 import pandas as pd
 
-from .bootstrap import FEWEST_TRIALS, Bootstrap, Estimate, Matrix, aggregates, improvement, padded, profile, trials_of
+from .bootstrap import (
+    AGGREGATES,
+    FEWEST_TRIALS,
+    Bootstrap,
+    Estimate,
+    Matrix,
+    aggregates,
+    improvement,
+    padded,
+    profile,
+    trials_of,
+)
 from .games import sets
 from .normalise import Ranges
 from .scores import Group, Scores
@@ -33,6 +44,7 @@ def ranged_sets(scores: Scores, ranges: Ranges, group: Group) -> dict[str, tuple
 def aggregate_rows(scores: Scores, ranges: Ranges, group: Group, bootstrap: Bootstrap) -> pd.DataFrame:
     """A row for each set of games and agent."""
     rows = []
+    names = statistics(scores, group)
     for name, (games, without) in ranged_sets(scores, ranges, group).items():
         for agent in group.agents if games else ():
             estimate = bootstrap.estimate(aggregates, normalised_matrix(scores, ranges, agent, games))
@@ -45,13 +57,20 @@ def aggregate_rows(scores: Scores, ranges: Ranges, group: Group, bootstrap: Boot
                     "games": len(games),
                     "n/a": len(without),
                     "above 1": int((means > 1).sum()),
-                    "average": float(means.mean()),
-                    "median": float(means.median()),
-                    **_interval("IQM", estimate, 0),
-                    **_interval("optimality gap", estimate, 1),
+                    **{
+                        key: value
+                        for i, each in enumerate(names)
+                        for key, value in _interval(each, estimate, i).items()
+                    },
                 }
             )
     return pd.DataFrame(rows)
+
+
+def statistics(scores: Scores, group: Group) -> list[str]:
+    """The names of AGGREGATES for the group. Without single trials, the last two are over the means of games."""
+    means_only = scores.trials is None or all(agent in scores.views for agent in group.agents)
+    return [*AGGREGATES[:2], *(f"{name} over game means" if means_only else name for name in AGGREGATES[2:])]
 
 
 def _interval(name: str, estimate: Estimate, index: int) -> dict[str, float]:

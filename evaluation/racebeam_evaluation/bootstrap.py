@@ -109,11 +109,17 @@ def _interquartile_mean(scores: Matrix) -> float:
     return float((inside * values[order]).sum() / inside.sum())
 
 
+AGGREGATES = ("average", "median", "IQM", "optimality gap")
+
+
 def aggregates(scores: Matrix) -> Matrix:
-    """Interquartile mean, and optimality gap to 1."""
+    """AGGREGATES: mean and median over games of the means of trials, interquartile mean, optimality gap to 1."""
+    of_games = np.nanmean(scores, axis=0)
     if _is_ragged(scores):
-        return np.array([_interquartile_mean(scores), 1 - _mean(np.minimum(scores, 1))])
-    return np.array([metrics.aggregate_iqm(scores), metrics.aggregate_optimality_gap(scores)])
+        rest = [_interquartile_mean(scores), 1 - _mean(np.minimum(scores, 1))]
+    else:
+        rest = [metrics.aggregate_iqm(scores), metrics.aggregate_optimality_gap(scores)]
+    return np.array([of_games.mean(), np.median(of_games), *rest])
 
 
 def profile(thresholds: Matrix) -> Callable[[Matrix], Matrix]:

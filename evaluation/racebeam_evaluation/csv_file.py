@@ -26,6 +26,7 @@ class Kind(enum.Enum):
 _TEXTS = (Kind.TEXT, Kind.NAME)
 _MOST_WHOLE = 2**31 - 1
 _MOST_DECIMAL = 1e15  # sums of squares are finite
+_MOST_BYTES = 2**29
 
 
 @dataclasses.dataclass(frozen=True)
@@ -36,18 +37,19 @@ class Source:
     sha256: str  # the digest of its bytes, in hexadecimal
 
 
-def read(path: pathlib.Path, columns: dict[str, Kind], may_be_empty: bool = False) -> tuple[pd.DataFrame, Source]:
-    """Returns the columns of the file at `path` that `columns` names, and the digest of the file. It has rows, unless
-    it may be empty.
+def read(
+    path: pathlib.Path, columns: dict[str, Kind], may_be_empty: bool = False, optional: dict[str, Kind] | None = None
+) -> tuple[pd.DataFrame, Source]:
+    """Returns the columns of the file at `path` that `columns` names, those of `optional` that it has, and the digest
+    of the file. It has rows, unless it may be empty.
 
     Cells of the kinds TEXT and NAME become categories, WHOLE int64, the others float64; nothing is NaN. The row of
     index i is on line i + 2. Other columns are ignored. Raises BadInput, which names the file, and the line where there
     is one."""
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise BadInput(f"{path} cannot be read: {error.strerror}; expected a CSV file") from error
+    content = content_of(path, _MOST_BYTES, "a CSV file")
     _check_shape(path, content, columns, 0 if may_be_empty else 1)
+    header = content.splitlines()[0].decode().split(",")
+    columns = columns | {name: kind for name, kind in (optional or {}).items() if name in header}
     types = {name: "category" if kind in _TEXTS else "str" for name, kind in columns.items()}
     frame = pd.read_csv(
         io.BytesIO(content), usecols=list(columns), dtype=types, keep_default_na=False, quoting=csv.QUOTE_NONE
@@ -58,6 +60,21 @@ def read(path: pathlib.Path, columns: dict[str, Kind], may_be_empty: bool = Fals
         if kind not in _TEXTS:
             frame[name] = _numbers(path, frame[name], kind)
     return frame, Source(path.name, hashlib.sha256(content).hexdigest())
+
+
+def content_of(path: pathlib.Path, most: int, kind: str) -> bytes:
+    """The bytes of the file at `path`. Raises BadInput for a file of more than `most` bytes before it is read."""
+    try:
+        size = path.stat().st_size
+        if size > most:
+            raise BadInput(f"{path} has {size} bytes; expected {kind} of at most {most}")
+        with path.open("rb") as file:
+            content = file.read(most + 1)  # a file that grows, or that has no size
+    except OSError as error:
+        raise BadInput(f"{path} cannot be read: {error.strerror}; expected {kind}") from error
+    if len(content) > most:
+        raise BadInput(f"{path} has more than {most} bytes; expected {kind} of at most {most}")
+    return content
 
 
 def digest(path: pathlib.Path) -> Source:

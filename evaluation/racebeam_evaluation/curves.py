@@ -5,15 +5,24 @@ import pandas as pd
 
 from .games import in_order
 
+WINDOW = 100  # training episodes that a checkpoint is the mean of
 _BINS = 50  # points of a curve
 
 
-def with_trained_frames(curves: pd.DataFrame) -> pd.DataFrame:
-    """The training episodes of curves.csv in order, with the column "trained": frames of the trial up to each one's
-    end."""
+def with_trained(curves: pd.DataFrame, axis: str = "frames") -> pd.DataFrame:
+    """The training episodes of curves.csv in order, with the column "trained": frames, or what `axis` says, of the
+    trial up to each one's end."""
     ordered = curves.sort_values(["game", "agent", "trial", "episode"], kind="stable", ignore_index=True)
-    trained = ordered.groupby(["game", "agent", "trial"])["frames"].cumsum()
+    trained = ordered.groupby(["game", "agent", "trial"])[axis].cumsum()
     return ordered.assign(trained=trained)
+
+
+def checkpoint(trial: pd.DataFrame, point: int, fewest: int = WINDOW) -> float:
+    """The mean score of the last 100 episodes of a trial that had ended by a point; NaN if there are fewer than
+    `fewest`. Rows that say with "window" of how many rows a mean is made are themselves means of many episodes."""
+    window = int(trial["window"].iloc[0]) if "window" in trial and trial["window"].notna().all() else WINDOW
+    ended = trial[trial["trained"] <= point]
+    return float(ended["score"].tail(window).mean()) if len(ended) >= min(fewest, window) else float("nan")
 
 
 def learning_curves(curves: pd.DataFrame) -> pd.DataFrame:
@@ -21,7 +30,7 @@ def learning_curves(curves: pd.DataFrame) -> pd.DataFrame:
 
     The standard error is that of the trials' means, NaN of a single trial. A stretch in which no episode ends has no
     row."""
-    episodes = with_trained_frames(curves)
+    episodes = with_trained(curves)
     longest = episodes.groupby("game")["trained"].transform("max")
     stretch = np.ceil(episodes["trained"] / longest * _BINS).clip(lower=1).astype(int)
     keys = ["game", "agent", "stretch"]

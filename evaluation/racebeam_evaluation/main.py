@@ -4,20 +4,26 @@ import argparse
 import pathlib
 import sys
 
-from . import atari100k, machado2018, paper2013
+from .board.site import build
 from .bootstrap import Bootstrap
 from .errors import BadInput
-from .folder import check_free, write
-from .paper_report import evaluate_paper
-from .report import Report
-from .results import read_results
+from .load import read_all
+from .output.folder import check_free, write
+from .output.report import Report
+from .reports import benchmark, machado2018, paper2013
+from .reports.paper_report import evaluate_paper
 
-_REPORTS = {"paper2013": paper2013.evaluate, "machado2018": machado2018.evaluate, "atari100k": atari100k.evaluate}
+_REPORTS = {
+    "paper2013": paper2013.evaluate,
+    "machado2018": machado2018.evaluate,
+    "atari100k": benchmark.atari100k,
+    "atari57": benchmark.atari57,
+}
 
 _EPILOG = """\
 The exit status is 0 if all could be computed, 1 for bad input (nothing is then written), 2 for a usage error, and 3 if
-the report is written but tests could not be made, each of which standard error names. docs/evaluation.md explains the
-report."""
+the report is written but tests could not be made, or a submission cannot be shown, each of which standard error names.
+docs/evaluation.md explains the report."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -26,8 +32,12 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if options.paper == bool(options.results):
         parser.error("expected RESULTS, or --paper")
+    if options.board and not options.results:
+        parser.error("expected folders of submissions for --board")
     try:
         check_free(options.into)
+        if options.board:
+            return _write_board(options)
         report = _report(options)
         write(options.into, report.files())
     except BadInput as error:
@@ -37,6 +47,15 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"racebeam-evaluate: {sentence}", file=sys.stderr)
     print(f"{len(report.parts)} tables and figures: {options.into / 'report.md'}")
     return 3 if report.untested else 0
+
+
+def _write_board(options: argparse.Namespace) -> int:
+    site = build(options.results, Bootstrap(options.seed, options.repetitions), options.viewer or "")
+    write(options.into, site.files)
+    for sentence in site.broken:
+        print(f"racebeam-evaluate: not shown: {sentence}", file=sys.stderr)
+    print(f"{site.submissions} submissions: {options.into / 'index.html'}")
+    return 3 if site.broken else 0
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -50,16 +69,36 @@ def _parser() -> argparse.ArgumentParser:
         nargs="*",
         type=pathlib.Path,
         metavar="RESULTS",
-        help="a folder with results.csv; several are evaluated together",
+        help="a folder with results.csv, or a file of Dopamine, DQN Zoo or rliable; several are evaluated together",
     )
     parser.add_argument("--paper", action="store_true", help="evaluate the scores that Bellemare et al. 2013 print")
+    parser.add_argument(
+        "--board", action="store_true", help="make a page of submissions: RESULTS are folders with agent.toml and logs"
+    )
+    parser.add_argument(
+        "--viewer",
+        type=_address,
+        metavar="ADDRESS",
+        help="of a racebeam server's page, in which links of the board replay episodes",
+    )
     parser.add_argument("--into", required=True, type=pathlib.Path, metavar="FOLDER", help="a new or an empty folder")
     parser.add_argument(
         "--report", choices=_REPORTS, default="paper2013", help="the kind of report (default: %(default)s)"
     )
+    parser.add_argument(
+        "--mix",
+        action="store_true",
+        help="evaluate results of different settings together, and put them beside published ones of other settings",
+    )
     parser.add_argument("--seed", type=_whole, default=1, help="of the bootstrap (default: %(default)s)")
     parser.add_argument("--repetitions", type=_positive, default=2000, help="of the bootstrap (default: %(default)s)")
     return parser
+
+
+def _address(text: str) -> str:
+    if not text.startswith(("http://", "https://")) or "#" in text:
+        raise argparse.ArgumentTypeError(f"'{text}' is not accepted; expected http://... or https://... without '#'")
+    return text
 
 
 def _whole(text: str) -> int:
@@ -78,4 +117,4 @@ def _report(options: argparse.Namespace) -> Report:
     bootstrap = Bootstrap(options.seed, options.repetitions)
     if options.paper:
         return evaluate_paper(bootstrap)
-    return _REPORTS[options.report](read_results(options.results), bootstrap)
+    return _REPORTS[options.report](read_all(options.results, options.mix), bootstrap, options.mix)

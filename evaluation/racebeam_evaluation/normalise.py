@@ -41,6 +41,11 @@ def all_ranges(scores: Scores, group: Group) -> list[Ranges]:
     return [each for each in ranges if len(each.without(list(scores.means.index))) < len(scores.means.index)]
 
 
+def human_and_random(scores: Scores) -> list[Ranges]:
+    """The two normalisations that do not depend on a group. Those that have no range at all are left out."""
+    return [each for each in (_human(scores), _random(scores)) if len(each.span.dropna())]
+
+
 def _random(scores: Scores) -> Ranges:
     """From 0 to the absolute value of the mean score of random play."""
     high = (

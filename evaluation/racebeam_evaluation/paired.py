@@ -49,7 +49,7 @@ def _pair(scores: Scores, first: str, second: str) -> Pair:
     means = both.loc[games]
     found: dict[str, list[str]] = {name: [] for name in ("better", "worse", "even", "few", "constant")}
     for game in games:
-        found[_verdict(scores.trial_scores(first, game), scores.trial_scores(second, game))].append(game)
+        found[verdict(scores.trial_scores(first, game), scores.trial_scores(second, game))].append(game)
     return Pair(
         first,
         second,
@@ -64,7 +64,7 @@ def _pair(scores: Scores, first: str, second: str) -> Pair:
     )
 
 
-def _verdict(first: Sample, second: Sample) -> str:
+def verdict(first: Sample, second: Sample) -> str:
     """What Welch's test says of the first, or why it cannot be made."""
     if min(len(first), len(second)) < FEWEST_TRIALS:
         return "few"

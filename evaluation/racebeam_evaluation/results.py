@@ -9,6 +9,7 @@ import pandas as pd
 from .csv_file import Kind, Source, read
 from .errors import BadInput
 from .games import check_games
+from .plan import Plan, Protocol, plan_of
 
 DIVERGED = "diverged"  # the end of a trial whose weights are not finite; its row has no score
 
@@ -29,15 +30,15 @@ _CURVES = {
     "score": Kind.DECIMAL,
     "frames": Kind.WHOLE,
 }
+_MAY_HAVE = {"decisions": Kind.WHOLE}
 _AGENTS = {"agent": Kind.NAME, "role": Kind.TEXT}
 _KEY = ["game", "agent", "trial", "episode"]
 
 _OWN = {"name", "seed", "games", "agents", "trials"}  # keys in which the plans of one report may differ
-_OWN_TABLES = {"images"}  # images are compared in results.csv
+_OWN_TABLES = ("images.", "backgrounds.")  # images are compared in results.csv
+_HARMLESS = {"version", "evaluation_episodes"}  # keys that may differ if the report says so
 
 ROLES = ("learner", "planner", "baseline")
-
-_Settings = dict[str, str]  # by KEY or TABLE.KEY, as the plan has it
 
 
 @dataclasses.dataclass(frozen=True)
@@ -52,24 +53,49 @@ class Results:
     curve_sources: tuple[Source, ...]
     notes: tuple[str, ...] = ()  # sentences on what the folders' plans say differently
     roles: dict[str, str] = dataclasses.field(default_factory=dict)  # of ROLES, by agent; of those that agents.csv has
+    plans: tuple[Plan, ...] = ()  # of the folders
+
+    def protocols(self, agent: str) -> list[Protocol]:
+        """How the plans say that the agent was run, each way once; one that is unknown if no plan says it."""
+        known = [plan.protocol(agent) for plan in self.plans]
+        return list(dict.fromkeys(each for each in known if each != Protocol())) or [Protocol()]
 
 
-def read_results(folders: list[pathlib.Path]) -> Results:
-    """Reads the results of all folders. Raises BadInput if one cannot be read, or if two contradict each other."""
-    episodes, sources = zip(*(_episodes(folder) for folder in folders))
-    found = [curves for folder in folders if (curves := _curves(folder))]
-    together = _joined(list(episodes))
-    _check_once(together, "evaluation")
-    _check_images(together)
-    curves = _joined([frame for frame, _ in found]) if found else None
+def read_folder(folder: pathlib.Path) -> Results:
+    """The results of one folder."""
+    plan = plan_of(folder)
+    episodes, source = _episodes(folder, plan)
+    curves, curve_source = _curves(folder) or (None, None)
+    sources = (curve_source,) if curve_source else ()
+    return Results(episodes, curves, (source,), sources, roles=_roles(folder), plans=(plan,))
+
+
+def together(parts: list[Results], notes: tuple[str, ...] = ()) -> Results:
+    """Results as one. Raises BadInput if two contradict each other."""
+    episodes = _joined([part.episodes for part in parts])
+    _check_once(episodes, "evaluation")
+    _check_images(episodes)
+    trained = [part.curves for part in parts if part.curves is not None]
+    curves = _joined(trained) if trained else None
     if curves is not None:
         _check_once(curves, "training")
+    roles: dict[str, str] = {}
+    for part in parts:
+        for agent, role in part.roles.items():
+            if roles.setdefault(agent, role) != role:
+                raise BadInput(f"{agent} is a {role}, and a {roles[agent]} elsewhere; expected one role of each agent")
     return Results(
-        together, curves, sources, tuple(source for _, source in found), _differences(folders), _roles(folders)
+        episodes,
+        curves,
+        tuple(source for part in parts for source in part.sources),
+        tuple(source for part in parts for source in part.curve_sources),
+        (*notes, *(note for part in parts for note in part.notes)),
+        roles,
+        tuple(plan for part in parts for plan in part.plans),
     )
 
 
-def _episodes(folder: pathlib.Path) -> tuple[pd.DataFrame, Source]:
+def _episodes(folder: pathlib.Path, plan: Plan) -> tuple[pd.DataFrame, Source]:
     path = folder / "results.csv"
     frame, source = read(path, _RESULTS)
     unscored = frame["score"].isna() & (frame["end"] != DIVERGED)
@@ -77,7 +103,7 @@ def _episodes(folder: pathlib.Path) -> tuple[pd.DataFrame, Source]:
         raise BadInput(
             f"{path}, line {unscored.idxmax() + 2}: score is ''; expected a decimal number, or the end {DIVERGED}"
         )
-    check_games(path, frame["game"], _games_of_plan(folder / "plan.toml"))
+    check_games(path, frame["game"], plan.games)
     return frame, source
 
 
@@ -86,26 +112,25 @@ def _curves(folder: pathlib.Path) -> tuple[pd.DataFrame, Source] | None:
     path = folder / "curves.csv"
     if not path.exists():
         return None
-    frame, source = read(path, _CURVES, may_be_empty=True)
+    frame, source = read(path, _CURVES, may_be_empty=True, optional=_MAY_HAVE)
     return (frame, source) if len(frame) else None
 
 
-def _roles(folders: list[pathlib.Path]) -> dict[str, str]:
+def _roles(folder: pathlib.Path) -> dict[str, str]:
     """By agent. Raises BadInput for a role that there is not, and for an agent with two."""
     roles: dict[str, str] = {}
-    for folder in folders:
-        path = folder / "agents.csv"
-        rows = read(path, _AGENTS, may_be_empty=True)[0].astype("str").itertuples() if path.exists() else ()
-        for line, row in enumerate(rows, 2):
-            if row.role not in ROLES:
-                raise BadInput(
-                    f"{path}, line {line}: role is '{row.role}'; expected {', '.join(ROLES[:-1])} or {ROLES[-1]}"
-                )
-            if roles.setdefault(row.agent, row.role) != row.role:
-                raise BadInput(
-                    f"{path}, line {line}: {row.agent} is a {row.role}, and a {roles[row.agent]} before; "
-                    "expected one role of each agent"
-                )
+    path = folder / "agents.csv"
+    rows = read(path, _AGENTS, may_be_empty=True)[0].astype("str").itertuples() if path.exists() else ()
+    for line, row in enumerate(rows, 2):
+        if row.role not in ROLES:
+            raise BadInput(
+                f"{path}, line {line}: role is '{row.role}'; expected {', '.join(ROLES[:-1])} or {ROLES[-1]}"
+            )
+        if roles.setdefault(row.agent, row.role) != row.role:
+            raise BadInput(
+                f"{path}, line {line}: {row.agent} is a {row.role}, and a {roles[row.agent]} before; "
+                "expected one role of each agent"
+            )
     return roles
 
 
@@ -126,50 +151,27 @@ def _check_once(episodes: pd.DataFrame, kind: str) -> None:
 
 def _check_images(episodes: pd.DataFrame) -> None:
     for game, images in episodes.groupby("game")["image_md5"]:
-        different = sorted(set(images))
+        different = sorted(set(images) - {""})  # files of other programs do not name the image
         if len(different) > 1:
             raise BadInput(f"{game} has the images {' and '.join(different)}; expected one image of each game")
 
 
-def _differences(folders: list[pathlib.Path]) -> tuple[str, ...]:
+def differences(folders: list[pathlib.Path], mix: bool) -> tuple[str, ...]:
     """A sentence for each setting that two plans have with different values. A folder without plan.toml is left out.
 
-    A key that only one plan has does not count as a difference: the other plan lacks the agent."""
+    A key that only one plan has does not count as a difference: the other plan lacks the agent. Raises BadInput with
+    the first sentence if the setting changes scores, unless `mix`."""
     seen: dict[str, tuple[str, str]] = {}
     sentences: dict[str, str] = {}
     for folder in folders:
-        path = folder / "plan.toml"
-        for key, value in (_settings(path) if path.is_file() else {}).items():
+        for key, value in plan_of(folder).settings().items():
+            if key.split(".")[-1] in _OWN or key.startswith(_OWN_TABLES):
+                continue
             first, other = seen.setdefault(key, (value, folder.name))
-            if first != value:
-                sentences.setdefault(
-                    key,
-                    f"The plans differ: {key} is {first} in {other}, and {value} in {folder.name}; scores are of both.",
-                )
+            if first == value or key in sentences:
+                continue
+            words = f"The plans differ: {key} is {first} in {other}, and {value} in {folder.name}"
+            if not mix and key.split(".")[-1] not in _HARMLESS:
+                raise BadInput(f"{words}; expected equal settings, or --mix")
+            sentences[key] = f"{words}; scores are of both."
     return tuple(sentences.values())
-
-
-def _games_of_plan(path: pathlib.Path) -> set[str]:
-    """The games whose images a plan names: a user may have games of one's own."""
-    games = set()
-    table = ""
-    for line in path.read_text(errors="replace").splitlines() if path.is_file() else ():
-        if line.startswith("["):
-            table = line
-        elif table == "[images]":
-            games.add(line.partition(" = ")[0])
-    return games
-
-
-def _settings(path: pathlib.Path) -> _Settings:
-    """Of a plan as racebeam writes it: a table's head, or a key and its value, on each line."""
-    settings: _Settings = {}
-    table = ""
-    for line in path.read_text(errors="replace").splitlines():
-        if line.startswith("[") and line.endswith("]"):
-            table = line[1:-1]
-            continue
-        key, equals, value = line.partition(" = ")
-        if equals and key not in _OWN and table not in _OWN_TABLES:
-            settings[f"{table}.{key}" if table else key] = value
-    return settings

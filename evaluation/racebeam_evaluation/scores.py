@@ -41,6 +41,7 @@ class Scores:
     notes: tuple[str, ...] = ()  # sentences on what was left out
     other_rewards: tuple[str, ...] = ()  # games whose rewards were others than those of today
     planners: tuple[str, ...] = _PLANNERS
+    samples: Trials = dataclasses.field(default_factory=dict)  # independent scores: see `sample`
 
     @property
     def groups(self) -> list[Group]:
@@ -61,6 +62,13 @@ class Scores:
     def trial_scores(self, agent: str, game: str) -> npt.NDArray[np.float64]:
         """The means of the agent's trials of the game; empty if they are missing or unknown."""
         return (self.trials or {}).get((agent, game), np.empty(0))
+
+    def sample(self, agent: str, game: str) -> npt.NDArray[np.float64]:
+        """Independent scores of an agent, or of the policy that is a view's best: the means of trials if they were
+        trained, else the episodes."""
+        policies = [agent] if agent not in self.views else [name for name in self.references if _view_of(name) == agent]
+        found = [self.samples[name, game] for name in policies if (name, game) in self.samples]
+        return max(found, key=np.mean, default=np.empty(0))
 
 
 def scores_of(results: Results) -> Scores:
@@ -83,6 +91,7 @@ def scores_of(results: Results) -> Scores:
     return Scores(
         means=means[_agents_in_order(roles)],
         trials=_by_agent_and_game(trials),
+        samples=_by_agent_and_game(trials) | _by_agent_and_game(_untrained(counted, roles)),
         references=references,
         views=_views(references),
         notes=(*results.notes, *lost_trials),
@@ -92,6 +101,12 @@ def scores_of(results: Results) -> Scores:
 
 def _by_agent_and_game(trials: pd.Series) -> Trials:
     return {(agent, game): scores.to_numpy() for (game, agent), scores in trials.groupby(["game", "agent"])}
+
+
+def _untrained(episodes: pd.DataFrame, roles: dict[str, str]) -> pd.Series:
+    """The scores of the episodes of agents that do not learn."""
+    played = episodes[episodes["agent"].map(lambda name: roles[name] != "learner")]
+    return played.set_index(["game", "agent"])["score"]
 
 
 def _usual_role(agent: str) -> str:

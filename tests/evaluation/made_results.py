@@ -59,12 +59,18 @@ def evaluate(*arguments):
     return types.SimpleNamespace(returncode=status, stdout=said.getvalue(), stderr=errors.getvalue())
 
 
-def tables(*folders):
-    """The files of the tables that the results of `folders` give, by name. No figure is drawn."""
+def report(*folders, mix=False):
+    """The report on the results of `folders`. No figure is drawn."""
     from racebeam_evaluation.bootstrap import Bootstrap
-    from racebeam_evaluation.paper2013 import evaluate as report_of
-    from racebeam_evaluation.results import read_results
-    from racebeam_evaluation.table import Table
+    from racebeam_evaluation.load import read_all
+    from racebeam_evaluation.reports.paper2013 import evaluate as report_of
 
-    report = report_of(read_results(list(folders)), Bootstrap(repetitions=50))
-    return {name: text for part in report.parts if isinstance(part, Table) for name, text in part.files().items()}
+    return report_of(read_all(list(folders), mix), Bootstrap(repetitions=50), mix)
+
+
+def tables(*folders, mix=False):
+    """The files of the tables that the results of `folders` give, by name."""
+    from racebeam_evaluation.output.table import Table
+
+    parts = report(*folders, mix=mix).parts
+    return {name: text for part in parts if isinstance(part, Table) for name, text in part.files().items()}

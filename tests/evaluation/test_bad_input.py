@@ -112,6 +112,15 @@ class BadInput(unittest.TestCase):
         (folder / "agents.csv").write_text("agent,role\nbasic,learner\nbasic,planner\n")
         self.refused("agents.csv, line 3: basic is a planner, and a learner before; expected one role of each agent")
 
+    def test_a_plan_that_is_not_toml(self):
+        (self.lines(*results_of(GOOD)) / "plan.toml").write_text("games = [")
+        self.refused("plan.toml is not TOML: ")
+
+    def test_a_table_of_a_gigabyte_is_not_read(self):
+        with (self.lines(*results_of(GOOD)) / "results.csv").open("r+b") as file:
+            file.truncate(2**30)
+        self.refused("results.csv has 1073741824 bytes; expected a CSV file of at most 536870912")
+
     def test_an_episode_twice(self):
         self.lines(*results_of(GOOD), result("pong", "bass", 1, 0, 5))
         self.refused("evaluation episode 0 of trial 1 of bass on pong occurs twice; expected each episode once")
@@ -163,10 +172,10 @@ class Plans(unittest.TestCase):
 
     PLAN = (
         'name = "{name}"\nenvironment = "sticky={sticky}"\ngames = ["pong"]\n\n[images]\npong = "aa"\n\n'
-        "[agent.{agent}]\ntrials = {trials}\nalpha = {alpha}\n"
+        "[agent.{agent}]\ntrials = {trials}\nalpha = {alpha}\nevaluation_episodes = {episodes}\n"
     )
 
-    def report(self, *plans):
+    def report(self, *plans, mix=()):
         with tempfile.TemporaryDirectory() as root:
             folders = []
             for number, plan in enumerate(plans):
@@ -178,12 +187,12 @@ class Plans(unittest.TestCase):
                         [curve("pong", agent, 10 * number, 0, 1, 100)],
                     )
                 )
-                defaults = {"name": f"n{number}", "sticky": 0, "trials": 2 + number, "alpha": 0.5}
+                defaults = {"name": f"n{number}", "sticky": 0, "trials": 2 + number, "alpha": 0.5, "episodes": 3}
                 (folders[-1] / "plan.toml").write_text(self.PLAN.format(**defaults | plan))
             texts = []
             for kind in ("paper2013", "machado2018", "atari100k"):
                 out = pathlib.Path(root) / kind
-                done = evaluate(*folders, "--into", out, "--report", kind)
+                done = evaluate(*folders, "--into", out, "--report", kind, *mix)
                 self.assertIn(done.returncode, (0, 3), done.stderr)
                 texts.append((out / "report.md").read_text())
             return texts
@@ -193,11 +202,17 @@ class Plans(unittest.TestCase):
             self.assertNotIn("The plans differ", text)
 
     def test_other_settings_of_the_environment_and_of_an_agent(self):
-        for text in self.report({}, {"sticky": 0.25, "alpha": 0.1}):
+        for text in self.report({}, {"sticky": 0.25, "alpha": 0.1}, mix=("--mix",)):
             self.assertIn(
                 'The plans differ: environment is "sticky=0" in r0, and "sticky=0.25" in r1; scores are of both.', text
             )
             self.assertIn("The plans differ: agent.basic.alpha is 0.5 in r0, and 0.1 in r1; scores are of both.", text)
+
+    def test_what_changes_no_score_may_differ(self):
+        for text in self.report({}, {"episodes": 9}):
+            self.assertIn(
+                "The plans differ: agent.basic.evaluation_episodes is 3 in r0, and 9 in r1; scores are of both.", text
+            )
 
     def test_settings_of_agents_that_only_one_has(self):
         for text in self.report({}, {"agent": "bass", "alpha": 0.1}):

@@ -65,7 +65,15 @@ class Reports(unittest.TestCase):
 
     def test_every_table_is_there_in_three_forms(self):
         names = [f"{group}-{table}" for group in ("learning", "planning") for table in GROUPS + OF_TRIALS]
-        for name in [*names, "groups", "beside-published", "learning-curves"]:
+        for name in [
+            *names,
+            "groups",
+            "above-random",
+            "published",
+            "published-settings",
+            "efficiency",
+            "learning-curves",
+        ]:
             for form in ("csv", "md", "tex"):
                 self.assertIn(f"tables/{name}.{form}", self.files)
 
@@ -73,15 +81,15 @@ class Reports(unittest.TestCase):
         names = [
             f"{group}-{figure}"
             for group in ("learning", "planning")
-            for figure in ("normalised", "aggregates", "distribution", "profiles")
+            for figure in ("normalised", "aggregates", "intervals", "distribution", "profiles", "improvement")
         ]
-        for name in [*names, "learning-curves"]:
+        for name in [*names, "efficiency", "learning-curves"]:
             self.assertEqual(self.files[f"figures/{name}.png"][:8], b"\x89PNG\r\n\x1a\n")
             self.assertTrue(xml.etree.ElementTree.fromstring(self.files[f"figures/{name}.svg"]).tag.endswith("svg"))
 
     def test_tables_name_what_they_were_made_from(self):
         for name, content in self.files.items():
-            if name.startswith("tables/") and "curves" not in name:
+            if name.startswith("tables/") and "curves" not in name and "efficiency" not in name:
                 self.assertIn(f"made from results.csv sha256:{self.digest}", content.decode(), name)
         curves = hashlib.sha256((self.results / "curves.csv").read_bytes()).hexdigest()
         self.assertIn(f"made from curves.csv sha256:{curves}".encode(), self.files["tables/learning-curves.csv"])
@@ -115,19 +123,6 @@ class Reports(unittest.TestCase):
         self.assertEqual(len(found), sum(name.startswith("tables/") for name in self.files))
         for name, text in found.items():
             self.assertEqual(text.replace(other, self.digest), self.files[f"tables/{name}"].decode(), name)
-
-    def test_scores_stand_beside_published_ones(self):
-        scores = {
-            ("basic", "asterix"): [[1]],
-            ("iw1", "freeway"): [[2]],
-            ("blob_prost", "skiing"): [[3]],
-            ("mine", "pong"): [[4]],
-        }
-        found = tables(write(self.root / "published", results_of(scores)))["beside-published.csv"]
-        self.assertEqual(
-            found.splitlines()[1:],
-            ["game,agent,score,published", "asterix,basic,1,862.3", "freeway,iw1,2,31", "skiing,blob_prost,3,-29842.6"],
-        )
 
     def test_two_folders_are_evaluated_together(self):
         halves = [
@@ -233,6 +228,11 @@ class Reports(unittest.TestCase):
         self.assertIn("Of the 26 games, 22 are missing: alien, amidar,", files["report.md"].decode())
         self.assertIn(b"\nasterix,210,8503.3,3.5,8.5\n", files["tables/learning-scores.csv"])
         self.assertIn("figures/learning-profiles.svg", files)
+        self.assertIn("figures/learning-intervals.svg", files)
+
+    def test_atari57(self):
+        files = self.evaluated("atari57", self.results, "--report", "atari57")
+        self.assertIn("Of the 57 games, 53 are missing: alien, amidar,", files["report.md"].decode())
 
 
 class Paper(unittest.TestCase):
@@ -255,6 +255,9 @@ class Paper(unittest.TestCase):
             for table in GROUPS:
                 self.assertIn(f"tables/{group}-{table}.csv", files)
             self.assertNotIn(f"tables/{group}-improvement.csv", files)
+            header = files[f"tables/{group}-aggregates.csv"].decode().splitlines()[2]
+            self.assertIn(",IQM over game means,", header)
+            self.assertNotIn(",IQM,", header)
 
 
 if __name__ == "__main__":

@@ -8,8 +8,9 @@ package.require()
 
 import numpy as np  # noqa: E402
 import pandas as pd  # noqa: E402
-from racebeam_evaluation import aggregate, bootstrap, curves, machado2018, paired  # noqa: E402
+from racebeam_evaluation import against_random, aggregate, bootstrap, curves, efficiency, paired  # noqa: E402
 from racebeam_evaluation.normalise import Ranges, all_ranges  # noqa: E402
+from racebeam_evaluation.reports import machado2018  # noqa: E402
 from racebeam_evaluation.results import Results  # noqa: E402
 from racebeam_evaluation.scores import Group, scores_of  # noqa: E402
 from rliable import metrics  # noqa: E402
@@ -142,6 +143,12 @@ class Paired(unittest.TestCase):
         self.assertEqual(self.verdicts([30, 31, 32, 33], [1, 2, 3, 2]), ["better"])
         self.assertEqual(self.verdicts([30, 31, 32, 33], [1, 1]), ["better"])
 
+    def test_the_level_is_1_percent_and_not_5(self):
+        first, second = [1, 2, 3, 4], [4, 5, 5.5, 7]
+        self.assertTrue(0.01 < paired.welch(np.array(first), np.array(second)) < 0.05)
+        self.assertEqual(self.verdicts(first, second), [])
+        self.assertEqual(paired.SIGNIFICANCE, 0.01)
+
     def test_what_cannot_be_tested_is_said(self):
         self.assertEqual(self.verdicts([1], [2, 3]), ["few"])
         self.assertEqual(self.verdicts([1, 1], [2, 2, 2]), ["constant"])
@@ -186,7 +193,23 @@ class Bootstrap(unittest.TestCase):
 
     def test_the_interquartile_mean_and_the_optimality_gap(self):
         scores = np.array([[0.0, 0.4], [0.6, 100]])
-        self.assertEqual(bootstrap.aggregates(scores).round(9).tolist(), [0.5, 0.5])
+        # Means of games 0.3 and 50.2; the middle half 0.4 and 0.6; 1 - (0 + 0.4 + 0.6 + 1) / 4.
+        self.assertEqual(bootstrap.aggregates(scores).round(9).tolist(), [25.25, 25.25, 0.5, 0.5])
+
+    def test_each_aggregate_has_its_own_number(self):
+        # Two games of four trials. The middle half of 0 0 1 1 2 3 8 9 is 1 1 2 3: 1.75. The gap is 1 - 6 / 8.
+        scores = np.array([[0.0, 1], [0, 1], [2, 8], [3, 9]])
+        average, median, iqm, gap = bootstrap.aggregates(scores)
+        self.assertEqual((average, median, iqm, gap), (3, 3, 1.75, 0.25))
+        self.assertEqual(bootstrap.AGGREGATES, ("average", "median", "IQM", "optimality gap"))
+
+    def test_the_mean_of_three_trials_is_not_their_median(self):
+        scores = scores_of(results_of({("basic", "pong"): [[0], [1], [8]]}))
+        self.assertEqual(scores.means.loc["pong", "basic"], 3)
+        self.assertEqual(bootstrap.aggregates(np.array([[0.0], [1], [8]])).round(9).tolist()[:2], [3, 3])
+
+    def test_the_median_is_that_of_games_and_not_of_trials(self):
+        self.assertEqual(bootstrap.aggregates(np.array([[0.0, 1, 5], [2, 1, 90]]))[1], 1)
 
     def test_the_seed_decides_and_the_global_generator_is_put_back(self):
         np.random.seed(1)
@@ -203,6 +226,19 @@ class Bootstrap(unittest.TestCase):
         self.assertTrue((estimate.low < estimate.value).all() and (estimate.value < estimate.high).all())
         alone = FEW.estimate(bootstrap.aggregates, self.first[:1])
         self.assertTrue(np.isnan(alone.low).all() and np.isnan(alone.high).all() and not np.isnan(alone.value).any())
+
+    def test_low_and_high_are_the_bounds_of_the_interval(self):
+        # One game, whose trials are 0 or 1 alike: the mean of n draws is binomial. 95 % of 16 draws are 4 to 12.
+        estimate = bootstrap.Bootstrap(seed=1, repetitions=4000).estimate(
+            bootstrap.aggregates, np.array([[0.0], [1]] * 8)
+        )
+        self.assertEqual((estimate.low[0], estimate.value[0], estimate.high[0]), (4 / 16, 8 / 16, 12 / 16))
+        scores = scores_of(results_of({("basic", "pong"): [[trial % 2] for trial in range(16)]}))
+        ranges = Ranges("made", pd.Series({"pong": 0.0}), pd.Series({"pong": 1.0}))
+        rows = aggregate.aggregate_rows(scores, ranges, Group("learning", ("basic",)), bootstrap.Bootstrap(1, 4000))
+        self.assertEqual(rows.loc[0, ["average low", "average", "average high"]].to_list(), [4 / 16, 8 / 16, 12 / 16])
+        self.assertEqual(rows.loc[0, ["median low", "median high"]].to_list(), [4 / 16, 12 / 16])
+        self.assertEqual(rows.loc[0, ["optimality gap low", "optimality gap high"]].to_list(), [4 / 16, 12 / 16])
 
     def test_the_bootstrap_is_stratified_by_game(self):
         constant_in_each_game = np.array([[1.0, 2, 4]] * 5)
@@ -242,9 +278,71 @@ class Bootstrap(unittest.TestCase):
         self.assertEqual(constant.low.tolist(), constant.high.tolist())
         alone = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(1), np.array([1.0, 2, 3])]))
         self.assertAlmostEqual(
-            alone.value[0], (5 / 6 * 1 + 1 / 6 * 2)
+            alone.value[2], (5 / 6 * 1 + 1 / 6 * 2)
         )  # of the weights 4/3, 1/3 and 1/3, the middle half
         self.assertTrue(np.isnan(alone.low).all())
+
+
+class AgainstRandom(unittest.TestCase):
+    def row(self, agent, scores):
+        found = scores_of(results_of(scores | {("random", "pong"): [[0, 1, 2, 3]], ("random", "boxing"): [[5, 5, 5]]}))
+        return against_random.rows(found, (agent,), FEW).iloc[0]
+
+    def test_a_higher_mean_is_not_a_difference(self):
+        row = self.row("basic", {("basic", "pong"): [[1], [3]], ("basic", "boxing"): [[90], [91], [92]]})
+        self.assertEqual((row["games"], row["above"]), (2, 2))
+        self.assertEqual((row["significantly above"], row["significantly below"], row["not tested"]), (1, 0, 0))
+        self.assertEqual((row["low"], row["high"]), (1, 2))
+
+    def test_a_single_trial_of_a_learner_is_not_tested_but_episodes_of_a_planner_are(self):
+        row = self.row("basic", {("basic", "pong"): [[50, 60, 70]]})
+        self.assertEqual((row["significantly above"], row["not tested"]), (0, 1))
+        row = self.row("uct", {("uct", "pong"): [[50, 60, 70]]})
+        self.assertEqual((row["significantly above"], row["not tested"]), (1, 0))
+
+    def test_worse_than_random(self):
+        row = self.row("uct", {("uct", "boxing"): [[1], [2], [1]]})
+        self.assertEqual((row["above"], row["significantly below"], row["low"], row["high"]), (0, 1, 0, 0))
+
+
+class Efficiency(unittest.TestCase):
+    RANGES = Ranges("made", pd.Series({"pong": 0.0, "boxing": 0}), pd.Series({"pong": 10.0, "boxing": 10}))
+
+    def rows(self, frames, count):
+        """Two trials in each of two games; an episode scores its number, and one more in the second trial."""
+        episodes = [
+            (game, "basic", trial, number, number + trial, frames)
+            for game in ("pong", "boxing")
+            for trial in (0, 1)
+            for number in range(count)
+        ]
+        trained = curves_of(episodes).assign(decisions=frames // 5)
+        return efficiency.rows(trained, self.RANGES, FEW)
+
+    def test_short_training_has_ten_points(self):
+        rows = self.rows(1000, 10)
+        frames = rows[rows["axis"] == "frames"]
+        self.assertEqual(frames["trained for"].to_list(), [1000 * part for part in range(1, 11)])
+        # The trials have the means of 0 to 9 and of 1 to 10: 4.5 and 5.5; of the four, the middle two, by 10.
+        self.assertAlmostEqual(frames["IQM"].iloc[-1], 0.5)
+        self.assertAlmostEqual(frames["IQM"].iloc[0], 0.05)
+        self.assertEqual(rows[rows["axis"] == "decisions"]["trained for"].to_list()[-1], 2000)
+
+    def test_long_training_has_the_points_of_the_literature(self):
+        rows = self.rows(1_000_000, 120)
+        frames = rows[rows["axis"] == "frames"]
+        self.assertEqual(frames["trained for"].to_list(), [10_000_000, 50_000_000, 100_000_000])
+        self.assertAlmostEqual(frames["IQM"].iloc[2], (49.5 + 0.5) / 10)
+
+    def test_games_that_not_all_were_trained_in_do_not_count(self):
+        trained = curves_of(
+            [("pong", "basic", 0, 0, 5, 100), ("pong", "bass", 0, 0, 7, 100), ("boxing", "bass", 0, 0, 9, 100)]
+        )
+        rows = efficiency.rows(trained, self.RANGES, FEW)
+        self.assertEqual(set(rows["games"]), {1})
+        self.assertEqual(
+            rows[rows["trained for"] == 100].set_index("agent")["IQM"].to_dict(), {"basic": 0.5, "bass": 0.7}
+        )
 
 
 class Curves(unittest.TestCase):

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from .games import PAPER, published
-from .scores import BASELINE_VIEWS, Scores
+from ..games import PAPER, published
+from ..scores import BASELINE_VIEWS, Scores
 
 _NOTES = (
     "Of the 37 references the paper prints 3: random play, and the best Const and Perturb policy of each game.",
@@ -27,16 +27,7 @@ def paper_scores() -> Scores:
     )
 
 
-def beside_published(scores: Scores) -> pd.DataFrame:
-    """A row for each game and agent with a published score: ours, and that of the paper or of a successor."""
+def published_scores() -> pd.DataFrame:
+    """A row for each game, a column for each agent: those of the paper and of its successors. NaN: not published."""
     paper = paper_scores()
-    ours = pd.concat([scores.means, scores.views], axis=1)
-    theirs = pd.concat([paper.means, paper.views, published("successors")], axis=1)
-    shared = [agent for agent in ours if agent in theirs]
-    rows = [
-        {"game": game, "agent": agent, "score": ours.loc[game, agent], "published": theirs.loc[game, agent]}
-        for game in ours.index
-        if game in theirs.index
-        for agent in shared
-    ]
-    return pd.DataFrame(rows).dropna() if rows else pd.DataFrame()
+    return pd.concat([paper.means, paper.views, published("successors")], axis=1)

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter, MaxNLocator
 
-from .csv_file import Source
+from ..csv_file import Source
 from .table import made_from
 
 _STYLE = matplotlib.rc_context(
@@ -108,6 +108,68 @@ def aggregate_scores(rows: pd.DataFrame) -> Figure:
             axes.bar(shown["agent"], shown[statistic], color=list(_colours(list(shown["agent"])).values()))
             axes.set(title=f"{statistic} {name} score")
             axes.axhline(0, color="black", linewidth=0.5)
+    return figure
+
+
+@_STYLE
+def intervals(rows: pd.DataFrame, statistics: list[str]) -> Figure:
+    """A line of panels for each normalisation, a panel for each statistic: the interval of each agent."""
+    names = list(dict.fromkeys(rows["normalisation"]))
+    agents = list(dict.fromkeys(rows["agent"]))
+    figure, panels = _grid(len(names), len(statistics), 2.4 * len(statistics), (0.7 + 0.26 * len(agents)) * len(names))
+    for line, (name, shown) in enumerate(_parts(rows, "normalisation")):
+        for column, (axes, statistic) in enumerate(zip(panels[line * len(statistics) :], statistics)):
+            _bars(axes, shown, statistic, "agent", _colours(agents))
+            axes.set(title=f"{statistic}, {name}", yticklabels=list(shown["agent"]) if column == 0 else [])
+    return figure
+
+
+@_STYLE
+def improvements(rows: pd.DataFrame) -> Figure:
+    """A row for each pair of agents: the probability that a trial of the first scores more, with its interval."""
+    pairs = rows.assign(pair=rows["first"] + " over " + rows["second"])
+    figure, (axes,) = _grid(1, 1, 6.4, 0.9 + 0.26 * len(pairs))
+    _bars(axes, pairs, "probability", "pair", _colours(list(dict.fromkeys(pairs["first"]))), by="first")
+    axes.axvline(0.5, color="black", linewidth=0.5)
+    axes.set(yticklabels=list(pairs["pair"]), xlim=(0, 1), xlabel="probability of improvement")
+    return figure
+
+
+def _bars(
+    axes: Axes, rows: pd.DataFrame, statistic: str, of: str, colours: dict[str, str], by: str | None = None
+) -> None:
+    """A bar from "low" to "high" of the statistic for each row, with a mark at its value."""
+    places = np.arange(len(rows))
+    each = [colours[name] for name in rows[by or of]]
+    value, low, high = (
+        rows[name].to_numpy(dtype=float) for name in (statistic, f"{statistic} low", f"{statistic} high")
+    )
+    axes.barh(
+        places, np.nan_to_num(high - low), left=np.where(np.isnan(low), value, low), height=0.6, color=each, alpha=0.6
+    )
+    axes.vlines(value, places - 0.3, places + 0.3, color="black", linewidth=1.2)
+    axes.set(yticks=places, ylim=(len(rows) - 0.5, -0.5))
+    axes.xaxis.set_major_locator(MaxNLocator(4))
+    axes.grid(axis="x", linewidth=0.3)
+
+
+@_STYLE
+def efficiency(rows: pd.DataFrame) -> Figure:
+    """A panel for frames and one for decisions: the IQM of each agent by how long it was trained, with its interval."""
+    kinds = list(dict.fromkeys(zip(rows["normalisation"], rows["axis"])))
+    figure, panels = _grid(-(-len(kinds) // 2), min(2, len(kinds)), 3.6 * min(2, len(kinds)), 2.8 * -(-len(kinds) // 2))
+    colours = _colours(list(dict.fromkeys(rows["agent"])))
+    for axes, (name, axis) in zip(panels, kinds):
+        shown = rows[(rows["normalisation"] == name) & (rows["axis"] == axis)]
+        for agent, curve in _parts(shown, "agent"):
+            band = (curve["IQM low"], curve["IQM high"])
+            _curve_with_band(axes, curve["trained for"], curve["IQM"], band, colours[agent], agent)
+        axes.set(xlabel=axis, ylabel=f"IQM of {name} scores")
+        axes.xaxis.set_major_locator(MaxNLocator(5))
+        axes.xaxis.set_major_formatter(EngFormatter(sep=""))
+    for axes in panels[len(kinds) :]:
+        axes.set_axis_off()
+    panels[0].legend()
     return figure
 
 

@@ -5,22 +5,21 @@ M. C. Machado et al.: "Revisiting the Arcade Learning Environment", Journal of A
 
 import pandas as pd
 
-from . import figure
-from .bootstrap import Bootstrap
-from .curves import learning_curves, with_trained_frames
-from .errors import BadInput
-from .figure import Picture
-from .games import in_order
-from .report import Report
-from .results import Results
-from .table import Table
+from ..bootstrap import Bootstrap
+from ..curves import WINDOW, checkpoint, with_trained
+from ..errors import BadInput
+from ..games import in_order
+from ..output.report import Report
+from ..results import Results
+from ..scores import scores_of
+from .training import add_training
+from ..output.table import Table
 
 _CHECKPOINTS = (10_000_000, 50_000_000, 100_000_000, 200_000_000)  # frames of a trial
-_LAST = 100  # training episodes
 _LONGEST = 18_000  # frames of an episode, which is how far short of a checkpoint the last whole one may end
 
 
-def evaluate(results: Results, _: Bootstrap) -> Report:
+def evaluate(results: Results, bootstrap: Bootstrap, _: bool = False) -> Report:
     """The report of training episodes. Raises BadInput without training episodes."""
     if results.curves is None:
         raise BadInput(
@@ -31,33 +30,22 @@ def evaluate(results: Results, _: Bootstrap) -> Report:
     report.add_table(
         Table(
             "machado2018",
-            f"Mean score of the last {_LAST} training episodes at four numbers of frames, and its "
+            f"Mean score of the last {WINDOW} training episodes at four numbers of frames, and its "
             "standard deviation over trials.",
             checkpoints(results.curves),
             sources,
-            (f"n/a: fewer frames, or fewer than {_LAST} episodes; a deviation needs two trials.",),
+            (f"n/a: fewer frames, or fewer than {WINDOW} episodes; a deviation needs two trials.",),
             digits=1,
         )
     )
-    curves = learning_curves(results.curves)
-    report.add_table(
-        Table("learning-curves", "Scores of training episodes by the frames trained for.", curves, sources)
-    )
-    report.parts.append(
-        Picture(
-            "learning-curves",
-            "Scores of training episodes, with their standard error over trials.",
-            figure.learning_curves(curves),
-            sources,
-        )
-    )
+    add_training(report, results, scores_of(results), bootstrap)
     return report
 
 
 def checkpoints(curves: pd.DataFrame) -> pd.DataFrame:
     """A row for each game and agent: at each checkpoint mean and standard deviation over the trials that have reached
     it."""
-    trained = with_trained_frames(curves)
+    trained = with_trained(curves)
     rows = []
     for game in in_order(list(set(trained["game"]))):
         for agent, episodes in trained[trained["game"] == game].groupby("agent"):
@@ -72,8 +60,6 @@ def checkpoints(curves: pd.DataFrame) -> pd.DataFrame:
 
 
 def _at(trial: pd.DataFrame, frames: int) -> float:
-    """The mean score of the last 100 episodes that ended within `frames`; NaN if the trial has not got so far."""
-    ended = trial[trial["trained"] <= frames]
-    if len(ended) < _LAST or trial["trained"].iloc[-1] < frames - _LONGEST:
-        return float("nan")
-    return float(ended["score"].tail(_LAST).mean())
+    """The score at a checkpoint; NaN if the trial has not got so far."""
+    short = trial["trained"].iloc[-1] < frames - max(_LONGEST, trial["frames"].max())
+    return float("nan") if short else checkpoint(trial, frames)

@@ -1,57 +1,60 @@
 """The report `paper2013`: the metrics of Bellemare et al. 2013, section 4, and those of Agarwal et al. 2021."""
 
+import functools
+
 import pandas as pd
 
-from . import aggregate, figure, notes, paired
-from .bootstrap import Bootstrap
-from .csv_file import Source
-from .curves import learning_curves
-from .figure import Picture
-from .games import PAPER, sets
-from .normalise import Ranges, all_ranges
-from .paper import beside_published
-from .report import Report
-from .results import Results
-from .scores import Group, Scores, scores_of
-from .table import Table
+from .. import against_random, aggregate, notes, paired
+from ..bootstrap import Bootstrap
+from ..csv_file import Source
+from ..output import figure
+from ..output.figure import Picture
+from ..games import PAPER, sets
+from ..normalise import Ranges, all_ranges
+from ..published.beside import beside_published, columns_of_the_paper
+from ..output.report import Report
+from ..results import Results
+from ..scores import Group, Scores, scores_of
+from .training import add_training
+from ..output.table import Table
 
 _OWN_FIGURES = ("random", "baseline", "inter-algorithm")  # the normalisations that the paper draws
 
 
-def evaluate(results: Results, bootstrap: Bootstrap) -> Report:
-    """The report of results."""
+def evaluate(results: Results, bootstrap: Bootstrap, mix: bool = False) -> Report:
+    """The report of results. `mix`: scores stand beside published ones that were made otherwise, too."""
     scores = scores_of(results)
-    report = Report("Evaluation", [*scores.notes, *notes.of_left_out(scores, results)], results.sources)
-    report.add_table(
-        Table(
-            "beside-published",
-            "Scores beside those of the paper and of its successors.",
-            beside_published(scores),
-            results.sources,
-            digits=1,
-        )
-    )
+    introduction = [*scores.notes, *notes.of_left_out(scores, results)]
+    report = Report("Evaluation", introduction, results.sources)
+    _add_published(report, scores, results, mix)
     add_groups(report, scores, bootstrap)
-    if results.curves is not None:
-        curves, sources = learning_curves(results.curves), results.curve_sources
-        report.add_table(
-            Table("learning-curves", "Scores of training episodes by the frames trained for.", curves, sources)
-        )
-        report.parts.append(
-            Picture(
-                "learning-curves",
-                "Scores of training episodes, with their standard error over trials.",
-                figure.learning_curves(curves),
-                sources,
-            )
-        )
+    add_training(report, results, scores, bootstrap)
     return report
+
+
+def _add_published(report: Report, scores: Scores, results: Results, mix: bool) -> None:
+    beside = beside_published(scores, results, mix)
+    for name, caption, frame, digits in (
+        ("published-settings", "How scores were made, here and by those who published scores.", beside.settings, 1),
+        (
+            "beside-published",
+            "Scores with the 95 % interval of the mean, beside published ones of the same settings.",
+            beside.scores,
+            1,
+        ),
+        ("published", "Scores beside all that the paper and its successors print.", columns_of_the_paper(scores), 1),
+    ):
+        of_scores = beside.left_out if name == "beside-published" else ()
+        report.add_table(Table(name, caption, frame, report.sources, of_scores, digits))
+    if not len(beside.scores):
+        report.introduction += beside.left_out
 
 
 def add_groups(report: Report, scores: Scores, bootstrap: Bootstrap) -> None:
     """Adds all tables and figures of each group of agents."""
     report.introduction.append(f"Games: {_counted(list(scores.means.index))}.")
     report.add_table(_against(scores, report.sources))
+    report.add_table(_above_random(scores, report.sources, bootstrap))
     for group in scores.groups:
         ranges = all_ranges(scores, group)
         _add_scores(report, scores, group)
@@ -121,6 +124,19 @@ def _against(scores: Scores, sources: tuple[Source, ...]) -> Table:
     )
 
 
+def _above_random(scores: Scores, sources: tuple[Source, ...], bootstrap: Bootstrap) -> Table:
+    """Each learner and planner against random play."""
+    return Table(
+        "above-random",
+        "Games in which the mean is above that of random play, with the interval of their number, and those in which "
+        "Welch's test (two-tailed, 99 %) finds a difference.",
+        against_random.rows(scores, tuple(scores.means), bootstrap),
+        sources,
+        ("A sample is the mean of a trial of an agent that was trained, and an episode of another.",),
+        digits=0,
+    )
+
+
 def _add_scores(report: Report, scores: Scores, group: Group) -> None:
     shown = columns(scores, group)
     best_of = "of const and perturb, the best policy" if group.name != "planning" else "beside the best of the others"
@@ -187,12 +203,18 @@ def _add_aggregates(report: Report, scores: Scores, group: Group, ranges: list[R
     drawn = rows[rows["normalisation"] != "random"] if len(rows) else rows
     for name, caption, data, draw in (
         ("aggregates", "Average and median normalised scores", drawn, figure.aggregate_scores),
+        (
+            "intervals",
+            "Average, median, interquartile mean and optimality gap with their intervals",
+            drawn,
+            functools.partial(figure.intervals, statistics=aggregate.statistics(scores, group)),
+        ),
         ("distribution", "Share of games with a normalised score or a higher one", distributions, figure.distributions),
         ("profiles", "Share of trials above a normalised score, with its interval", profiles, figure.profiles),
     ):
         if not len(data):
             continue
-        if name != "aggregates":
+        if name not in ("aggregates", "intervals"):
             report.add_table(Table(f"{group.name}-{name}", f"{caption}.", data, report.sources))
         whole = data["set"].iloc[-1]  # the set of all games is the last
         report.parts.append(
@@ -234,12 +256,9 @@ def _add_pairs(report: Report, scores: Scores, group: Group, bootstrap: Bootstra
             notes.of_lacking(found),
         )
     )
-    report.add_table(
-        Table(
-            f"{group.name}-improvement",
-            "Probability that a trial of the first scores more than one of the second.",
-            aggregate.improvement_rows(scores, group, bootstrap),
-            report.sources,
-            notes.of_trials(scores, group),
-        )
-    )
+    caption = "Probability that a trial of the first scores more than one of the second."
+    rows = aggregate.improvement_rows(scores, group, bootstrap)
+    name = f"{group.name}-improvement"
+    report.add_table(Table(name, caption, rows, report.sources, notes.of_trials(scores, group)))
+    if len(rows):
+        report.parts.append(Picture(name, caption, figure.improvements(rows), report.sources))

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pandas as pd
 
-from .csv_file import Source
+from ..csv_file import Source
 
 _NOT_AVAILABLE = "n/a"
 _LATEX = str.maketrans({letter: f"\\{letter}" for letter in "&%_#$"})

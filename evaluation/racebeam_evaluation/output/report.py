@@ -2,7 +2,7 @@
 
 import dataclasses
 
-from .csv_file import Source
+from ..csv_file import Source
 from .figure import Picture
 from .table import Table, made_from
 
@@ -26,7 +26,7 @@ class Report:
 
     def files(self) -> dict[str, bytes]:
         """All files by their paths in the folder."""
-        files = {"report.md": self._document().encode()}
+        files = {"report.md": self.document().encode()}
         for part in self.parts:
             if isinstance(part, Table):
                 files |= {f"tables/{name}": text.encode() for name, text in part.files().items()}
@@ -34,7 +34,8 @@ class Report:
                 files |= {f"figures/{name}": content for name, content in part.files().items()}
         return files
 
-    def _document(self) -> str:
+    def document(self) -> str:
+        """report.md, which shows the tables and the figures."""
         sections = [f"# {self.title}", " ".join(self.introduction), *self.untested]
         sections += ["\n".join(f"- {line}" for line in made_from(self.sources))] if self.sources else []
         for part in self.parts:

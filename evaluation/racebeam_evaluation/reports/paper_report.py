@@ -2,15 +2,15 @@
 
 import pandas as pd
 
-from . import paired
-from .bootstrap import Bootstrap
-from .csv_file import Source, digest
-from .games import DATA, published
-from .paper import paper_scores
+from .. import paired
+from ..bootstrap import Bootstrap
+from ..csv_file import Source, digest
+from ..games import DATA, published
+from ..published.paper import paper_scores
 from .paper2013 import add_groups, columns
-from .report import Report
-from .scores import Scores
-from .table import Table
+from ..output.report import Report
+from ..scores import Scores
+from ..output.table import Table
 
 # The row "Times Best" of the two tables of scores.
 _TIMES_BEST = {

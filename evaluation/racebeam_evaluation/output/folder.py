@@ -2,9 +2,11 @@
 
 import os
 import pathlib
+import shutil
 import tempfile
+from collections.abc import Mapping
 
-from .errors import BadInput
+from ..errors import BadInput
 
 
 def check_free(folder: pathlib.Path) -> None:
@@ -17,15 +19,19 @@ def check_free(folder: pathlib.Path) -> None:
         )
 
 
-def write(folder: pathlib.Path, files: dict[str, bytes]) -> None:
-    """Writes all files, by their paths in `folder`. They are written elsewhere, and the folder is then renamed."""
+def write(folder: pathlib.Path, files: Mapping[str, bytes | pathlib.Path]) -> None:
+    """Writes all files, by their paths in `folder`: bytes, or copies of files. They are written elsewhere, and the
+    folder is then renamed."""
     check_free(folder)
     try:
         with tempfile.TemporaryDirectory(prefix=f".{folder.name}.", dir=folder.absolute().parent) as made:
             aside = pathlib.Path(made) / "whole"
             for name, content in files.items():
                 (aside / name).parent.mkdir(parents=True, exist_ok=True)
-                (aside / name).write_bytes(content)
+                if isinstance(content, bytes):
+                    (aside / name).write_bytes(content)
+                else:
+                    shutil.copyfile(content, aside / name, follow_symlinks=False)
             os.replace(aside, folder)
     except OSError as error:
         raise BadInput(

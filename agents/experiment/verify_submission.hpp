@@ -1,0 +1,17 @@
+// Plays every log of a submission again: results of anybody's agent, without a plan (docs/evaluation.md).
+#pragma once
+
+#include "agents/experiment/verify.hpp"
+
+namespace racebeam {
+
+// Whether the folder has an agent.toml, and no plan.
+bool is_submission(const ResultsFolder& folder);
+
+// As verify() does: each row is compared with its log, and its log with what the machine gives. All logs must
+// have the same settings, but for the seed. Throws InvalidInput if results.csv cannot be read, or the folder
+// of logs is a link.
+Verdict verify_submission(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
+                          const Finding& finding);
+
+}  // namespace racebeam

@@ -1,0 +1,148 @@
+"""A submission: a folder with agent.toml, results.csv, logs, and curves.csv if the agent was trained."""
+
+import dataclasses
+import pathlib
+import re
+from typing import Any
+
+import pandas as pd
+
+from ..csv_file import Kind, read
+from ..errors import BadInput
+from ..plan import preset_of, read_toml
+from ..results import DIVERGED, ROLES, Results, read_folder, together
+from .episode_log import EpisodeLog, read_log
+
+_MOST_BYTES = 2**16  # of agent.toml
+_MOST_LETTERS = 4000  # of a text in it
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,99}")
+_PRESETS = ("paper2013", "machado2018", "atari100k", "other")
+_TEXTS = ("agent", "version", "preset", "words", "link", "role")
+_REQUIRED = ("agent", "version", "preset", "training_frames")
+# The columns of results.csv that the logs confirm.
+_ROW = {
+    name: Kind.TEXT
+    for name in (
+        *("unit", "game", "image_md5", "agent", "trial", "episode", "environment_seed", "agent_seed", "score"),
+        *("frames", "decisions", "end", "lives", "state_hash", "log_digest", "version"),
+    )
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class About:
+    """agent.toml."""
+
+    agent: str
+    version: str
+    preset: str
+    training_frames: int
+    words: str = ""  # the authors'
+    link: str = ""
+    role: str = "learner"
+
+    @property
+    def name(self) -> str:
+        """Of the agent with its version."""
+        return f"{self.agent} {self.version}"
+
+
+@dataclasses.dataclass(frozen=True)
+class Episode:
+    """A row of results.csv with its log."""
+
+    row: dict[str, str]
+    path: pathlib.Path
+    log: EpisodeLog
+
+
+@dataclasses.dataclass(frozen=True)
+class Submission:
+    """A folder whose logs fit its rows."""
+
+    about: About
+    results: Results  # the agent is called About.name
+    episodes: list[Episode]
+
+
+def read_submission(folder: pathlib.Path) -> Submission:
+    """Reads the folder. Raises BadInput with a sentence if something in it is not as it must be."""
+    about = _about(folder / "agent.toml")
+    results = read_folder(folder)
+    rows = read(folder / "results.csv", _ROW)[0].astype("str")
+    strangers = sorted(set(rows["agent"]) - {about.agent})
+    if strangers:
+        raise BadInput(
+            f"{folder / 'results.csv'} has the agent '{strangers[0]}'; expected '{about.agent}', as agent.toml has"
+        )
+    lines = enumerate(rows.to_dict("records"), 2)
+    episodes = [_episode(folder, line, row, about) for line, row in lines if row["end"] != DIVERGED]
+    if not episodes:
+        raise BadInput(f"{folder / 'results.csv'}: every trial diverged; expected a score of one trial or more")
+    return Submission(about, _named(results, about), episodes)
+
+
+def _about(path: pathlib.Path) -> About:
+    found = read_toml(path, _MOST_BYTES)
+    known = [field.name for field in dataclasses.fields(About)]
+    for key in found:
+        if key not in known:
+            raise BadInput(f"{path}: there is no key '{key}'; expected {', '.join(known)}")
+    for key in _REQUIRED:
+        if key not in found:
+            raise BadInput(f"{path} lacks the key '{key}'; expected {', '.join(_REQUIRED)}")
+    for key in _TEXTS:
+        _check_text(path, key, found.get(key, ""))
+    _check(path, found, "agent", _NAME.fullmatch(found["agent"]), "letters, digits, '_', '.' and '-'")
+    _check(path, found, "preset", found["preset"] in _PRESETS, ", ".join(_PRESETS))
+    _check(path, found, "role", found.get("role", "learner") in ROLES, ", ".join(ROLES))
+    _check(path, found, "link", re.match(r"https?://[^\s]+$|$", found.get("link", "")), "https://... or http://...")
+    frames = found["training_frames"]
+    _check(path, found, "training_frames", type(frames) is int and 0 <= frames < 10**15, "a whole number from 0")
+    return About(**found)
+
+
+def _check_text(path: pathlib.Path, key: str, value: object) -> None:
+    if not isinstance(value, str):
+        raise BadInput(f"{path}: {key} is {value}; expected a text")
+    if len(value) > _MOST_LETTERS:
+        raise BadInput(f"{path}: {key} has {len(value)} letters; expected at most {_MOST_LETTERS}")
+
+
+def _check(path: pathlib.Path, found: dict[str, Any], key: str, right: object, wanted: str) -> None:
+    if not right:
+        raise BadInput(f"{path}: {key} is '{found[key]}'; expected {wanted}")
+
+
+def _episode(folder: pathlib.Path, line: int, row: dict[str, str], about: About) -> Episode:
+    place = f"{folder / 'results.csv'}, line {line}"
+    for column in ("unit", "episode"):
+        if not _NAME.fullmatch(row[column]):
+            raise BadInput(f"{place}: {column} is '{row[column]}'; expected letters, digits, '_', '.' and '-'")
+    path = folder / "logs" / row["unit"] / f"{row['episode']}.episode"
+    for above in (path.parent.parent, path.parent):
+        if above.is_symlink():
+            raise BadInput(f"{above} is a link; expected a folder")
+    log = read_log(path)
+    for column, value in row.items():
+        if value != log.columns.get(column, ""):
+            raise BadInput(f"{place}: {column} is '{value}'; its log has '{log.columns.get(column, '')}'")
+    if about.preset != (found := preset_of(" ".join(f"{key}={value}" for key, value in log.settings.items()))):
+        raise BadInput(f"{place}: the settings of its log are those of {found}; expected {about.preset}")
+    return Episode(row, path, log)
+
+
+def _named(results: Results, about: About) -> Results:
+    """The same results of an agent that is called About.name."""
+    whole = together([results])
+
+    def renamed(frame: pd.DataFrame) -> pd.DataFrame:
+        return frame[frame["agent"] == about.agent].assign(agent=about.name)
+
+    curves = None if whole.curves is None else renamed(whole.curves)
+    return dataclasses.replace(
+        whole,
+        episodes=renamed(whole.episodes),
+        curves=curves if curves is not None and len(curves) else None,
+        roles={about.name: about.role},
+    )

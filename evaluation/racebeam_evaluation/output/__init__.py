@@ -1,0 +1,1 @@
+"""What is written: tables, figures, reports, and the folder of a run."""

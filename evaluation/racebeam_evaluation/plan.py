@@ -1,0 +1,132 @@
+"""Settings files in TOML: plan.toml, which `racebeam experiment` writes, and the settings of an agent in it."""
+
+import dataclasses
+import json
+import pathlib
+import sys
+from typing import Any
+
+from .csv_file import content_of
+from .errors import BadInput
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+_MOST_BYTES = 2**24
+_UNKNOWN = "unknown"
+
+# The settings of `load` that make a preset (docs/experiments.md).
+_PRESETS = {
+    "paper2013": {"frame_skip": "5", "sticky": "0", "action_set": "full", "max_episode_frames": "18000"},
+    "machado2018": {"frame_skip": "5", "sticky": "0.25", "action_set": "full", "max_episode_frames": "18000"},
+    "atari100k": {"frame_skip": "4", "sticky": "0", "action_set": "full", "max_episode_frames": "108000"},
+}
+_STARTS = {"noop_max": "0", "life_loss_ends": "0"}  # of each preset; other values make it another one
+_BUDGETS = ("simulations", "frames")  # an agent's settings that bound its search for a decision
+
+
+@dataclasses.dataclass(frozen=True)
+class Protocol:
+    """How scores were made. "unknown" where nobody says it; "" where it does not apply."""
+
+    preset: str = _UNKNOWN  # of the environment
+    frame_skip: str = _UNKNOWN  # frames of a decision
+    budget: str = _UNKNOWN  # of a decision
+    training: str = _UNKNOWN
+    trials: str = _UNKNOWN
+    episodes: str = _UNKNOWN  # of evaluation, in each trial
+
+    def differences(self, other: "Protocol") -> list[str]:
+        """The names of what decides scores and differs, or is unknown on a side. Trials and episodes are not among
+        them: they decide how exact a mean is."""
+        return [
+            name
+            for name in ("preset", "frame_skip", "budget", "training")
+            if _UNKNOWN in (getattr(self, name), getattr(other, name)) or getattr(self, name) != getattr(other, name)
+        ]
+
+
+def read_toml(path: pathlib.Path, most: int = _MOST_BYTES) -> dict[str, Any]:
+    """The tables of a TOML file. Raises BadInput if it cannot be read."""
+    content = content_of(path, most, "a TOML file")
+    try:
+        return tomllib.loads(content.decode())
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise BadInput(f"{path} is not TOML: {error}; expected a TOML file in UTF-8") from error
+
+
+@dataclasses.dataclass(frozen=True)
+class Plan:
+    """A plan.toml, or nothing."""
+
+    tables: dict[str, Any]
+
+    @property
+    def games(self) -> set[str]:
+        """The games whose images the plan names: a user may have games of one's own."""
+        images = self.tables.get("images")
+        return set(images) if isinstance(images, dict) else set()
+
+    def settings(self) -> dict[str, str]:
+        """All settings by KEY or TABLE.KEY, as TOML writes them."""
+        return dict(_flat("", self.tables))
+
+    def protocol(self, agent: str) -> Protocol:
+        """How the agent was run."""
+        agents = self.tables.get("agent", {})
+        settings = agents.get(agent) or agents.get(agent.split("_")[0])
+        if not isinstance(settings, dict):
+            return Protocol()
+        return Protocol(
+            preset=preset_of(str(self.tables.get("environment", ""))),
+            frame_skip=str(settings.get("frame_skip", _UNKNOWN)),
+            budget=_budget(settings),
+            training=_training(settings),
+            trials=_count(settings.get("trials")),
+            episodes=_count(settings.get("evaluation_episodes")),
+        )
+
+
+def plan_of(folder: pathlib.Path) -> Plan:
+    """The plan of a folder of results; an empty one if there is no plan.toml."""
+    path = folder / "plan.toml"
+    return Plan(read_toml(path) if path.is_file() else {})
+
+
+def preset_of(environment: str) -> str:
+    """The preset with these words of `load`; "other" if there is none such."""
+    words = dict(word.split("=", 1) for word in environment.split() if "=" in word)
+    if any(words.get(key, value) != value for key, value in _STARTS.items()):
+        return "other"
+    return next(
+        (name for name, wanted in _PRESETS.items() if all(words.get(key) == value for key, value in wanted.items())),
+        "other" if words else _UNKNOWN,
+    )
+
+
+def _flat(above: str, tables: dict[str, Any]) -> list[tuple[str, str]]:
+    settings = []
+    for key, value in tables.items():
+        name = f"{above}.{key}" if above else key
+        settings += _flat(name, value) if isinstance(value, dict) else [(name, json.dumps(value, default=str))]
+    return settings
+
+
+def _count(value: object) -> str:
+    return f"{value:,}" if isinstance(value, int) else _UNKNOWN
+
+
+def _budget(settings: dict[str, Any]) -> str:
+    words = [f"{settings[key]:,.0f} {key}" for key in _BUDGETS if isinstance(settings.get(key), int | float)]
+    if "simulations" in settings and isinstance(settings.get("depth_frames"), int | float):
+        words.append(f"of {settings['depth_frames']:,.0f} frames")
+    return " ".join(words)
+
+
+def _training(settings: dict[str, Any]) -> str:
+    for key in ("training_episodes", "training_frames"):
+        if settings.get(key):
+            return f"{_count(settings[key])} {key.removeprefix('training_')}"
+    return ""

@@ -1,0 +1,1 @@
+"""Published scores, how they were made, and whether others agree with them."""

@@ -1,0 +1,253 @@
+"""The board shows submissions, and refuses what does not fit in a sentence."""
+
+import base64
+import hashlib
+import json
+import pathlib
+import re
+import resource
+import shutil
+import tempfile
+import unittest
+import zlib
+
+import package
+
+package.require()
+
+from made_results import evaluate  # noqa: E402
+from made_submissions import ABOUT, log, log_path, row_of, seal, submission, write_rows  # noqa: E402
+from racebeam_evaluation import main  # noqa: E402, F401: its modules take memory
+
+OWN_GAMES = package.SOURCE / "docs/results/own-games"
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def board(self, *arguments):
+        return evaluate("--board", *arguments, "--into", self.root / "site")
+
+    def page(self, name="index.html"):
+        return (self.root / "site" / name).read_text()
+
+
+class Board(Folder):
+    def test_two_agents_are_compared(self):
+        submission(self.root / "a", "mine", {"pong": [[-20, -10], [0, 10]], "boxing": [[5], [6]]})
+        submission(self.root / "b", "yours", {"pong": [[20], [18]]})
+        done = self.board(self.root / "a", self.root / "b")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        index = self.page()
+        # Pong: random play -20.7, people 14.6. The trials of yours have 20 and 18: (38 / 2 + 20.7) / 35.3.
+        self.assertIn("1.125 (1.096 to 1.153)", index)
+        self.assertLess(index.index("yours 1.0"), index.index("mine 1.0"))  # the higher IQM first
+        self.assertIn('<td class="number"><a href="agent1.html#pong">-5.0</a></td>', index)
+        self.assertIn('<td class="number"><a href="agent1.html#boxing">5.5</a></td><td class="number"></td>', index)
+        self.assertIn("They were not played again", index)
+
+    def test_every_link_leads_somewhere_and_logs_are_the_same_bytes(self):
+        folder, rows = submission(self.root / "a")
+        self.board(folder)
+        site = self.root / "site"
+        for page in site.glob("*.html"):
+            for address in re.findall(r'(?:href|src)="([^"]*)"', page.read_text()):
+                file, _, anchor = address.partition("#")
+                if not file.startswith("https://"):
+                    self.assertTrue((site / file).is_file(), address)
+                if anchor:
+                    self.assertIn(f'id="{anchor}"', (site / file).read_text())
+        copies = {path.read_bytes() for path in site.rglob("*.episode")}
+        self.assertEqual(copies, {log_path(folder, row).read_bytes() for row in rows})
+
+    def test_words_are_no_markup(self):
+        self.board(submission(self.root / "a")[0])
+        for name in ("index.html", "agent1.html"):
+            self.assertIn("Ours &lt;b&gt;&amp; theirs&lt;/b&gt;", self.page(name))
+
+    def test_a_link_of_the_viewer_has_the_episode(self):
+        self.board(submission(self.root / "a")[0], "--viewer", "https://example.org/racebeam/")
+        packed = re.search(
+            r'href="https://example.org/racebeam/#replay=([\w-]+)&amp;frame=0"', self.page("agent1.html")
+        )
+        text = json.loads(zlib.decompress(base64.urlsafe_b64decode(packed[1] + "==")))
+        self.assertEqual((text["game"], text["acts"], text["settings"]["seed"]), ("pong", ["3*300"], "7"))
+
+    def test_presets_are_not_mixed(self):
+        submission(self.root / "a")
+        folder, rows = submission(self.root / "b", "yours", preset="machado2018")
+        for row in rows:
+            log_path(folder, row).write_bytes(
+                log(row, "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000")
+            )
+            row["log_digest"] = hashlib.sha256(log_path(folder, row).read_bytes()).hexdigest()
+        write_rows(folder, rows)
+        done = self.board(self.root / "a", folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        index = self.page()
+        self.assertEqual(index.count("<h2>Preset"), 2)
+        self.assertNotIn("<th>mine 1.0</th><th>yours 1.0</th>", index)
+
+    def test_curves_are_shown(self):
+        folder, _ = submission(self.root / "a")
+        (folder / "curves.csv").write_text(
+            "game,agent,trial,episode,score,frames\npong,mine,1,1,-20,1000\npong,mine,1,2,-10,1000\n"
+        )
+        self.board(folder)
+        self.assertIn('<img src="curves-paper2013.svg"', self.page())
+        self.assertTrue((self.root / "site/curves-paper2013.png").is_file())
+
+    def test_logs_of_racebeam_itself(self):
+        folder = self.root / "basic"
+        folder.mkdir()
+        (folder / "agent.toml").write_text(ABOUT.format(agent="basic", preset="other"))
+        lines = (OWN_GAMES / "results.csv").read_text().splitlines()
+        kept = [line for line in lines if line.startswith("unit,") or ",basic," in line]
+        (folder / "results.csv").write_text("\n".join([*kept, ""]))
+        shutil.copytree(OWN_GAMES / "logs", folder / "logs")
+        done = self.board(folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("beamfall", self.page())
+
+    def test_a_broken_folder_is_named_and_the_others_are_shown(self):
+        good, _ = submission(self.root / "good")
+        broken, rows = submission(self.root / "broken", "yours")
+        log_path(broken, rows[1]).write_bytes(b"RBEPISOD")
+        done = self.board(broken, good, self.root / "none")
+        self.assertEqual(done.returncode, 3)
+        self.assertEqual(len(done.stderr.splitlines()), 2)
+        self.assertIn("racebeam-evaluate: not shown: ", done.stderr)
+        index = self.page()
+        self.assertIn("mine 1.0", index)
+        self.assertNotIn("yours 1.0", index)
+        self.assertIn("2.episode is no episode log", index)
+        self.assertIn("none/agent.toml cannot be read", index)
+
+    def test_one_version_of_an_agent_and_one_image_of_a_game(self):
+        submission(self.root / "a")
+        submission(self.root / "b")
+        other, rows = submission(self.root / "c", "yours")
+        rows = [row_of("yours", "pong", row["trial"], row["episode"], row["score"], image_md5="aa") for row in rows]
+        for row in rows:
+            log_path(other, row).write_bytes(log(row))
+        write_rows(other, rows)
+        done = self.board(self.root / "a", self.root / "b", other)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("b is of mine 1.0, which is there; expected another version", done.stderr)
+        self.assertIn("the image of pong is aa; expected md5-of-pong, as the others have", done.stderr)
+
+
+class BadInput(Folder):
+    def setUp(self):
+        super().setUp()
+        self.folder, self.rows = submission(self.root / "a")
+        self.log = log_path(self.folder, self.rows[0])
+
+    def refused(self, sentence):
+        """Checks that the folder is refused with `sentence`, and that nothing is written."""
+        done = self.board(self.folder)
+        self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn(sentence, done.stderr)
+        self.assertFalse((self.root / "site").exists())
+
+    def test_a_log_that_is_cut_or_altered(self):
+        whole = self.log.read_bytes()
+        for size in (0, 10, 24, len(whole) - 1):
+            self.log.write_bytes(whole[:size])
+            self.refused("1.episode ")
+        for place in (0, 8, 13, 21, 30, len(whole) - 1):
+            self.log.write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+            self.refused("1.episode ")
+        self.log.unlink()
+        self.refused("1.episode cannot be read: No such file or directory; expected an episode log")
+
+    def test_a_log_of_a_gigabyte_is_not_read(self):
+        with self.log.open("r+b") as file:
+            file.truncate(2**30)
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        self.refused("1.episode has 1073741824 bytes; expected an episode log of at most 2097152")
+        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 100_000)  # KiB
+
+    def test_contents_that_grow_without_end(self):
+        self.log.write_bytes(seal(bytes(2**25), size=1000))
+        self.refused("1.episode is damaged: its contents do not have 1000 bytes")
+        self.log.write_bytes(seal(bytes(2**25)))
+        self.refused("1.episode has contents of 33554432 bytes; expected at most 2097152")
+
+    def test_a_log_of_another_image_or_score_or_seed(self):
+        for column, value in (("image_md5", "aa"), ("score", "2"), ("environment_seed", "8"), ("state_hash", "0" * 16)):
+            self.log.write_bytes(log({**self.rows[0], column: value}))
+            self.refused(f"line 2: {column} is '{self.rows[0][column]}'; its log has '{value}'")
+
+    def test_a_score_that_is_raised_by_one_or_an_action_that_is_changed(self):
+        write_rows(self.folder, [{**self.rows[0], "score": "2"}, *self.rows[1:]])
+        self.refused("line 2: score is '2'; its log has '1'")
+        write_rows(self.folder, self.rows)
+        self.log.write_bytes(log(self.rows[0], actions=bytes([3] * 299 + [4])))
+        self.refused("line 2: log_digest is ")
+        self.log.write_bytes(log(self.rows[0], actions=bytes([18] * 300)))
+        self.refused("says decisions=300, which does not fit its actions; expected actions from 0 to 17")
+
+    def test_other_settings_than_those_of_the_preset(self):
+        settings = "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000"
+        self.log.write_bytes(log(self.rows[0], settings))
+        self.rows[0]["log_digest"] = hashlib.sha256(self.log.read_bytes()).hexdigest()
+        write_rows(self.folder, self.rows)
+        self.refused("line 2: the settings of its log are those of machado2018; expected paper2013")
+
+    def test_names_that_leave_the_folder(self):
+        for column in ("unit", "episode"):
+            for name in ("../../b", "/etc/passwd", "..", "", "a b"):
+                number = "3" if column == "unit" else name
+                write_rows(self.folder, [{**self.rows[0], "episode": number, column: name}])
+                self.refused("")
+
+    def test_links_are_not_followed(self):
+        self.log.rename(self.root / "elsewhere")
+        self.log.symlink_to(self.root / "elsewhere")
+        self.refused("1.episode is a link; expected a file")
+        self.log.unlink()
+        (self.root / "elsewhere").rename(self.log)
+        self.log.parent.rename(self.root / "unit")
+        self.log.parent.symlink_to(self.root / "unit")
+        self.refused("is a link; expected a folder")
+
+    def test_agent_toml(self):
+        path = self.folder / "agent.toml"
+        good = path.read_text()
+        for text, sentence in (
+            ("agent = ", "agent.toml is not TOML: "),
+            (good + "colour = 1\n", "there is no key 'colour'; expected agent, version,"),
+            (good.replace("version", "# version"), "agent.toml lacks the key 'version'; expected agent, version,"),
+            (good.replace('"mine"', "5"), "agent is 5; expected a text"),
+            (good.replace('"mine"', '"../mine"'), "agent is '../mine'; expected letters, digits"),
+            (good.replace("paper2013", "paper2014"), "preset is 'paper2014'; expected paper2013, machado2018"),
+            (good.replace("https://example.org/agent", "javascript:alert(1)"), "expected https://... or http://..."),
+            (good.replace("4000000", "-1"), "training_frames is '-1'; expected a whole number from 0"),
+            (good + 'role = "teacher"\n', "role is 'teacher'; expected learner, planner, baseline"),
+            (good.replace("Ours", "Ours" * 2000), "words has "),
+            ("#" * 70000, "agent.toml has 70000 bytes; expected a TOML file of at most 65536"),
+        ):
+            path.write_text(text)
+            self.refused(sentence)
+
+    def test_an_agent_that_agent_toml_does_not_name(self):
+        (self.folder / "agent.toml").write_text(ABOUT.format(agent="other", preset="paper2013"))
+        self.refused("results.csv has the agent 'mine'; expected 'other', as agent.toml has")
+
+    def test_usage(self):
+        for arguments, sentence in (
+            (("--viewer", "ftp://a", self.folder), "'ftp://a' is not accepted; expected http://"),
+            (("--paper",), "expected folders of submissions for --board"),
+        ):
+            done = self.board(*arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(sentence, done.stderr)
+
+
+if __name__ == "__main__":
+    package.main()

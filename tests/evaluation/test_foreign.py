@@ -1,0 +1,131 @@
+"""Files of Dopamine, DQN Zoo and rliable are read, and results are frames for programs."""
+
+import json
+import pathlib
+import tempfile
+import unittest
+
+import package
+
+package.require()
+
+from made_results import curve, evaluate, results_of, write  # noqa: E402
+from racebeam_evaluation import BadInput, load  # noqa: E402
+
+ZOO = (
+    ",environment_name,seed,frame,eval_episode_return,eval_num_episodes\n"
+    "0,battle_zone,1,0,100.0,3\n1,battle_zone,1,1000000,300.5,4\n2,battle_zone,2,0,90.0,3\n3,battle_zone,2,1000000,310,4\n"
+)
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def file(self, name, content):
+        path = self.root / name
+        path.write_text(content if isinstance(content, str) else json.dumps(content))
+        return path
+
+
+class Files(Folder):
+    def test_dopamine(self):
+        entries = [
+            {"Iteration": iteration, "Value": value, "Agent": agent}
+            for agent, trials in (("DQN", [[1, 2], [3, 4.5]]), ("DQN (Adam)", [[7, 8]]))
+            for trial in trials
+            for iteration, value in enumerate(trial)
+        ]
+        found = load(self.file("battlezone.json", entries))
+        self.assertEqual(
+            found.trials.values.tolist(),
+            [["battle_zone", "dqn", 0, 2], ["battle_zone", "dqn", 1, 4.5], ["battle_zone", "dqn_adam", 0, 8]],
+        )
+        self.assertEqual(found.curves["frames"].to_list(), [1_000_000] * 6)
+        self.assertEqual(found.curves["decisions"].to_list(), [250_000] * 6)
+
+    def test_dqn_zoo(self):
+        found = load(self.file("rainbow.csv", ZOO))
+        self.assertEqual(
+            found.trials.values.tolist(), [["battle_zone", "rainbow", 1, 300.5], ["battle_zone", "rainbow", 2, 310]]
+        )
+        self.assertEqual(found.curves["frames"].to_list(), [0, 1_000_000, 0, 1_000_000])
+
+    def test_rliable(self):
+        found = load(self.file("DrQ.json", {"UpNDown": [1, 2.5], "MsPacman": [3]}))
+        self.assertEqual(
+            found.trials.values.tolist(),
+            [["ms_pacman", "drq", 0, 3], ["up_n_down", "drq", 0, 1], ["up_n_down", "drq", 1, 2.5]],
+        )
+
+    def test_they_are_evaluated_beside_results_of_ours(self):
+        ours = write(self.root / "ours", results_of({("basic", "up_n_down"): [[4], [6]]}))
+        done = evaluate(ours, self.file("DrQ.json", {"UpNDown": [1, 2]}), "--into", self.root / "report")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("testing,up_n_down,5,1.5\n", (self.root / "report/tables/learning-scores.csv").read_text())
+
+    def test_each_iteration_is_a_checkpoint_of_its_own(self):
+        entries = [{"Iteration": i, "Value": i + 1, "Agent": "DQN"} for i in range(60)]
+        done = evaluate(self.file("pong.json", entries), "--report", "machado2018", "--into", self.root / "report")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        row = (self.root / "report/tables/machado2018.csv").read_text().splitlines()[2]
+        self.assertEqual(row, "pong,dqn,1,10,n/a,1,50,n/a,1,n/a,n/a,0,n/a,n/a,0")
+
+    def test_what_is_wrong_is_said(self):
+        for name, content, sentence in (
+            ("pong.txt", "", "is neither a folder, nor a file .csv of DQN Zoo, nor .json of Dopamine or rliable"),
+            ("pong.json", "{", "pong.json is not JSON: "),
+            ("pong.json", "[" * 100_000, "pong.json is not JSON: "),
+            ("pung.json", [{"Iteration": 0, "Value": 1, "Agent": "a"}], "there is no game 'pung'; did you mean pong?"),
+            ("pong.json", [], "pong.json has no iterations; expected one or more"),
+            (
+                "pong.json",
+                [{"Iteration": 0, "Agent": "a"}],
+                'entry 1 is {"Iteration": 0, "Agent": "a"}; expected a list',
+            ),
+            ("pong.json", [{"Iteration": 0, "Value": "1", "Agent": "a"}], "entry 1 is "),
+            ("pong.json", [{"Iteration": True, "Value": 1, "Agent": "a"}], "entry 1 is "),
+            ("a.json", {"Pong": [1, "2"]}, 'Pong has [1, "2"]; expected a list of decimal numbers'),
+            ("a.json", '{"Pong": [NaN]}', "Pong has [NaN]; expected a list of decimal numbers"),
+            ("a.json", {"Pong": []}, "Pong has []; expected a list of decimal numbers"),
+            ("a.json", {}, "a.json has {}; expected a list of objects"),
+            ("a.json", "5", "a.json has 5; expected a list of objects"),
+            ("a.csv", "frame,seed\n1,2\n", "a.csv lacks the columns environment_name, eval_episode_return"),
+            ("a.csv", ZOO.replace("300.5", "much"), "eval_episode_return is 'much'; expected a decimal number"),
+        ):
+            with self.assertRaises(BadInput) as raised:
+                load(self.file(name, content))
+            self.assertIn(sentence, str(raised.exception))
+
+    def test_a_file_of_a_gigabyte_is_not_read(self):
+        for name, most in (("pong.json", 2**28), ("a.csv", 2**29)):
+            with (self.root / name).open("wb") as file:
+                file.truncate(2**30)
+            with self.assertRaisesRegex(BadInput, f"has 1073741824 bytes; expected a .* of at most {most}"):
+                load(self.root / name)
+
+
+class Frames(Folder):
+    def test_a_folder_is_frames(self):
+        scores = {("basic", "pong"): [[1, 3], [4]], ("random", "pong"): [[-20, -21]]}
+        folder = write(self.root / "a", results_of(scores), [curve("pong", "basic", 0, 0, 1, 100)])
+        (folder / "agents.csv").write_text("agent,role\nbasic,learner\n")
+        found = load(folder)
+        self.assertEqual(len(found.episodes), 5)
+        self.assertEqual(found.scores.loc["pong"].to_dict(), {"basic": 3, "random": -20.5})
+        self.assertEqual(found.trials["score"].to_list(), [2, 4, -20.5])
+        self.assertEqual(found.curves["decisions"].to_list(), [20])
+        self.assertEqual(found.roles, {"basic": "learner"})
+        rows = found.aggregates()
+        human = rows[rows["normalisation"] == "human"].iloc[0]
+        self.assertAlmostEqual(human["IQM"], (3 + 20.7) / 35.3)
+
+    def test_a_folder_without_training_has_no_curves(self):
+        found = load(str(write(self.root / "a", results_of({("uct", "pong"): [[1]]}))))
+        self.assertEqual((len(found.curves), list(found.curves)[:3]), (0, ["game", "agent", "trial"]))
+
+
+if __name__ == "__main__":
+    package.main()
