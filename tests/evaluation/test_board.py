@@ -17,7 +17,7 @@ package.require()
 
 from made_results import evaluate  # noqa: E402
 from made_submissions import ABOUT, log, log_path, row_of, seal, submission, write_rows  # noqa: E402
-from racebeam_evaluation import main  # noqa: E402, F401: its modules take memory
+from racebeam_evaluation import main  # noqa: E402, F401
 
 OWN_GAMES = package.SOURCE / "docs/results/own-games"
 

@@ -10,14 +10,14 @@ import pandas as pd
 from .. import aggregate, notes
 from ..bootstrap import Bootstrap
 from ..errors import BadInput
-from ..output import figure
-from ..output.figure import Picture
 from ..games import ATARI57, ATARI100K, HUMAN
 from ..normalise import Ranges
+from ..output import figure
+from ..output.figure import Picture
 from ..output.report import Report
+from ..output.table import Table
 from ..results import Results
 from ..scores import Group, Scores, scores_of
-from ..output.table import Table
 
 _RANGES = Ranges("human", HUMAN["random"], HUMAN["human"])
 

@@ -10,10 +10,10 @@ from ..curves import WINDOW, checkpoint, with_trained
 from ..errors import BadInput
 from ..games import in_order
 from ..output.report import Report
+from ..output.table import Table
 from ..results import Results
 from ..scores import scores_of
 from .training import add_training
-from ..output.table import Table
 
 _CHECKPOINTS = (10_000_000, 50_000_000, 100_000_000, 200_000_000)  # frames of a trial
 _LONGEST = 18_000  # frames of an episode, which is how far short of a checkpoint the last whole one may end

@@ -7,16 +7,16 @@ import pandas as pd
 from .. import against_random, aggregate, notes, paired
 from ..bootstrap import Bootstrap
 from ..csv_file import Source
-from ..output import figure
-from ..output.figure import Picture
 from ..games import PAPER, sets
 from ..normalise import Ranges, all_ranges
-from ..published.beside import beside_published, columns_of_the_paper
+from ..output import figure
+from ..output.figure import Picture
 from ..output.report import Report
+from ..output.table import Table
+from ..published.beside import beside_published, columns_of_the_paper
 from ..results import Results
 from ..scores import Group, Scores, scores_of
 from .training import add_training
-from ..output.table import Table
 
 _OWN_FIGURES = ("random", "baseline", "inter-algorithm")  # the normalisations that the paper draws
 

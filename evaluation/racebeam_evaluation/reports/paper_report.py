@@ -6,11 +6,11 @@ from .. import paired
 from ..bootstrap import Bootstrap
 from ..csv_file import Source, digest
 from ..games import DATA, published
-from ..published.paper import paper_scores
-from .paper2013 import add_groups, columns
 from ..output.report import Report
-from ..scores import Scores
 from ..output.table import Table
+from ..published.paper import paper_scores
+from ..scores import Scores
+from .paper2013 import add_groups, columns
 
 # The row "Times Best" of the two tables of scores.
 _TIMES_BEST = {
