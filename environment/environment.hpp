@@ -127,7 +127,7 @@ class Environment {
   class Saved;
   std::shared_ptr<const Saved> save(bool with_random = false) const;
 
-  // The same in about 4 KB, for those that look at no pictures: planners, and the classic server's
+  // Saves the state in about 4 KB, for those that look at no pictures: planners, and the classic server's
   // SAVE_STATE. restore() leaves the pictures as they are; whole frames that are drawn after it are exactly
   // the same.
   std::shared_ptr<const Saved> save_without_pictures() const;
@@ -139,7 +139,7 @@ class Environment {
   // For planners, which reach the same state in different ways. Two environments with the same image, game
   // and settings that are in the same state show the same after the same actions, up to an episode's limit of
   // frames. A state is the machine with the cartridge's RAM, paddles, mode, difficulty, held actions and the
-  // rule's variables. Pictures, sound, frame counters and the last rewards are left out. So are generators:
+  // rule's variables. Pictures, sound, frame counters and the last rewards are left out, and also generators:
   // with sticky actions, two equal states may continue differently. Takes less than 0.2 microseconds.
   std::uint64_t state_hash() const;  // see state_hash.hpp
   bool same_state(const Environment& other) const;

@@ -38,7 +38,7 @@ class Codes {
 
 }  // namespace
 
-// As in the specification GIF89a, appendix F.
+// See the specification GIF89a, appendix F.
 Buffer unpack_lzw(Reader& reader) {
   constexpr std::size_t kLargest = 4096;
   const int root = reader.byte();
@@ -96,7 +96,7 @@ Gif read_gif(Bytes file) {
       require(reader.word() == 0 && reader.word() == 0, "a frame of a GIF begins at its corner");
       require(reader.word() == gif.width && reader.word() == gif.height,
               "a frame of a GIF is as large as the GIF");
-      require(reader.byte() == 0, "a frame of a GIF has no colours of its own");
+      require(reader.byte() == 0, "a frame of a GIF must not have its own colours");
       gif.frames.push_back(unpack_lzw(reader));
     } else {
       require(kind == 0x3B && reader.empty(), "a GIF ends with its last byte");

@@ -43,8 +43,8 @@ std::vector<std::string_view> game_names();  // of catalogue(), in its order
 // Loads a game file of the user. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 std::shared_ptr<const Game> load_game_file(const std::string& path);
 
-// Loads all files of a folder that end in .toml. Throws InvalidInput for the first wrong one, and if there
-// are none.
+// Loads all files of a folder that end in .toml. Throws InvalidInput for the first wrong one, and for a
+// folder without such files.
 std::vector<std::shared_ptr<const Game>> load_game_folder(const std::string& folder);
 
 enum class RecognisedBy { kMd5, kGivenName, kGivenFile, kFileName, kNothing };
@@ -64,7 +64,7 @@ Recognition recognise(const Image& image, const std::optional<std::string>& game
 // The user's game that lists the image's MD5, else the one that is named like it, else as recognise().
 Recognition recognise_among(const Image& image, const std::vector<std::shared_ptr<const Game>>& own);
 
-// The same for a game that the caller knows.
+// Recognises an image whose game the caller knows.
 Recognition recognise_as(const Image& image, const std::shared_ptr<const Game>& game);
 
 // The game with what the user says about the console of this image. Throws InvalidInput if the picture does

@@ -17,7 +17,7 @@ class EncoderFailed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Not thread-safe. The program has only its standard descriptors, in a process group of its own. It reads
+// Not thread-safe. The program has only its standard descriptors, in its own process group. It reads
 // what write() sends. Its standard output is lost, and its last line on standard error is the reason of a
 // failure. All throw EncoderFailed if the program is not there, fails, or does nothing for the time of
 // `patience`, or if the caller has given up.

@@ -40,7 +40,7 @@ class Media {
 enum class MediaKind { kPng, kGif, kY4m, kWav, kWebm, kMp4 };
 std::optional<MediaKind> media_kind(std::string_view name);  // png gif y4m wav webm mp4
 
-bool is_encoded(MediaKind kind);  // by ffmpeg, a process of its own
+bool is_encoded(MediaKind kind);  // by ffmpeg, in its own process
 
 // The name of the file, or of the folder of PNGs: NAME/, NAME.gif and so on.
 std::string file_name(MediaKind kind, const std::string& name);

@@ -9,7 +9,7 @@
 namespace racebeam {
 namespace {
 
-// Some milliseconds of the encoders' work. A frame of sound alone has six bytes.
+// Some milliseconds of the encoders' work. A frame of only sound has six bytes.
 constexpr std::size_t kMostPictures = 16, kMostSounds = 1024;
 
 // The most memory that encoders need: buffers of six bytes a pixel, their output, and zlib's own memory.

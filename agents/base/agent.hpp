@@ -30,7 +30,7 @@ class Agent {
   // Whether the values that the agent learns are no longer finite.
   virtual bool diverged() const { return false; }
 
-  // Frames that the agent has tried on a machine of its own, in searches.
+  // Frames that the agent has tried on its own machine, in searches.
   virtual std::int64_t searched_frames() const { return 0; }
 
   // What an agent carries from one episode to the next. An agent that was made with the same context, and has

@@ -32,7 +32,7 @@ T get(std::string_view bytes, std::size_t at) {
 
 const Bytef* bytes_of(std::string_view text) { return reinterpret_cast<const Bytef*>(text.data()); }
 
-// Of all bytes but its own four.
+// The checksum covers all bytes but its own four.
 std::uint32_t checksum(std::string_view head, std::string_view deflated) {
   const uLong begun = crc32_z(0, bytes_of(head), kChecksumAt);
   return static_cast<std::uint32_t>(crc32_z(begun, bytes_of(deflated), deflated.size()));

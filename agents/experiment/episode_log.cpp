@@ -51,7 +51,7 @@ class LogReader {
 
  private:
   [[noreturn]] static void fail(const std::string& wanted) {
-    throw InvalidInput("its contents are no episode: " + wanted + " is missing");
+    throw InvalidInput("its contents are not an episode: " + wanted + " is missing");
   }
 
   // The rest of the next line, which begins with `word`.

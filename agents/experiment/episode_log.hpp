@@ -45,7 +45,7 @@ struct EpisodeLog {
 std::size_t hashes_of(std::size_t decisions);
 
 std::string bytes_of(const EpisodeLog& log);
-// `name` is for errors. Throws InvalidInput for bytes that are no log.
+// `name` is for errors. Throws InvalidInput for bytes that are not a log.
 EpisodeLog log_of(const std::string& name, std::string_view bytes);
 
 // The largest file that is a log. A larger one is refused unread.

@@ -246,7 +246,7 @@ class PlanReader {
       if (!digest) continue;
       if (digest->size() != 64 || digest->find_first_not_of("0123456789abcdef") != std::string::npos)
         section->refuse(*section->node(game.name), game.name,
-                        quote(*digest) + " is no SHA-256; it takes 64 digits of 0 to 9 and a to f");
+                        quote(*digest) + " is not a SHA-256; it takes 64 digits of 0 to 9 and a to f");
       game.background_csv = *digest;
     }
   }

@@ -44,7 +44,7 @@ std::string line_of(const ResultRow& row);
 // What the row of this log is. `digest` is of the log's bytes.
 ResultRow row_of(const EpisodeLog& log, const std::string& digest);
 
-// What follows of an episode's row from the plan alone; the other columns are empty.
+// What follows of an episode's row only from the plan; the other columns are empty.
 ResultRow row_of_plan(const Plan& plan, const Unit& unit, int episode);
 ResultRow row_of_divergence(const Plan& plan, const Unit& unit);
 
@@ -54,8 +54,8 @@ std::string curve_line(const Unit& unit, int episode, const EpisodeEnd& end);
 const std::string& field(const ResultRow& row, std::string_view column);
 std::string& field(ResultRow& row, std::string_view column);
 
-// Visits the rows of results.csv, each with the number of its line. Of a file of any size, one row is in
-// memory. Throws InvalidInput for columns that lack or differ, and rows that do not fit.
+// Visits the rows of results.csv, each with the number of its line. Only one row is in memory, however
+// large the file is. Throws InvalidInput for columns that lack or differ, and rows that do not fit.
 using RowVisitor = std::function<void(const ResultRow& row, std::size_t line)>;
 void each_result(const std::string& path, const RowVisitor& visit);
 

@@ -86,7 +86,8 @@ Background background_of_csv(const std::string& name, std::string_view text) {
       const std::string_view value = row.substr(0, row.find(','));
       const auto number = parse_number<int>(value);
       if (!number || *number < 0 || *number >= kColours)
-        refuse(quote(value) + " is no colour; accepted are 160 numbers from 0 to 127, with commas between");
+        refuse(quote(value) +
+               " is not a colour; accepted are 160 numbers from 0 to 127, with commas between");
       background[line * kFeatureWidth + column] = static_cast<std::uint8_t>(*number);
       const bool last = column + 1 == kFeatureWidth;
       if (last != (value.size() == row.size())) refuse("it does not have 160 colours");

@@ -23,7 +23,7 @@ struct ActiveFeatures {
     grouped = false;
   }
   float count(std::size_t place) const { return counts.empty() ? 1.0F : counts[place]; }
-  // Of a trace when it is replaced. Each feature of a group has a trace of 1.
+  // The value of a trace when it is replaced. Each feature of a group has a trace of 1.
   float trace(std::size_t place) const { return grouped ? 1.0F : count(place); }
 };
 

@@ -42,7 +42,7 @@ std::string bytes_of(const Background& background, const Cartridge& cartridge,
                      const SampleSettings& settings);
 Background background_of(const std::string& path, const Cartridge& cartridge, const SampleSettings& settings);
 
-// The same of classes, which are those of one background.
+// Makes the file of classes, which belong to one background.
 std::string bytes_of(const ObjectClasses& classes, const Background& background, const Cartridge& cartridge,
                      const SampleSettings& settings);
 ObjectClasses classes_of(const std::string& path, const Background& background, const Cartridge& cartridge,

@@ -119,7 +119,7 @@ std::uint32_t MovingObjects::root(std::uint32_t region) {
   return region;
 }
 
-// Of the regions parts_[first] and so on.
+// Adds the object that consists of the regions parts_[first] and so on.
 void MovingObjects::add_object(std::size_t first, std::size_t count) {
   const ScreenObject& top = part(static_cast<std::uint32_t>(first));
   Box box = top.box;

@@ -81,7 +81,7 @@ std::uint32_t ClassDiscovery::shape_number(const ScreenObject& object) {
   return number;
 }
 
-// The class of an object whose shape is new: that of the object that it was, or a class of its own.
+// The class of an object whose shape is new: that of the object that it was, or its own class.
 std::uint32_t ClassDiscovery::class_of_new(const ScreenObject& object) {
   if (const ScreenObject* const earlier = objects_.earlier(object))
     if (const auto found = number_of_.find(earlier->key); found != number_of_.end())
@@ -181,9 +181,10 @@ ObjectClasses classes_of_text(const std::string& name, std::string_view text) {
     Shape shape;
     for (std::size_t i = 1; i < words.size(); ++i) shape.push_back(run_of(words[i]).value_or(kNoRun));
     if (!number || *number + 1 != classes.size() || !is_shape(shape))
-      throw InvalidInput(name + ":" + std::to_string(line) +
-                         ": it is no shape of a class; accepted are the number of the class, from 0 to 9 in "
-                         "their order, and runs of pixels, ROW,FIRST,LAST");
+      throw InvalidInput(
+          name + ":" + std::to_string(line) +
+          ": it is not the shape of a class; accepted are the number of the class, from 0 to 9 in "
+          "their order, and runs of pixels, ROW,FIRST,LAST");
     classes.back().push_back(std::move(shape));
   }
   return classes;

@@ -53,8 +53,8 @@ bool InstanceFinder::add(const ScreenObject& object) {
   return true;
 }
 
-// Of an object that looks different on the screen before, as animated ones do: its way from the nearest
-// object of its class. Without one, it is at rest.
+// The way of an animated object, which looks different on the screen before: from the nearest object of its
+// class. Without such an object, it is at rest.
 Velocity InstanceFinder::velocity_by_class(std::uint32_t class_number, const Box& box) const {
   Velocity velocity{0, 0};
   int least = std::numeric_limits<int>::max();

@@ -20,7 +20,7 @@ class Regions {
   explicit Regions(const Background& background);
 
   // Finds the regions of a screen. Pixels of one colour are connected if they are neighbours in a row, a
-  // column or a diagonal. Single pixels are no region.
+  // column or a diagonal. Single pixels are not regions.
   void find(Screen screen);
 
   const std::vector<Region>& all() const { return regions_; }  // in the order of their first pixels

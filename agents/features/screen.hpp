@@ -16,7 +16,7 @@ constexpr int kColours = 128;
 // The colour of a palette index, from 0 to 127. The lowest bit of an index means nothing.
 constexpr std::uint8_t colour_of(std::uint8_t index) { return index >> 1; }
 
-// SECAM's colour of a colour, from 0 to 7: the brightness alone.
+// SECAM's colour of a colour, from 0 to 7: only the brightness.
 constexpr std::uint8_t secam_of(std::uint8_t colour) { return colour & 7; }
 
 using Screen = std::span<const std::uint8_t, kFeaturePixels>;  // palette indices, row by row

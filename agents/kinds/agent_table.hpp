@@ -85,7 +85,7 @@ struct AgentKind {
 std::span<const AgentKind> agent_kinds();
 const AgentKind* find_agent_kind(std::string_view name);  // null if there is none
 
-// const_fire, or the kind's name alone.
+// const_fire, or only the kind's name.
 std::string agent_name(const AgentKind& kind, int action);
 
 }  // namespace racebeam

@@ -90,7 +90,7 @@ void Sarsa::compute_values(const ActiveFeatures& features) {
   values_ = sums;
 }
 
-// The same for 18 actions, two at a time: the sums stay in registers, as a loop over actions would not keep
+// Does so for 18 actions, two at a time: the sums stay in registers, as a loop over actions would not keep
 // them.
 template <bool kCounted>
 void Sarsa::compute_all_values(const ActiveFeatures& features) {

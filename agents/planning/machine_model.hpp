@@ -23,7 +23,7 @@ class MachineModel final : public Model {
   bool over() const override { return machine_.game_over(); }
   State save() const override { return state_of(machine_); }
   // Without sticky actions, what the players hold decides nothing: each action sets it anew. States that
-  // differ in it alone are equal, as the paper's duplicates are.
+  // differ only in it are equal, as the paper's duplicates are.
   std::uint64_t hash(const State& state) const override;
   bool equal(const State& a, const State& b) const override;
   std::span<const std::uint8_t> features() const override { return machine_.ram(); }

@@ -32,7 +32,7 @@ void RolloutSearch::keep(int action, const Model::State& state) {
   root_ = std::move(next);
 }
 
-// Of the model's place.
+// Makes the node of the model's place.
 std::unique_ptr<RolloutSearch::Node> RolloutSearch::make_node() const {
   auto node = std::make_unique<Node>();
   node->over = model_.over();

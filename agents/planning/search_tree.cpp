@@ -51,7 +51,7 @@ void TreeSearch::read(StateReader& in) {
   in.get(scaled_);
   std::vector<int> order;
   in.get(order);
-  if (!std::ranges::is_permutation(order, order_)) throw InvalidInput("its order of actions is none");
+  if (!std::ranges::is_permutation(order, order_)) throw InvalidInput("its order of actions is invalid");
   order_ = order;
 }
 

@@ -37,7 +37,7 @@ void Uct::keep(int action, const Model::State& state) {
   root_ = std::move(next);
 }
 
-// Of the model's place.
+// Makes the node of the model's place.
 std::unique_ptr<Uct::Node> Uct::make_node() {
   auto node = std::make_unique<Node>();
   node->over = model_.over();

@@ -26,7 +26,7 @@ struct ScriptedStep {
 // std::invalid_argument, with the line, for anything else, and if the file cannot be read.
 std::vector<ScriptedStep> read_script(const std::string& path);
 
-// The same for actions alone: writes and strengths are refused.
+// Reads actions only: writes and strengths are refused.
 std::vector<int> read_actions(const std::string& path);
 
 }  // namespace racebeam

@@ -23,7 +23,7 @@ namespace racebeam {
 namespace {
 
 constexpr auto kBenchFooter =
-    R"(Processor seconds of this process are counted, of the acts alone; resets are counted apart. Without
+    R"(Processor seconds of this process are counted, only those of acts; resets are counted apart. Without
 --actions the game's legal actions are drawn at random from a fixed seed, so that two runs do the same.
 
   --screen every   every frame's screen is produced, also those in the middle of a frame skip
@@ -33,7 +33,7 @@ constexpr auto kBenchFooter =
 The checksums of the last screen and of RAM show that different settings did the same work. Compare
 ratios measured in one run (scripts/bench), not times from different days.
 
---save-restore times, in nanoseconds: the machine's state alone, copied out and back; its hash, and its
+--save-restore times, in nanoseconds: only the machine's state, copied out and back; its hash, and its
 comparison with another, as planners need them; a client's snapshot, which has the pictures too; and, as the next frame has to draw beside a saved picture, save + one frame +
 restore beside a frame.
 

@@ -11,7 +11,7 @@ struct SnapshotTimes {
   double hash_ns = 0;             // Environment::state_hash
   double compare_ns = 0;          // Environment::same_state, of two equal states
   double client_ns = 0;           // Environment::save and restore, with the pictures
-  double round_ns = 0;            // save, one frame, restore: the frame allocates a picture of its own
+  double round_ns = 0;            // save, one frame, restore: the frame allocates its own picture
   double frame_ns = 0;            // such a frame without a saved state
 };
 
@@ -21,7 +21,7 @@ SnapshotTimes time_snapshots(const Cartridge& cartridge, const MachineOptions& o
 // Nanoseconds to copy the state of a machine in the middle of a game out and back: the mean of `times`.
 double time_machine_snapshots(const Cartridge& cartridge, const MachineOptions& options, int times);
 
-// The same for Environment::save and restore.
+// Times Environment::save and restore in the same way.
 double time_client_snapshots(Environment& environment, int times);
 
 }  // namespace racebeam

@@ -23,7 +23,7 @@ void draw_in_secam(const std::string& path, const Colours& screen);
 // The tiles of BASS, each in stripes of the colours that are in it.
 void draw_tiles(const std::string& path, const Background& background, const Colours& screen);
 
-// A band for each class, with its most frequent shapes, in a colour of its own.
+// A band for each class, with its most frequent shapes, in its own colour.
 void draw_classes(const std::string& path, const ObjectClasses& classes);
 
 // The screen in grey, and the objects that are found on it in the colours of their classes.

@@ -41,7 +41,7 @@ std::string encoded(std::span<const std::uint8_t> rgb, const std::string& path) 
 
 }  // namespace
 
-// A device or a pipe is written to; it is no file that another one could replace.
+// A device or a pipe is written to; another file could not replace it.
 void write_png(const std::string& path, std::span<const std::uint8_t> rgb) {
   const std::string bytes = encoded(rgb, path);
   std::error_code none;

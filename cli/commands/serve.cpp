@@ -50,7 +50,7 @@ Examples:
   racebeam serve --classic --pipes /run/user/1000/tetris --rom tetris.bin
       one session over the named pipes tetris_out and tetris_in; open tetris_out first, for reading
   racebeam serve --listen tcp://127.0.0.1:0 --listen classic+unix:tetris.sock --rom tetris.bin
-      both protocols at once; each client has a machine of its own
+      both protocols at once; each client has its own machine
   racebeam serve --listen tls://0.0.0.0:7800 --token-file tokens --tls-cert cert.pem --tls-key key.pem
       for clients on other machines; server/README.md is the manual for operators
 
@@ -70,7 +70,7 @@ another reason than those below, or the client of --stdio or --pipes stopped rea
 server cannot listen on an address: it is in use, or the host is unknown; 4 the folder of --roms or --record-dir
 is missing; 5 the memory is not enough; 255 a classic client requested an action that does not exist.)";
 
-// Failures of the start that have an exit status of their own, for schedulers.
+// Failures of the start, each with its own exit status, for schedulers.
 constexpr int kExitAddress = 3, kExitFolder = 4, kExitMemory = 5;
 
 struct FolderError : std::invalid_argument {

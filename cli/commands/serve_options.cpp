@@ -156,8 +156,8 @@ void add_operation(Subcommand& command, ServeOptions& options) {
       .group(group);
   command
       .option("--announce", server.announce,
-              "File of JSON for clients (file:PATH): addresses, host, process, games and a token of its own, "
-              "which clients over TCP must send; readable for its owner alone, removed at the end")
+              "File of JSON for clients (file:PATH): addresses, host, process, games and its own token, "
+              "which clients over TCP must send; readable only for its owner, removed at the end")
       .value_name("FILE")
       .group(group);
   command

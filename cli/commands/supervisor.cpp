@@ -76,7 +76,7 @@ pid_t Supervisor::fork_child() const {
   return 0;
 }
 
-// In a process group of its own, the server does not get the signals of the terminal.
+// In its own process group, the server does not get the signals of the terminal.
 bool Supervisor::fork_server() {
   server_.process = fork_child();
   if (server_.process != 0) return false;

@@ -16,7 +16,7 @@ namespace {
 constexpr auto kWithFooter =
     R"(Starts a server, waits until it accepts connections, and runs COMMAND with the variable RACEBEAM_ADDRESS, which
 all clients of clients/ and of the Python package read. When COMMAND ends, the server stops. Nothing is left
-behind: the server's socket and its announce file lie in a folder of their own, below TMPDIR or /tmp.
+behind: the server's socket and its announce file lie in their own folder, below TMPDIR or /tmp.
 
   racebeam with -- python3 agent.py
   racebeam with --roms ~/atari --threads 2 -- ./play pong
@@ -67,7 +67,7 @@ int run(ServeOptions& options, const std::vector<Setting>& settings, const std::
 }  // namespace
 
 void add_with(Subcommand& program) {
-  Subcommand command = program.add_subcommand("with", "Run a command with a server of its own", kWithFooter);
+  Subcommand command = program.add_subcommand("with", "Run a command with its own server", kWithFooter);
   const auto options = std::make_shared<ServeOptions>();
   const auto words = std::make_shared<std::vector<std::string>>();
   add_serve_options(command, *options);

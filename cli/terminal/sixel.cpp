@@ -10,7 +10,7 @@ constexpr std::size_t kBandHeight = 6;
 constexpr std::size_t kShortestRun = 4;  // "!4?" is as long as what it replaces
 constexpr char kNoPixel = '?';           // the character of six pixels that stay as they are
 
-// Of each value of a pixel: the six pixels of each column that have it, as bits, the uppermost first.
+// For each value of a pixel, the six pixels of each column that have it, as bits, the uppermost first.
 using Band = std::array<std::array<std::uint8_t, kPixelsARow>, 256>;
 
 std::string colours_of(const TerminalPicture& picture, const std::array<bool, 256>& used) {

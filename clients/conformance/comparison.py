@@ -38,7 +38,7 @@ def section_names(names, offers=()):
 
 
 def run(client, names, racebeam, roms=None, **variables):
-    """What `client` prints about the steps of the files, with servers of its own."""
+    """What `client` prints about the steps of the files, with its own servers."""
     with servers.started(racebeam, roms) as told:
         path = servers.pathlib.Path(told["AUTHORITY"]).parent / "steps.txt"
         path.write_text("".join(steps(names, client.offers)))
@@ -105,6 +105,6 @@ def difference(name, lines, expected):
 
 
 def digest(printed, shared):
-    """Of the sections `shared`, which every client has."""
+    """Returns the digest of the sections `shared`, which every client has."""
     text = "\n".join(line for name, lines in sections(printed).items() if name in shared for line in (name, *lines))
     return hashlib.sha256(text.encode()).hexdigest()[:12]

@@ -14,7 +14,7 @@ dependencies = {
 }
 test_dependencies = {
   "busted",
-  "luasocket", -- the client needs it for TCP and Unix sockets alone, and luasec for TLS
+  "luasocket", -- the client needs it only for TCP and Unix sockets, and luasec for TLS
 }
 test = {
   type = "busted",

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Plays an episode of Beamfall over TCP, in a dozen lines of bash alone: agent.bash HOST PORT.
+# Plays an episode of Beamfall over TCP, in a dozen lines of bash without other programs: agent.bash HOST PORT.
 set -euo pipefail
 exec {server}<>"/dev/tcp/${1:?agent.bash HOST PORT}/${2:?agent.bash HOST PORT}"
 ask() { echo "$*" >&"$server"; read -r -u "$server" reply; [[ $reply == ok* ]] || { echo "$reply" >&2; exit 1; }; }

@@ -8,7 +8,7 @@
 #
 # A function returns 0, or one of these, with a sentence in $racebeam_error:
 #   1  the server refused the request; the code is in $racebeam_code; the session continues
-#   2  the server is not there, has gone, or sent what is no reply; the session has ended
+#   2  the server is not there, has gone, or sent an invalid reply; the session has ended
 #   3  the server did not answer within $racebeam_timeout seconds; the session has ended
 #   4  the caller's words are not accepted
 # One session at a time; a subshell can have another.
@@ -57,7 +57,7 @@ readonly _racebeam_files='file:PATH takes the --ready-file or --announce file of
 _racebeam_in_file() {
   local text version known=''
   if [[ -e $1 && ! -f $1 ]]; then  # a pipe might block
-    _racebeam_fail 4 "$1 is no regular file; $_racebeam_files"
+    _racebeam_fail 4 "$1 is not a regular file; $_racebeam_files"
     return
   fi
   text=$(cat -- "$1" 2>/dev/null | tr -d '\0'; exit "${PIPESTATUS[0]}") || { _racebeam_fail 2 "$1 cannot be read"; return; }
@@ -91,7 +91,7 @@ _racebeam_try() {
     _racebeam_in_file "${address#file:}" || return
     source=", which ${1#file:} names"
   fi
-  trap '' PIPE  # a server that has gone is no reason to end
+  trap '' PIPE  # a server that has gone must not end this process
   if [[ $address =~ ^tcp://\[?([^]]+)\]?:([0-9]+)$ ]]; then
     { exec {racebeam_input}<>"/dev/tcp/${BASH_REMATCH[1]}/${BASH_REMATCH[2]}"; } 2>/dev/null || {
       racebeam_input=''
@@ -113,7 +113,7 @@ _racebeam_try() {
   [[ $(racebeam_value protocol) == 1 ]] || _racebeam_lost 2 "$address speaks another version of the protocol"
 }
 
-# racebeam_launch [PROGRAM]: opens a session of a server of its own, which ends with the session.
+# racebeam_launch [PROGRAM]: opens a session with a server that it starts, and that ends with it.
 racebeam_launch() {
   racebeam_close
   coproc RACEBEAM_SERVER { exec "${1:-${RACEBEAM_PROGRAM:-racebeam}}" serve --stdio --log-level warning; }
@@ -162,7 +162,7 @@ racebeam_receive() {
     _racebeam_fail 1 "$line"
   elif [[ $line != ok && $line != ok\ * ]]; then
     line=${line:0:60}
-    _racebeam_lost 2 "the server sent what is no reply: '${line//[^ -~]/?}'"  # a terminal would execute some of its bytes
+    _racebeam_lost 2 "the server sent an invalid reply: '${line//[^ -~]/?}'"  # a terminal would execute some of its bytes
   else
     racebeam_reply=${line#ok}
     _racebeam_follow

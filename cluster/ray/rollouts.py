@@ -73,7 +73,7 @@ def rollouts(
     policy: Policy | None = None,
     **settings: Any,
 ) -> Iterator[Rollout]:
-    """What `count` rollouts gave, those that end first first. Each begins with seeds of its own.
+    """What `count` rollouts gave, those that end first first. Each begins with its own seeds.
 
     policy: None plays at random. The arrays of a rollout are read-only: they lie in the object store.
     """

@@ -15,7 +15,7 @@ enum class Simd { kPlain, kAvx2, kAvx512 };  // kAvx512: with byte masks (AVX512
 // limits it. Determined once per process.
 Simd simd();
 
-// The same, without the limit.
+// Returns the best kind of this processor, without the limit.
 Simd best_simd();
 
 }  // namespace racebeam

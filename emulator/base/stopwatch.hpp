@@ -6,7 +6,7 @@
 
 namespace racebeam {
 
-// Clocks of the host, in nanoseconds from any beginning. Tests have clocks of their own.
+// Clocks of the host, in nanoseconds from any beginning. Tests have their own clocks.
 struct Clocks {
   std::int64_t (*wall)();       // takes some nanoseconds to read
   std::int64_t (*processor)();  // what the calling thread has used; a system call

@@ -52,7 +52,7 @@ void Board::map_memory() {
   set_format_limits();
 }
 
-// The memory map depends on the cartridge's banks alone, so that it is rebuilt only if they differ.
+// The memory map depends only on the cartridge's banks. So it is rebuilt only if they differ.
 void Board::restore(const State& other) {
   const bool same_banks = state.cartridge.bank == other.cartridge.bank;
   state = other;
@@ -168,7 +168,7 @@ bool Board::needs_exact_step() const {
   return !exact_mode_ && (fetched_latches_ || (!untouched && !picture_is_exact_));
 }
 
-// What the map shows depends on the banks alone. Windows are therefore cached by the banks, and by the 1K
+// What the map shows depends only on the banks. Windows are therefore cached by the banks, and by the 1K
 // slice of the address: most slices have one window.
 bool Board::find_code(std::uint16_t pc) {
   const std::uint64_t banks = selected_banks();

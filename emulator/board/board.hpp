@@ -140,7 +140,7 @@ class Board {
   std::int32_t overlong_cycle_ = 0;
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
   std::int32_t last_access_ =
-      0;  // cycle of the last TIA access that was no plain write: the picture is drawn so far
+      0;  // cycle of the last TIA access that was not a plain write: the picture is drawn so far
   bool exact_mode_ = false;       // each access is played on its own
   bool picture_is_exact_ = true;  // of the last step, even if it ran in another mode
   bool fetched_latches_ = false;  // an opcode was read from a collision register

@@ -12,7 +12,7 @@ void reset_cpu(Board& board);
 // asks to stop or the CPU jams.
 void interpret(Board& board, std::int32_t instructions);
 
-// The same, but it also ends at a jump or a branch after `enough` instructions. If `enough` is below `most`
+// This one also ends at a jump or a branch after `enough` instructions. If `enough` is below `most`
 // by Core::kLongestRow or more, this is much faster, because instructions need not be counted one by one.
 void interpret(Board& board, std::int32_t most, std::int32_t enough);
 

@@ -13,7 +13,7 @@ constexpr std::int8_t kTimerLoopOffset = -5;  // of a branch back to the three-b
 
 // How many iterations, of `period` cycles each, will certainly branch again if the next read is at
 // `next_read`. The loop's two instructions are at branch[-3] and branch[0], and the branch has been taken.
-// Returns 0 if this is no timer loop.
+// Returns 0 if this is not a timer loop.
 std::int32_t sure_timer_turns(const std::uint8_t* branch, const RiotState& riot, std::int32_t next_read,
                               std::int32_t period);
 

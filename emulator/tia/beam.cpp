@@ -105,8 +105,8 @@ void Beam::draw_beyond(std::int32_t clock) {
 }
 
 // The address of the row of the cursor, which is at pixel `first`. Without pixels the picture may have no
-// rows, and the result is no valid address. It is therefore computed with integers: a branch would cost up to
-// 80 % more instructions a frame.
+// rows, and the result is not a valid address. It is therefore computed with integers: a branch would cost up
+// to 80 % more instructions a frame.
 RACEBEAM_INLINE std::uint8_t* Beam::row_of(int first) {
   const auto rows = reinterpret_cast<std::uintptr_t>(picture_->pixels().data());
   return reinterpret_cast<std::uint8_t*>(rows + static_cast<std::uintptr_t>(tia_.pixel) -
@@ -229,7 +229,7 @@ void Beam::blank_comb(std::uint8_t* row, int first, int last) {
   if (last >= kWidth) tia_.comb_armed = 0;
 }
 
-// The same for RenderMode::kExact. The reference blanks from the span's first pixel on, past its end. That is
+// Blanks for RenderMode::kExact. The reference blanks from the span's first pixel on, past its end. That is
 // visible only if drawing stops there.
 void Beam::blank_comb(std::uint8_t* row, int begin, int end, int first, int last) {
   int blank_to = first + kCombEnd - begin;

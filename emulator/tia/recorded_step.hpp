@@ -1,4 +1,4 @@
-// A step as the TIA saw it: its state before, and the writes. Pixels and collisions follow from these alone,
+// A step as the TIA saw it: its state before, and the writes. Pixels and collisions follow only from these,
 // so that they can be made later, without CPU, RIOT, cartridge and sound.
 #pragma once
 

@@ -139,7 +139,7 @@ void Tia::play(const std::uint32_t* next) {
   if (beam_.exact_spans()) beam_.draw_to(reached_);
 }
 
-// The same for writes that need no drawing.
+// Plays writes that need no drawing.
 void Tia::skip(const std::uint32_t* next) {
   if (next == played_) return;
   RegisterEffects(tia_, frame_, video_, ReplayPolicy{beam_}).play(played_, next, log_->base);

@@ -14,7 +14,7 @@ class Profitability {
   // An entry that runs this many cycles takes about as long as interpreting them, if some access devices.
   static constexpr std::int32_t kBreakEvenCycles = 32;
 
-  // Whether its entries have been too short in the mean. One of kRetry times, the answer is no nevertheless,
+  // Whether its entries have been too short in the mean. One of kRetry times, the answer is still no,
   // since another scene of the game may have longer ones.
   bool is_unprofitable() {
     if (balance_.load(std::memory_order_relaxed) > -kMost) return false;

@@ -12,7 +12,7 @@ namespace racebeam::translator {
 
 // Steps run in one way, translated or interpreted. A trial has three steps: the usual way, the other way, and
 // the usual way. Four trials make a round. The usual way changes when the other has won three rounds in turn.
-// Of a step that rounds in turn repeat, the least cost counts: other programs lengthen some steps.
+// Rounds repeat a step in turn, and its least cost counts: other programs lengthen some steps.
 class StepTrial {
  public:
   // Called before each step. Returns whether the interpreter should run it.

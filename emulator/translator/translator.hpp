@@ -1,5 +1,5 @@
 // Runs a machine's 6507 code as x86-64 code, and interprets what is not translated (docs/translator.md).
-// Builds for other processors only have the interpreter. So do systems that refuse executable memory.
+// Builds for other processors have only the interpreter, as have systems that refuse executable memory.
 #pragma once
 
 #include <cstddef>

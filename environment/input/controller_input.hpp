@@ -19,7 +19,7 @@ class ControllerInput {
   // For one frame. An unknown action presses nothing; player A's action 40 presses the RESET switch.
   void press(Inputs& inputs, const Presses& presses, int difficulty, PaddleValues& paddles) const;
 
-  // Holds SELECT alone. The paddles keep their positions.
+  // Holds only SELECT. The paddles keep their positions.
   static void press_select(Inputs& inputs, int difficulty);
 
  private:

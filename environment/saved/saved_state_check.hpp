@@ -10,7 +10,7 @@ namespace racebeam {
 // produce. Settings are not checked: a state may be restored under others.
 void check_play(const EpisodeState& play, const Game& game);
 
-// The same for a rule's variables and the sound channels. Any value of a variable is possible.
+// Checks a rule's variables and the sound channels. Any value of a variable is possible.
 void check_rule_state(const RuleState& state, const Game& game);
 void check_sound(const Sound& sound);
 

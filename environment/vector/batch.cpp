@@ -250,7 +250,7 @@ std::span<const std::size_t> Batch::Impl::await(std::size_t count) {
   return received;
 }
 
-// Those of the machines for which which(number) is true have been received.
+// Marks the machines for which which(number) is true as received.
 void Batch::Impl::settle(std::span<const std::size_t> numbers, auto which) {
   for (const std::size_t number : numbers)
     if (which(number)) playing[number] = 0;

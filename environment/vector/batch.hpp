@@ -76,7 +76,7 @@ class Batch {
   // Writes what all machines show now, without a step.
   void show(const BatchArrays& out) const;
 
-  // Ends the episodes of these machines, as Slot::end_episode() does. Negative seeds are none. Throws
+  // Ends the episodes of these machines, as Slot::end_episode() does. Negative seeds mean unseeded. Throws
   // InvalidInput, and does nothing, while one of them plays.
   void end_episodes(std::span<const std::int32_t> machines, std::span<const std::int64_t> seeds = {});
 

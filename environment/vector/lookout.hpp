@@ -13,7 +13,7 @@ namespace racebeam {
 // the request.
 using Watch = void (*)();
 
-// Of one request. `watch` may be null.
+// Looks out for the end of one request. `watch` may be null.
 class Lookout {
  public:
   static constexpr std::chrono::milliseconds kInterval{50};
@@ -28,7 +28,7 @@ class Lookout {
     next_ = after_interval();
   }
 
-  // The same for a task that runs on any thread and must not throw. False: the request has ended, and the
+  // Looks for a task that runs on any thread and must not throw. False: the request has ended, and the
   // task does nothing.
   bool goes_on() {
     if (std::this_thread::get_id() == caller_ && !ended_) {
@@ -55,7 +55,7 @@ class Lookout {
   const Watch watch_;
   const std::thread::id caller_;
   Clock::time_point next_;
-  std::exception_ptr failure_;  // the caller's thread alone uses it
+  std::exception_ptr failure_;  // only the caller's thread uses it
   std::atomic<bool> ended_ = false;
 };
 

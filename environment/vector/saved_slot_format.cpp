@@ -110,7 +110,7 @@ bool is_saved_slot(std::span<const std::uint8_t> bytes) {
 void check_saved_slot(std::span<const std::uint8_t> bytes) {
   const std::size_t size = bytes.size();
   if (size < sizeof(SlotHeader) + sizeof(SlotValues) || !is_saved_slot(bytes))
-    throw InvalidInput("these " + std::to_string(size) + " bytes are no state of a vector environment");
+    throw InvalidInput("these " + std::to_string(size) + " bytes are not a state of a vector environment");
   const auto header = take<SlotHeader>(bytes);
   if (header.version != kSavedSlotVersion)
     throw InvalidInput("the state was saved by another version of racebeam (format " +

@@ -19,12 +19,13 @@ const SlotSettings& checked(const SlotSettings& settings) {
   require(machine.frame_skip >= 1,
           "a step has " + std::to_string(machine.frame_skip) + " frames; it must have 1 or more");
   require(machine.frame_skip_max <= machine.frame_skip, "a step of frames has a fixed number of them");
-  require(!machine.truncate_on_life_loss, "a step of frames knows lost lives by life_loss alone");
+  require(!machine.truncate_on_life_loss,
+          "a step of frames takes only life_loss for the effect of lost lives");
   require(!machine.color_averaging, "a step of frames has no colour averaging; it takes max_pool");
   return settings;
 }
 
-// With Steps::kFrames each frame is an act of its own, to which the limits of a step do not apply.
+// With Steps::kFrames each frame is an act, to which the limits of a step do not apply.
 Settings machine_settings(const SlotSettings& settings) {
   Settings machine = settings.machine;
   if (settings.steps == Steps::kActs) return machine;

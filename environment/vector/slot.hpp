@@ -174,7 +174,7 @@ class Slot {
   Pace* const pace_;
   Environment environment_;
   const std::vector<int>& actions_;
-  Noops noops_;                             // with a generator of its own, as in the reference
+  Noops noops_;                             // with its own generator, as in the reference
   std::optional<std::uint32_t> next_seed_;  // of end_episode()
   Outcome outcome_;
   Progress progress_;

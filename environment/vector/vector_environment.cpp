@@ -29,7 +29,7 @@ VectorEnvironment::VectorEnvironment(std::span<const Cartridge> cartridges, cons
 }
 
 // A failure is thrown at the end, since tasks run on any thread. A cancelled fiber unwinds with something
-// that is no std::exception, and that must pass.
+// that is not a std::exception, and that must pass.
 template <typename Task>
 void VectorEnvironment::run(Task task) {
   FirstFailure failure;

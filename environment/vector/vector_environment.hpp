@@ -21,7 +21,7 @@ enum class Autoreset {
   kDisabled   // its steps do nothing until the caller resets it
 };
 
-// A negative seed is none.
+// A negative seed means unseeded.
 std::optional<std::uint32_t> seed_of(std::int64_t seed);
 
 class VectorHost {
@@ -63,7 +63,7 @@ class VectorEnvironment {
   // none. Throws as step() does.
   void reset(std::span<const std::uint8_t> chosen = {}, std::span<const std::int64_t> seeds = {});
 
-  // The same for one machine, on the caller's thread. Callers may use different machines at the same time.
+  // Step and reset one machine, on the caller's thread. Callers may use different machines at the same time.
   // Both throw the machine's failure.
   void step_one(std::size_t number, const Act& act);
   void reset_one(std::size_t number, std::int64_t seed);

@@ -14,7 +14,7 @@ std::vector<int> read_actions(const Section& section, std::string_view key, std:
 // From "FIRE", "NOOP 60" and so on: one number for each frame.
 std::vector<int> read_starting_actions(const Section& section, std::string_view key);
 
-// Numbers and ranges "0-7", none above `largest`; 0 alone if the key is absent.
+// Numbers and ranges "0-7", none above `largest`; only 0 if the key is absent.
 std::vector<int> read_numbers(const Section& section, std::string_view key, int largest);
 
 }  // namespace racebeam

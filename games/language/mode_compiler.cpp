@@ -70,7 +70,7 @@ class StatementCompiler {
   int target(const Token& name) {
     try {
       if (scope_.names.knows(name.text)) return scope_.names.slot(name.text);
-      VariableNames().declare(name.text);  // refuses what is no name
+      VariableNames().declare(name.text);  // refuses an invalid name
     } catch (const InvalidInput& error) {
       throw SourceError(name.line, error.what());
     }

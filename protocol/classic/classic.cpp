@@ -94,9 +94,9 @@ void ClassicSession::take_action(std::string_view line) {
   }
 }
 
-// A number that is no action presses nothing where the classic server accepted it: with paddles, and after
-// the end. Player B's is never refused, because old clients send 0 or 45 there for "nothing". Both paddles
-// turn with full strength.
+// A number that is not an action presses nothing where the classic server accepted it: with paddles, and
+// after the end. Player B's is never refused, because old clients send 0 or 45 there for "nothing". Both
+// paddles turn with full strength.
 void ClassicSession::act(int a, int b) {
   const bool accepted = is_player_a(a) || a == kResetAction || paddles_ || environment_.game_over();
   if (!accepted) {

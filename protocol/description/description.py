@@ -126,7 +126,7 @@ class Field(Row):
 
     @property
     def bytes_of_pixel(self):
-        """Of a field of the size of the screen."""
+        """The bytes of a pixel, in a field of the size of the screen."""
         return math.prod(self.shape[2:])
 
 

@@ -122,7 +122,7 @@ def declaration(command):
 
 
 def entries_of(protocol):
-    """Of the fields of bytes whose names are fixed: usual encodings, sizes, and the bytes of a pixel."""
+    """The facts of fields of bytes whose names are fixed: usual encodings, sizes, and the bytes of a pixel."""
     return (
         [(field.name, f'"{field.encoding}"') for field in protocol.byte_fields],
         [(field.name, field.fixed_size) for field in protocol.byte_fields if field.fixed_size],

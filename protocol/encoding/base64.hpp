@@ -12,7 +12,7 @@ namespace racebeam {
 
 void append_base64(std::string& out, std::span<const std::uint8_t> bytes);
 
-// Returns nothing if the text is not base64: another letter, a length that is no multiple of 4, padding
+// Returns nothing if the text is not base64: another letter, a length that is not a multiple of 4, padding
 // inside.
 std::optional<std::vector<std::uint8_t>> bytes_of_base64(std::string_view text);
 

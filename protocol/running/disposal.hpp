@@ -1,4 +1,4 @@
-// Destroys large objects on a thread of its own. To give a MiB back to the system takes some 0.3 ms, for
+// Destroys large objects on its own thread. To give a MiB back to the system takes some 0.3 ms, for
 // which the other sessions of a loop would wait.
 #pragma once
 

@@ -1,4 +1,4 @@
-// A function call that can be suspended at any point and resumed later. It has a stack of its own
+// A function call that can be suspended at any point and resumed later. It has its own stack
 // (Boost.Context). Long work can therefore be straight-line code, and still yield to other sessions.
 #pragma once
 

@@ -40,7 +40,7 @@ class MemoryBudget {
   std::uint64_t taken() const { return taken_; }  // by this part
   std::uint64_t most() const { return most_; }    // of all parts together
   std::size_t parts() const { return parts_; }
-  const MemoryBudget* whole() const { return whole_.get(); }                  // null: this is no part
+  const MemoryBudget* whole() const { return whole_.get(); }                  // null: this is not a part
   const MemoryBudget& all() const { return whole_ ? whole_->all() : *this; }  // what all are parts of
 
   // The last eighth is for sessions that hold little: others find it taken. So small requests and new

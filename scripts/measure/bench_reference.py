@@ -1,4 +1,4 @@
-"""The reference's side of a measurement: ALE, through ale-py, in a process of its own.
+"""The reference's side of a measurement: ALE, through ale-py, in its own process.
 
 It accepts the same commands as `racebeam bench --commands`, with the same answers (cli/bench/bench_session.hpp), and
 one more, which begins a measurement:

@@ -126,7 +126,7 @@ def sessions(arguments):
 
 
 def kernel_memory():
-    """Of all objects of the kernel, sockets among them, in KiB."""
+    """Returns the memory of all objects of the kernel, sockets among them, in KiB."""
     slab = next(line for line in pathlib.Path("/proc/meminfo").read_text().splitlines() if line.startswith("Slab:"))
     return int(slab.split()[1])
 

@@ -1,7 +1,7 @@
 """Measures what watchers cost the agent that they watch: its acts a second, alone and with watchers.
 
 The agent plays Beamfall over TCP, four frames an act, and sends 16 acts at once. Each watcher is a WebSocket that asks
-for the newest picture 60 times a second; the watchers have a process of their own. The settings take turns, so that
+for the newest picture 60 times a second; the watchers have their own process. The settings take turns, so that
 other work on the machine meets all of them. Figures are medians of the rounds. Exit status 1: the goal is missed.
 """
 

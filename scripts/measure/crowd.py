@@ -65,7 +65,7 @@ class Server:
             return next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
 
     def processor_seconds(self):
-        """Of all its threads, in the program and in the kernel."""
+        """Returns the seconds of all its threads, in the program and in the kernel."""
         stat = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rpartition(")")[2].split()
         return (int(stat[11]) + int(stat[12])) / os.sysconf("SC_CLK_TCK")
 

@@ -2,7 +2,7 @@
 
 A server with two threads and 512 MiB is attacked twice, each time a new one. The first attack is of 64 sessions. Each
 repeats one of the ATTACKS of attacks.py: it connects, attacks and disconnects. The second one is that of hoarders.py,
-on the memory. A bystander with a game of its own acts every few milliseconds, and requests /healthz. During the second
+on the memory. A bystander with its own game acts every few milliseconds, and requests /healthz. During the second
 attack, newcomers connect, load a game and act; the time counts until they have managed. At the end, the server is told
 to stop during the attack. If one of the goals is missed, the exit status is 1.
 """

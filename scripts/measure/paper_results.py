@@ -229,7 +229,7 @@ class Document:
                     """The emulator: the paper used ALE of 2012. racebeam is exact to ALE 0.12, whose emulator and
                     games' rules have changed
             since.""",
-                    """Starts: each episode begins at power-on with a seed of its own, and without the human
+                    """Starts: each episode begins at power-on with its own seed, and without the human
                     trajectories and NOOPs that
             others used. Games that draw nothing from their seed give a policy without chance the same episode each
             time.""",

@@ -30,7 +30,7 @@ std::optional<std::uint16_t> parse_port(std::string_view text) {
   return whole ? std::optional(port) : std::nullopt;
 }
 
-// RFC 1123, 2.1, and the underscores of some containers. A last label of digits alone belongs to an IP
+// RFC 1123, 2.1, and the underscores of some containers. A last label of only digits belongs to an IP
 // address.
 bool is_host_name(std::string_view text) {
   constexpr std::size_t kLongest = 253;

@@ -36,8 +36,8 @@ struct Pipes {
   std::string prefix;
 };
 
-// ale_fifo_out and ale_fifo_in, which the client creates. As the classic server: if ale_fifo_out is missing,
-// writes a regular file of that name; if ale_fifo_in is missing, ends.
+// ale_fifo_out and ale_fifo_in, which the client creates. If ale_fifo_out is missing, the server writes a
+// regular file of that name, as the classic server does; if ale_fifo_in is missing, it ends.
 struct AlePipes {};
 
 using Address = std::variant<TcpAddress, UnixAddress, InheritedAddress, StandardStreams, Pipes, AlePipes>;

@@ -18,7 +18,7 @@ std::string host_name();  // of this machine
 // A ready file: the addresses, one a line.
 std::string ready_text(const std::vector<std::string>& addresses);
 
-// An announce file: one object of JSON. Each member begins a line, and each address has a line of its own, so
+// An announce file: one object of JSON. Each member begins a line, and each address has its own line, so
 // that programs without a parser of JSON can read it.
 std::string announce_text(const Announcement& announcement);
 

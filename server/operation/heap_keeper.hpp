@@ -1,6 +1,6 @@
 // Gives the memory of ended sessions back to the system. The C library keeps what lies between blocks that
 // are in use, until it is told. That takes some 0.3 ms a MiB, for which threads that allocate may have to
-// wait, so that the keeper waits until no session has ended for a while, and uses a thread of its own.
+// wait, so that the keeper waits until no session has ended for a while, and uses its own thread.
 #pragma once
 
 #include <chrono>

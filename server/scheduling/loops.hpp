@@ -1,4 +1,4 @@
-// A pool of threads, each with an event loop of its own. A session stays on one of them, so that no lock is
+// A pool of threads, each with its own event loop. A session stays on one of them, so that no lock is
 // taken and no thread is woken between two of its lines. One loop for all threads cost four futex calls a
 // line.
 #pragma once

@@ -64,7 +64,7 @@ class ByteStream {
 
   executor_type get_executor() { return socket_->get_executor(); }
 
-  // As those of the stream beneath.
+  // See the stream beneath.
   template <typename Buffers, typename Token>
   auto async_read_some(const Buffers& buffers, Token&& token) {
     return boost::asio::async_initiate<Token, Signature>(

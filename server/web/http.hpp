@@ -1,4 +1,4 @@
-// The site of a server on a port of its own (--http).
+// The site of a server on its own port (--http).
 #pragma once
 
 #include <chrono>

@@ -121,7 +121,7 @@ class Config(unittest.TestCase):
         for hint in hints:
             self.assertIn(hint, done.stderr)
 
-    def test_what_makes_no_sense_is_refused_and_named(self):
+    def test_invalid_settings_are_refused_and_named(self):
         self.refuse("max_state = 5\n", b"unknown setting 'max_state'", b"max_states, ")
         self.refuse("max_states = 0\n", b"settings.toml: max_states", b"'0' is not a whole number from 1")
         self.refuse("max_states = [1, 2]\n", b"max_states", b"must be one value")

@@ -121,7 +121,7 @@ class Tokens(unittest.TestCase):
 
 
 class Encrypted(unittest.TestCase):
-    """tls:// with certificates of our own."""
+    """tls:// with our own certificates."""
 
     @classmethod
     def setUpClass(cls):

@@ -30,7 +30,7 @@ class Recipes(unittest.TestCase):
         self.folder.chmod(0o777)  # another user may write here
 
     def written(self, recipe):
-        """A recipe as scripts/release writes it, in a folder of its own."""
+        """A recipe as scripts/release writes it, in its own folder."""
         text = (PACKAGES / recipe).read_text()
         for mark, value in MARKS.items():
             text = text.replace(f"@{mark}@", value)

@@ -54,7 +54,7 @@ class With(unittest.TestCase):
         return process
 
     def processes(self):
-        """Those that were started with the folder of this test."""
+        """The processes that were started with the folder of this test."""
         mark = f"TMPDIR={self.place}".encode()
         found = []
         for entry in pathlib.Path("/proc").iterdir():

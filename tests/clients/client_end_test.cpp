@@ -139,7 +139,7 @@ TEST_CASE("Closing ends the session, whatever another thread is at") {
   }
 }
 
-TEST_CASE("A coroutine's session does not wait for a server of its own to end") {
+TEST_CASE("A coroutine's session does not wait for its own server to end") {
   const Stubborn program;
   run([](std::string path) -> asio::awaitable<void> {
     auto game = co_await client::async_launch(path);
@@ -150,7 +150,7 @@ TEST_CASE("A coroutine's session does not wait for a server of its own to end") 
   }(program.path()));
 }
 
-TEST_CASE("A session waits for a server of its own to end") {
+TEST_CASE("A session waits for its own server to end") {
   const Stubborn program;
   auto game = client::launch(program.path());
   game.request("hello");

@@ -146,7 +146,7 @@ TEST_CASE("Screens have colours, and a stack of them begins with zeros") {
   CHECK_THROWS_AS(stack.push(client::Bytes{7}), std::invalid_argument);
 }
 
-TEST_CASE("An image of the client's is loaded, and what is none is refused") {
+TEST_CASE("A client's image is loaded, and an invalid one is refused") {
   auto game = client::launch(RACEBEAM_BINARY);
   CHECK(code_of([&] { game.load_image(client::Bytes{1, 2, 3}); }) == "bad-image");
   CHECK(game.load_image(client::Bytes(4096, 0xEA), "as=beamfall").number("rule") == 1);
@@ -311,9 +311,9 @@ TEST_CASE("A file that names no server is refused in a sentence") {
   const std::string tail = "; file:PATH takes the --ready-file or --announce file of a server";
   const auto path = [&](const std::string& name) { return (folder / name).string(); };
   REQUIRE(::mkfifo(path("pipe").c_str(), 0600) == 0);
-  CHECK(refusal("pipe") == path("pipe") + " is no regular file" + tail);
-  CHECK(refusal("pipe?wait=60") == path("pipe") + " is no regular file" + tail);
-  CHECK(refusal(".") == path(".") + " is no regular file" + tail);
+  CHECK(refusal("pipe") == path("pipe") + " is not a regular file" + tail);
+  CHECK(refusal("pipe?wait=60") == path("pipe") + " is not a regular file" + tail);
+  CHECK(refusal(".") == path(".") + " is not a regular file" + tail);
   CHECK(put("empty", "") == path("empty") + " is empty" + tail);
   CHECK(put("notes", "dear diary\n") == path("notes") + " has other contents" + tail);
   CHECK(put("ready", "# addresses\nhttp://a:1\n") ==
@@ -328,12 +328,12 @@ TEST_CASE("A file that names no server is refused in a sentence") {
   std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("What is no reply is quoted for a terminal") {
+TEST_CASE("An invalid reply is quoted for a terminal") {
   const Server server([](const std::string&) { return "\x1B[31mred\xFF\n"; });
   auto game = client::connect(server.address());
   CHECK_THROWS_MATCHES(
       game.request("act FIRE"), client::Lost,
-      Catch::Matchers::Message("a reply of the server is damaged: '\\x1b[31mred\\xff' is no reply"));
+      Catch::Matchers::Message("a reply of the server is damaged: '\\x1b[31mred\\xff' is not a reply"));
 }
 
 TEST_CASE("The caller's words are checked") {

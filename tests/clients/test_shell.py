@@ -77,7 +77,7 @@ class Agents(unittest.TestCase):
                 with open(file, "wb") as written:
                     written.write(text)
                 self.assertEqual(self.page(f"file:{file}").stderr, reason + "\n")
-            self.assertEqual(self.page(f"file:{folder}").stderr, f"{folder} is no regular file{tail}\n")
+            self.assertEqual(self.page(f"file:{folder}").stderr, f"{folder} is not a regular file{tail}\n")
             for time in ("", "x", "-1", "1e3", "99999999999999999999"):
                 self.assertEqual(
                     self.page(f"file:{file}?wait={time}").stderr,

@@ -61,7 +61,7 @@ class Slurm(unittest.TestCase):
         self.results.mkdir()
 
     def job_processes(self):
-        """Those of jobs: all that have the tests' variable, but not the daemons, which do not."""
+        """The processes of jobs: all that have the tests' variable, which the daemons do not have."""
         return {
             number: words
             for number, words in slurm.processes(f"RACEBEAM_TEST={self.cluster.folder}").items()

@@ -254,7 +254,7 @@ class Plans(unittest.TestCase):
             self.assertEqual(Run.parse(run.name), run)
         self.assertEqual(len({run.name for run in runs}), len(runs))
 
-    def test_what_is_played_depends_on_the_name_alone(self):
+    def test_only_the_name_decides_what_is_played(self):
         one, same, other = (list(Run("pong", seed=seed, writes=1).steps()) for seed in (1, 1, 2))
         self.assertEqual(one, same)
         self.assertNotEqual(one, other)

@@ -1,4 +1,4 @@
-"""Each type has a name of its own in its namespace. Two definitions make the program ill-formed, without a
+"""Each type has its own name in its namespace. Two definitions make the program ill-formed, without a
 diagnostic."""
 
 import collections

@@ -3,7 +3,7 @@
 An example is a block fenced as ```console. Its lines that begin with "$ " are commands, run by bash with racebeam in
 the PATH, in a new folder that all examples of a document share; a line that ends in a backslash goes on in the next,
 and so does a command until its here-document ends. The other lines are what the command before them prints, standard
-error included; "..." stands for any text within a line, and on a line of its own for any lines. Blocks fenced otherwise
+error included; "..." stands for any text within a line, and on its own line for any lines. Blocks fenced otherwise
 (```sh) are not run.
 """
 

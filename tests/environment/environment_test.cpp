@@ -1,4 +1,4 @@
-// The environment with a cartridge of our own, whose RAM records what was done to it.
+// The environment with our own cartridge, whose RAM records what was done to it.
 #include <catch2/catch.hpp>
 #include <vector>
 
@@ -63,7 +63,7 @@ TEST_CASE("After the end an act runs no frame, but draws, and returns 0 within t
   settings.frame_skip = 4;
   settings.sound = true;
   Environment environment = steered(settings);
-  environment.set_ram(0x00, 0x20);  // a waveform whose period is no divisor of a block
+  environment.set_ram(0x00, 0x20);  // a waveform whose period does not divide a block
   environment.set_ram(kOver, 1);
   CHECK_FALSE(environment.game_over());  // until the rule is evaluated after a frame
   environment.act(0);

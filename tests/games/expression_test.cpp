@@ -21,7 +21,7 @@ int folded(const std::string& expression) {
   return rule.reward();
 }
 
-// The same with X and Y as variables, so that the program computes it.
+// Computes the expression with X and Y as variables, so that the program does it.
 int computed(const std::string& expression, int x, int y) {
   const std::string first = "reset = { X = " + std::to_string(x) + ", Y = " + std::to_string(y) + " }";
   const Game game = game_with_step("both = X + Y\nreward = " + expression + "\nterminal = 0", first);

@@ -75,7 +75,7 @@ TEST_CASE("if takes one of two ways, and ways can be nested") {
   CHECK(run("if mode { select 1 }", 0).empty());
 }
 
-TEST_CASE("a mode program has variables of its own and can set those of the rule") {
+TEST_CASE("a mode program has its own variables and can set those of the rule") {
   CHECK(run("wanted = mode + 1\nwanted = wanted * 2\nselect wanted", 2) == "select 6; ");
   const Game game = game_with_setup("n = mode");
   Rule rule(game);

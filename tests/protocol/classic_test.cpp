@@ -49,7 +49,7 @@ struct Client {
     return answers;
   }
 
-  // The same, and then the client closes its end.
+  // Says the text, and then closes the client's end.
   std::string say_and_close(const std::string& text) {
     const std::string answers = say(text);
     session.received(0);

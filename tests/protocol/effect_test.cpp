@@ -191,7 +191,7 @@ TEST_CASE("Each field tells something that no other tells") {
   check_told_apart(fields);
 }
 
-TEST_CASE("Each encoding writes in a way of its own") {
+TEST_CASE("Each encoding writes in its own way") {
   std::vector<std::string> fields;
   for (const EncodingRow& row : encodings()) fields.push_back("screen:" + std::string(row.name));
   check_told_apart(fields);
@@ -256,7 +256,8 @@ TEST_CASE("Each error code is told") {
       {"limit", kLoadDuel + "\nopen 1000\n"},
       {"unauthorized", "hello token=guess\n"},
   };
-  // Those of the server about a session as a whole (tests/server/test_sessions.py), and what never should be.
+  // The errors of the server about a session as a whole (tests/server/test_sessions.py), and what never
+  // should be.
   const std::set<std::string_view> others = {"busy", "idle", "stopping", "internal"};
   std::set<std::string_view> all = others;
   for (const auto& [name, conversation] : told) {

@@ -23,7 +23,7 @@ std::string base64(std::string_view text) {
   return out;
 }
 
-// As in protocol/PROTOCOL.md.
+// See protocol/PROTOCOL.md.
 void apply_delta(Bytes& array, const std::string& text) {
   const Bytes data = bytes_of_hex(text);
   std::size_t place = 0;

@@ -159,7 +159,7 @@ TEST_CASE("open refuses keys that it does not have, and those of frames with act
   client.ask("load beamfall life_loss_ends=1");
   CHECK(client.ask("open 1 lives=told") == "error bad-arguments lives= goes with steps=frames");
   CHECK(client.ask("open 1 steps=frames") ==
-        "error bad-value a step of frames knows lost lives by life_loss alone");
+        "error bad-value a step of frames takes only life_loss for the effect of lost lives");
   CHECK(code(client.ask("open 1 steps=halves")) == "bad-value");
   CHECK(code(client.ask("open 1 step=frames")) == "bad-arguments");
   CHECK(code(client.ask("open 1 steps=acts steps=acts")) == "bad-arguments");

@@ -118,7 +118,7 @@ TEST_CASE("A state that was cut, altered or belongs to another game is refused")
   CHECK(code(client.ask("restore x")) == "no-state");
 }
 
-TEST_CASE("A state that names another image with bytes that are no text is refused in one line") {
+TEST_CASE("A state that names another image with bytes that are not text is refused in one line") {
   Playing client("sticky=0");
   client.ask("save here");
   auto bytes = exported(client, "here");
@@ -227,7 +227,7 @@ TEST_CASE("A name of ten and more ends of a branch has a digit more") {
   CHECK(code(client.ask("branch root keep=" + std::string(62, 'a') + lists)) == "");
 }
 
-TEST_CASE("Each of many machines plays as one alone with its seed") {
+TEST_CASE("Each of many machines plays as a single one with its seed") {
   LineService service = line_service();
   service.threads = 3;
   service.parallel = [](std::size_t count, const std::function<void(std::size_t)>& task) {

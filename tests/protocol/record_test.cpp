@@ -37,7 +37,7 @@ struct Studio {
 
 }  // namespace
 
-TEST_CASE("Several kinds at once are what each is alone") {
+TEST_CASE("Several kinds at once are what each is by itself") {
   Studio together, film, sound;
   CHECK(together.ask("record y4m,wav a") == "ok recording=a.y4m,a.wav");
   film.ask("record y4m a");

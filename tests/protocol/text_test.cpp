@@ -103,7 +103,7 @@ TEST_CASE("Runs go on across the ends of rows") {
   CHECK(run_length(pixels) == "00960E140096");
 }
 
-TEST_CASE("A colour of its own for every pixel gives a group each") {
+TEST_CASE("A separate colour for every pixel gives a group each") {
   CHECK(run_length({1, 2, 3, 2, 2, 1}) == "01010201030102020101");
   CHECK(run_length({}).empty());
 }

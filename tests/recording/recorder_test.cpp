@@ -39,7 +39,7 @@ TEST_CASE("A recording that is released is committed all the same") {
   CHECK(test::read(folder.path("a.wav")).size() == 44 + 40 * 512);
 }
 
-TEST_CASE("Several recordings at once are what each would be alone") {
+TEST_CASE("Several recordings at once are what each would be by itself") {
   const Scratch folder;
   {
     Recorder recorder(folder.path(""));

@@ -82,7 +82,7 @@ TEST_CASE("Frames that the disk has not taken are few") {
   CHECK(film.recording->result().names == "a.y4m,a.wav");
 }
 
-TEST_CASE("Sound alone needs no room for pictures") {
+TEST_CASE("A recording of only sound needs no room for pictures") {
   Film film({MediaKind::kWav});
   film.work();
   CHECK(film.add_until_behind() == 1024);

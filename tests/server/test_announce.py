@@ -145,7 +145,7 @@ class Life(unittest.TestCase):
             status, _, errors = run("serve", "--listen", "unix:s", "--roms", "/nowhere", "--announce", path)
             self.assertEqual((status, os.listdir(folder)), (4, []), errors)
 
-    def test_that_of_a_server_that_runs_is_replaced_with_a_warning(self):
+    def test_the_file_of_a_running_server_is_replaced_with_a_warning(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "announce")
             with serve("--announce", path):
@@ -157,7 +157,7 @@ class Life(unittest.TestCase):
                 wait_for(path)
                 self.assertNotIn("is replaced", "\n".join(alone.log()))
 
-    def test_what_is_no_announce_file_is_refused_and_stays(self):
+    def test_a_file_that_is_not_an_announce_file_is_refused_and_stays(self):
         texts = {"notes": "dear diary", "empty": "", "json": '{"a": 1}', "ready": "# racebeam ready file: x\n"}
         for name, text in texts.items():
             with self.subTest(name=name), tempfile.TemporaryDirectory() as folder:

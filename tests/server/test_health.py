@@ -114,7 +114,7 @@ class Http(unittest.TestCase):
             self.assertEqual(get(address + "/healthz"), (200, "ok\n"))
             self.assertEqual(crowd[0].rest(), b"")
 
-    def test_what_is_no_HTTP_harms_nobody(self):
+    def test_a_request_that_is_not_HTTP_harms_nobody(self):
         with serve("--http", "127.0.0.1:0") as server:
             address = self.address(server)
             for nonsense in (

@@ -107,7 +107,7 @@ class Addresses(unittest.TestCase):
             self.refuse("unix:" + server.path("notes"), 3, "is not a socket")
             self.assertEqual(os.path.getsize(server.path("notes")), 10)
 
-    def test_what_is_no_address_is_refused(self):
+    def test_an_invalid_address_is_refused(self):
         for address in (
             "",
             "tcp",

@@ -247,7 +247,7 @@ FIRST_LINE = "# racebeam ready file: the addresses of a server, one a line; line
 
 
 class ReadyFile(unittest.TestCase):
-    def test_what_is_no_ready_file_is_refused_and_stays(self):
+    def test_a_file_that_is_not_a_ready_file_is_refused_and_stays(self):
         def file(path, text):
             with open(path, "w") as notes:
                 notes.write(text)
@@ -290,7 +290,7 @@ class ReadyFile(unittest.TestCase):
                 self.assertNotEqual(status, 0, errors)
                 self.assertEqual(os.listdir(folder), [])
 
-    def test_that_of_a_server_that_was_killed_is_stale(self):
+    def test_the_file_of_a_killed_server_is_stale(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "ready")
             with serve("--ready-file", path) as server:
@@ -331,7 +331,7 @@ class ReadyFile(unittest.TestCase):
                 self.assertEqual(server.stop(), 0)
             self.assertEqual(os.listdir(folder), [])
 
-    def test_that_of_a_successor_is_left_alone(self):
+    def test_the_file_of_a_successor_stays(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "ready")
             with serve("--ready-file", path) as server:

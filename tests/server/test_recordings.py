@@ -251,7 +251,7 @@ class Encoded(unittest.TestCase):
         self.assertEqual(os.listdir(self.films), ["film.wav"])
 
     def contents(self, path):
-        """Those of a file that the encoder makes in its own time."""
+        """The bytes of a file that the encoder makes in its own time."""
         deadline = time.monotonic() + PATIENCE
         while not os.path.exists(path) and time.monotonic() < deadline:
             time.sleep(0.01)

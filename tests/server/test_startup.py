@@ -237,7 +237,7 @@ class Folders(unittest.TestCase):
             self.assertEqual((status, len(errors)), (0, 1), errors)
             return output.decode().splitlines()
 
-    def test_what_is_no_image_is_passed_over(self):
+    def test_a_file_that_is_not_an_image_is_passed_over(self):
         def prepare(path):
             os.symlink("loop.bin", path("loop.bin"))
             os.symlink("nowhere.bin", path("dangling.bin"))

@@ -17,7 +17,7 @@ std::string rom_folder();
 // Finds an image by the beginning of its MD5. Returns null if the folder has none.
 std::shared_ptr<const Image> find_rom(std::string_view md5);
 
-// The same for a game of the catalogue.
+// Finds the image of a game of the catalogue.
 std::shared_ptr<const Image> find_rom_of(const Game& game);
 
 }  // namespace racebeam::test

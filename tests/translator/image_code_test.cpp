@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
-// As the banks of a large image are seen, at several mirrors.
+// Makes views as the banks of a large image are seen, at several mirrors.
 std::size_t views_of(ImageCode& code, const Rom& rom) {
   std::size_t made = 0;
   for (const std::uint16_t first : std::initializer_list<std::uint16_t>{0x1000, 0x3000, 0x5000}) {

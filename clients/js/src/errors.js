@@ -7,7 +7,7 @@ export class RefusedError extends Error {
   }
 }
 
-/** The server is not there, has gone, or sent what is no reply. The session has ended. */
+/** The server is not there, has gone, or sent an invalid reply. The session has ended. */
 export class LostError extends Error {
   constructor(sentence, options) {
     super(sentence, options);

@@ -113,7 +113,7 @@ export class Fields {
   #value(source, field, text, chosen) {
     const encoding = chosen.get(field);
     if (encoding === undefined) {
-      return NUMBER.test(text) ? Number(text) : text; // an MD5 is no number, nor are bytes such as 0046
+      return NUMBER.test(text) ? Number(text) : text; // an MD5 is not a number, nor are bytes such as 0046
     }
     switch (encoding) {
       case "delta":

@@ -40,7 +40,7 @@ export interface Options {
  */
 export function connect(address?: string, options?: Options): Promise<Session>;
 
-/** A session of a server of its own, which ends with the session. Not in a browser. */
+/** A session with a server that it starts, and that ends with it. Not in a browser. */
 export function launch(settings?: {
   /** The program racebeam. Without it, that of RACEBEAM_PROGRAM, or of the PATH. */
   program?: string;
@@ -200,7 +200,7 @@ export class RefusedError extends Error {
   code: string;
 }
 
-/** The server is not there, has gone, or sent what is no reply. */
+/** The server is not there, has gone, or sent an invalid reply. */
 export class LostError extends Error {}
 
 /** The server did not answer in time. */

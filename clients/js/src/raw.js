@@ -1,4 +1,4 @@
-/** The number of bytes that follow a reply's line: N of `raw=N` at its end, or 0; NaN if N is no such number. */
+/** The number of bytes that follow a reply's line: N of `raw=N` at its end, or 0; NaN if N is not such a number. */
 export function rawSize(line) {
   const last = line.lastIndexOf(" ") + 1;
   if (!line.startsWith("raw=", last)) {

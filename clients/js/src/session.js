@@ -68,11 +68,11 @@ export class Session extends Commands {
     }
     try {
       if (line !== "ok" && !line.startsWith("ok ")) {
-        throw new RangeError(`'${line.slice(0, 60)}' is no reply`);
+        throw new RangeError(`'${line.slice(0, 60)}' is not a reply`);
       }
       return { groups: await settled(this.#fields.groups(request, line, bytes)), line };
     } catch (cause) {
-      const error = new LostError(`the server sent what is no reply: ${printable(cause.message)}`, { cause });
+      const error = new LostError(`the server sent an invalid reply: ${printable(cause.message)}`, { cause });
       this.#lines.end(error);
       throw error;
     }

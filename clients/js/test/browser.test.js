@@ -39,7 +39,7 @@ test("it decodes as the client for Node does", () => {
   assert.deepEqual(shown, [[1, 2, 3], [1, 2, 3], [1, 255], "LostError"]);
 });
 
-test("an address that is none is refused", () => {
+test("an invalid address is refused", () => {
   assert.deepEqual(printed(`
     import { connect } from "racebeam";
     console.log(JSON.stringify(await connect("tcp://127.0.0.1:1").catch((error) => error.name)));`), "TypeError");

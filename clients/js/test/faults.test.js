@@ -44,7 +44,7 @@ function temporaryFolder(context) {
 
 const faults = {
   "a server that closes": [undefined, LostError],
-  "what is no reply": ["220 mail.example.org\n", LostError],
+  "an invalid reply": ["220 mail.example.org\n", LostError],
   "binary data": ["\u00ff\u0080\n", LostError],
   "an endless line": [`ok a=${"0".repeat(1 << 17)}`, LostError],
   "half a line": ["ok rew", TimeoutError],
@@ -58,7 +58,7 @@ for (const [name, [answer, kind]] of Object.entries(faults)) {
   });
 }
 
-test("what is no reply is quoted for a terminal", async (context) => {
+test("an invalid reply is quoted for a terminal", async (context) => {
   const { session } = await served(context, () => "\x1b[31mred\u00ff\n");
   await assert.rejects(session.act("FIRE"), ({ message }) => message.includes("'\\x1b[31mred") && /^[ -~]*$/.test(message));
 });
@@ -69,7 +69,7 @@ test("a file that names no server is refused in a sentence", async (context) => 
   for (const [name, text, sentence] of [
     ["empty", "", /empty is empty; file:PATH takes the --ready-file or --announce file of a server$/],
     ["notes", "dear diary\n", /notes has other contents; file:PATH takes/],
-    [".", undefined, / is no regular file; file:PATH takes/],
+    [".", undefined, / is not a regular file; file:PATH takes/],
     ["broken", "{\x00\xff", /broken is not a whole announce file$/],
   ]) {
     if (text !== undefined) {
@@ -119,7 +119,7 @@ test("why a server ends is told to the next request", async (context) => {
   await assert.rejects(session.act("FIRE"), LostError);
 });
 
-test("a watched session has arrays of its own", async (context) => {
+test("a watched session has its own arrays", async (context) => {
   const replies = { load: "height=9", observe: "fields=grey84", act: "grey84=000001" + "0503", watch: "height=10 screen=000001" + "0701" };
   const { session } = await served(context, (line) => `ok ${replies[line.split(" ")[0]] ?? ""}\n`);
   await session.load("beamfall");

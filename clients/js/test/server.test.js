@@ -1,4 +1,4 @@
-// A method for each command, with a server of its own: the program that RACEBEAM_PROGRAM names.
+// A method for each command, with its own server: the program that RACEBEAM_PROGRAM names.
 
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync } from "node:fs";

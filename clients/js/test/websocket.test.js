@@ -62,7 +62,7 @@ test("the server's endpoint is /session, unless the address has a path", async (
 
 const faults = {
   "a close": { code: 1001, reason: "stopping" },
-  "what is no reply": ["220 mail.example.org"],
+  "an invalid reply": ["220 mail.example.org"],
   "bytes that no line announces": [bytes(1)],
   "a line in place of bytes": ["ok ram=1 raw=1", "ok"],
   "fewer bytes than the fields have": ["ok ram=2 raw=1", bytes(1)],
@@ -91,7 +91,7 @@ test("a server that is not there, or is silent", async () => {
   await assert.rejects(session.act("FIRE"), TimeoutError);
 });
 
-test("an address that is none is refused", async () => {
+test("an invalid address is refused", async () => {
   for (const address of ["ws://", "ws://h:99999", "wss:h"]) {
     await assert.rejects(connect(address, { WebSocket: socketOf(() => []) }), TypeError, address);
   }

@@ -57,8 +57,8 @@ function racebeam.connect(address, options)
   return made
 end
 
--- A session of a server of its own, which ends with the session. options: as of connect; `program` (default: RACEBEAM_PROGRAM,
--- or racebeam of the PATH). The other arguments are those of `racebeam serve`. Needs no module.
+-- A session with a server that it starts, and that ends with it. options: as of connect; `program` (default:
+-- RACEBEAM_PROGRAM, or racebeam of the PATH). The other arguments are those of `racebeam serve`. Needs no module.
 function racebeam.launch(options, ...)
   options = options or {}
   local program = options.program or os.getenv("RACEBEAM_PROGRAM") or "racebeam"
@@ -160,7 +160,7 @@ function Session:outcome()
   if code then
     return { code = code, sentence = sentence }
   elseif line ~= "ok" and line:sub(1, 3) ~= "ok " then
-    lost(self, "lost", ("the server sent what is no reply: '%s'"):format(printable(line:sub(1, 60))))
+    lost(self, "lost", ("the server sent an invalid reply: '%s'"):format(printable(line:sub(1, 60))))
   end
   local words = {}
   for word in request:gmatch("%S+") do

@@ -220,8 +220,8 @@ local function quoted(word)
   return "'" .. word:gsub("'", "'\\''") .. "'"
 end
 
--- A server of one's own. Its input is a named pipe, whose name is removed once both have opened it. Its output is read with
--- io.popen.
+-- A server that this client starts. Its input is a named pipe, whose name is removed once both have opened it. Its
+-- output is read with io.popen.
 function transport.launch(program, options)
   local fifo = os.tmpname()
   os.remove(fifo)
@@ -249,7 +249,7 @@ end
 local ANNOUNCEMENT = "1" -- the version of announce files that this client reads
 local BETWEEN_TRIES = 0.05 -- seconds
 
--- The lines of an announce file as those of a ready file, and its token. It has each address on a line of its own, and the
+-- The lines of an announce file as those of a ready file, and its token. It has each address on its own line, and the
 -- token last (server/README.md).
 local function announced(path, text)
   local version = text:match('^{"racebeam_announce": ([^,\n]*)')
@@ -267,7 +267,7 @@ end
 -- The first address of a ready file or an announce file that this client can use, and the token of the latter.
 local function in_file(path)
   if not is("-f", path) and is("-e", path) then -- a pipe might block
-    fault("invalid", path .. " is no regular file" .. FILES)
+    fault("invalid", path .. " is not a regular file" .. FILES)
   end
   local file = opened(path, "r")
   local text, token = file:read("*a"), nil

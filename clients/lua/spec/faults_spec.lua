@@ -44,7 +44,7 @@ end
 
 describe("a session", function()
   for name, case in pairs({
-    ["that is sent what is no reply"] = { "220 mail.example.org\n", "lost" },
+    ["that is sent an invalid reply"] = { "220 mail.example.org\n", "lost" },
     ["that is sent binary data"] = { "\255\128\n", "lost" },
     ["that is sent an endless line"] = { "ok a=" .. ("0"):rep(131072), "lost" },
     ["that gets half a reply"] = { "ok rew", "timeout" },
@@ -66,10 +66,10 @@ describe("a session", function()
     end)
   end
 
-  it("quotes what is no reply for a terminal", function()
+  it("quotes an invalid reply for a terminal", function()
     local game = prepared("\27[31mred\255\n")
     local problem = tostring(raised(game.request, game, "act FIRE"))
-    assert.equal("the session has ended: the server sent what is no reply: '\\x1b[31mred\\xff'", problem)
+    assert.equal("the session has ended: the server sent an invalid reply: '\\x1b[31mred\\xff'", problem)
   end)
 
   it("waits until TLS can write, if a read has to write first", function()
@@ -148,7 +148,7 @@ describe("a session", function()
 end)
 
 describe("connect", function()
-  it("refuses what is no address", function()
+  it("refuses an invalid address", function()
     for _, address in ipairs({ "", "nonsense", "tcp://host", "tcp://host:99999", "unix:", "http://host:1" }) do
       assert.equal("invalid", raised(racebeam.connect, address).kind)
     end

@@ -1,4 +1,4 @@
--- A method for each command, with a server of its own: the program that RACEBEAM_PROGRAM names. No module is needed.
+-- A method for each command, with its own server: the program that RACEBEAM_PROGRAM names. No module is needed.
 
 local racebeam = require("racebeam")
 
@@ -23,7 +23,7 @@ local function refused(call, ...)
   return problem.code
 end
 
-describe("a server of one's own", function()
+describe("a server that the client starts", function()
   it("has a pipe without a name as soon as it answers", function()
     local tmpname, name = os.tmpname, nil
     os.tmpname = function()

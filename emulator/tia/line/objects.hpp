@@ -36,7 +36,7 @@ constexpr PlayfieldPart kPlayfieldParts[2][3] = {
     {{0, 16, 80, 96}, {16, 48, 96, 128}, {48, 80, 128, 160}},
     {{0, 16, 144, 160}, {16, 48, 112, 144}, {48, 80, 80, 112}}};  // reflected
 
-// Those of `objects` that are enabled.
+// Returns which of `objects` are enabled.
 RACEBEAM_INLINE std::uint8_t enabled_among(const TiaRegisters& tia, unsigned objects) {
   unsigned found = 0;
   const auto look = [&](unsigned object, bool enabled) { found |= (enabled ? 1U : 0U) << object; };

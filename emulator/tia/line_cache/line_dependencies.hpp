@@ -8,7 +8,7 @@
 // that tells whether they are enabled is enough, because it does not change. So both lines show the same
 // objects at the same clocks. An object that was never shown on the first line is not shown on the second.
 // The rest of an object's bytes, its *shape* and colour, counts only for objects that were shown. The clocks
-// are also the same, because the delay of a write depends on the write alone. There is one exception: RESPx
+// are also the same, because the delay of a write depends only on the write. There is one exception: RESPx
 // lets the old copy be finished. The player's old position counts, shown or not, if another write follows so
 // soon that it waits for that copy.
 #pragma once
@@ -34,14 +34,14 @@ struct LineDependencies {
   std::uint8_t control;
 };
 
-// A write so many cycles before a line may affect that line alone.
+// A write so many cycles before a line may affect only that line.
 constexpr int kEarliestWrite = 4;
 
 // The possible effect of a write to a register on the line of its cycle.
 struct LineEffect {
   std::uint32_t last;  // the largest LineWrite::counted_up() that takes effect on this line
   std::int8_t
-      first_late_cycle;  // from this cycle on, it affects the next line alone, as if it were written there
+      first_late_cycle;  // from this cycle on, it affects only the next line, as if it were written there
   std::uint8_t control;  // see LineDependencies; for RESPx only if a write follows at once
   std::uint16_t seen;    // kMoves, kClears or 0
 };

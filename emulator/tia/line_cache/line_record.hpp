@@ -63,7 +63,7 @@ struct alignas(64) LineRecord {
 
   void open(const TiaRegisters& registers);
 
-  // Takes the writes from `entry` on that affect this line alone, up to the capacity. Returns the next one.
+  // Takes the writes from `entry` on that affect only this line, up to the capacity. Returns the next one.
   const std::uint32_t* add(const std::uint32_t* entry, std::uint32_t origin);
 
   // A hash of what the line's pixels are made from. Only before summarize().
@@ -81,7 +81,7 @@ struct alignas(64) LineRecord {
     return is_zero(difference);
   }
 
-  // The same for the bytes that pixels depend on. The registers may end differently.
+  // Compares only the bytes that pixels depend on. The registers may end differently.
   RACEBEAM_INLINE bool looks_like(const RegisterVectors& registers) const {
     RegisterVectors difference(start);
     for (std::size_t i = 0; i < 3; ++i) difference.part[i] ^= registers.part[i];

@@ -30,7 +30,7 @@ struct RegisterVectors {
     return *this;
   }
 
-  // Of a mask of whole bytes: a bit for each.
+  // Returns a bit for each byte of a mask of whole bytes.
   RACEBEAM_INLINE std::uint64_t bytes_set() const {
     return top_bits(part[0]) | std::uint64_t{top_bits(part[1])} << 16 |
            std::uint64_t{top_bits(part[2])} << 32;

@@ -90,7 +90,7 @@ struct WriteLog {
       written[HMP0] = written[HMP1] = written[HMM0] = written[HMM1] = written[HMBL] = kUnknown;
   }
 
-  // The same, unless it repeats the last one and the register only holds what is written.
+  // Appends it unless it repeats the last write and the register only holds what is written.
   void append_change(std::int32_t cycle, unsigned reg, std::uint8_t value) {
     const unsigned before = written[reg], after = value;
     if (before == after) return;

@@ -56,10 +56,10 @@ TEST_CASE("A log that is cut anywhere is refused") {
   for (std::size_t size = 0; size < bytes.size(); ++size) REQUIRE(refusal_of(bytes.substr(0, size)) != "");
 }
 
-TEST_CASE("Sealed contents that are no episode are refused with a sentence") {
+TEST_CASE("Sealed contents that are not an episode are refused with a sentence") {
   const std::string good = unseal(kSame, "", bytes_of(random_log(short_episodes(500))));
   CHECK(refusal_of(seal(kSame, "")) ==
-        "episode log 1.episode: its contents are no episode: the line 'load' is missing");
+        "episode log 1.episode: its contents are not an episode: the line 'load' is missing");
   std::string wrong = good;
   wrong.replace(wrong.find("trial=1"), 7, "trial=x");
   CHECK(refusal_of(seal(kSame, wrong)).find("trial is 'x'") != std::string::npos);

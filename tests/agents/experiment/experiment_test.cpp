@@ -233,7 +233,7 @@ TEST_CASE("A folder that cannot be made is named") {
                     Catch::StartsWith("cannot make the folder " + place.path("loop") + ": "));
 }
 
-TEST_CASE("A unit that another process finishes meanwhile is no failure") {
+TEST_CASE("A unit that another process finishes meanwhile does not fail") {
   const Scratch place;
   const ResultsFolder whole(place.path("whole")), folder(place.path("results"));
   const Plan plan = bound_plan(kPlan);

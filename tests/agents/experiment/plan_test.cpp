@@ -75,7 +75,7 @@ TEST_CASE("Mistakes in a plan are named with their line") {
         "test.toml:3: environment: seed is not accepted here; all seeds follow from the plan's key 'seed'");
   check("seed = 4294967295\n", "test.toml:3: seed: 4294967295 is out of range; accepted are 0 to 2147483647");
   check("[backgrounds]\nbeamfall = \"12\"\n",
-        "test.toml:4: backgrounds.beamfall: '12' is no SHA-256; it takes 64");
+        "test.toml:4: backgrounds.beamfall: '12' is not a SHA-256; it takes 64");
   check("[backgrounds]\npong = \"12\"\n",
         "test.toml:4: backgrounds.pong: unknown key; accepted are beamfall");
   check("[agent.basic]\nepsilon = 1.5\n",
@@ -133,7 +133,7 @@ TEST_CASE("A plan of another image or version is refused") {
                     Catch::StartsWith("the plan's image of beamfall has MD5 abc; the one that is here has "));
 }
 
-TEST_CASE("Baselines are 37, in the plan's order, with seeds of their own") {
+TEST_CASE("Baselines are 37, in the plan's order, with their own seeds") {
   const Plan plan =
       parse_plan("games = [\"beamfall\", \"updraft\"]\nagents = [\"random\", \"const\", \"perturb\"]\n", "");
   const std::vector<Unit> units = units_of(plan);

@@ -21,7 +21,7 @@ TEST_CASE("A log that is played again gives the same score, frames, end and stat
   }
 }
 
-TEST_CASE("Logs that are played one after the other are played as each alone") {
+TEST_CASE("Logs that are played one after the other are played as each without the others") {
   const auto logs = [] {
     std::vector<EpisodeLog> all;
     for (const std::uint32_t seed : {1U, 2U, 3U, 2U}) {

@@ -70,8 +70,8 @@ TEST_CASE("A background of another size is refused") {
   CHECK(refusal("0," + good) == "a.csv:1: it does not have 160 colours");
   CHECK(refusal(good.substr(2)) == "a.csv:1: it does not have 160 colours");
   CHECK(refusal("128" + good.substr(1)) ==
-        "a.csv:1: '128' is no colour; accepted are 160 numbers from 0 to 127, with commas between");
-  CHECK(refusal("x" + good.substr(1)).starts_with("a.csv:1: 'x' is no colour"));
+        "a.csv:1: '128' is not a colour; accepted are 160 numbers from 0 to 127, with commas between");
+  CHECK(refusal("x" + good.substr(1)).starts_with("a.csv:1: 'x' is not a colour"));
 }
 
 TEST_CASE("Screens are those of random play, as many as were asked for") {

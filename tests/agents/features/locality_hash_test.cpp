@@ -63,7 +63,7 @@ TEST_CASE("The more pixels change, the fewer features are shared") {
   CHECK(features(set, screen) == first);
 }
 
-TEST_CASE("Each seed has vectors of its own") {
+TEST_CASE("Each seed has its own vectors") {
   LocalityHash one(100, 1000, 50, 1), other(100, 1000, 50, 2);
   Pixels screen;
   screen.fill(0xFE);

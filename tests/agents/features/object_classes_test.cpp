@@ -58,7 +58,7 @@ TEST_CASE("What is fast, or looks different at each step, is a class") {
   CHECK(classes == wanted);
 }
 
-TEST_CASE("What moves within a small region is no class") {
+TEST_CASE("Objects that move within a small region do not make a class") {
   ClassDiscovery near({}, 8), far({}, 8);
   for (int step = 0; step < 100; ++step) {
     near.add(DrawnScreen().draw(20 + to_and_fro(step, 15), 50, kFish).pixels, step == 0);
@@ -121,9 +121,10 @@ TEST_CASE("Classes are the same again, as text and as a file") {
   CHECK_THROWS_WITH(classes_of(path, background, beamfall(), other), Catch::Contains("screens=1500 "));
 }
 
-TEST_CASE("A text that is no list of classes is refused with its line") {
+TEST_CASE("An invalid list of classes is refused with its line") {
   const std::string sentence =
-      "a:2: it is no shape of a class; accepted are the number of the class, from 0 to 9 in their order, and "
+      "a:2: it is not the shape of a class; accepted are the number of the class, from 0 to 9 in their "
+      "order, and "
       "runs of pixels, ROW,FIRST,LAST";
   for (const std::string line :
        {"2 0,0,1", "x 0,0,1", "0", "0 0,0", "0 0,0,1,2", "0 0,1,0", "0 0,0,160", "0 210,0,1", "0 0,0,1 0,1,2",

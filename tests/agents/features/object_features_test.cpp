@@ -88,7 +88,7 @@ TEST_CASE("At most 50 objects of a class count, the largest first") {
   CHECK((instances[0].box.left == 0 && instances[0].box.top == 8));
 }
 
-TEST_CASE("Regions are instances where the object that they are joined to is none") {
+TEST_CASE("Regions are instances where the object that they are joined to is not one") {
   InstanceFinder finder({}, two_classes(), 8);
   const auto screen = [](int x) {
     return DrawnScreen().draw(x, 5, kBlock, 3).draw(x + 3, 5, {"##"}, 4).pixels;

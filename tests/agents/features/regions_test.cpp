@@ -21,7 +21,7 @@ std::vector<Shape> shapes(const Regions& regions) {
 
 }  // namespace
 
-TEST_CASE("Regions are connected pixels of one colour; single pixels are none") {
+TEST_CASE("Regions are connected pixels of one colour; single pixels are not regions") {
   DrawnScreen screen;
   screen.draw(0, 0, {"# #", "###"}, 5);        // the arms are connected below
   screen.draw(159, 0, {"#", "#"}, 5);          // at the right edge

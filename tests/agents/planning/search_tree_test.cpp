@@ -113,7 +113,7 @@ TEST_CASE("A checkpoint without the order of actions is refused") {
   CHECK_THROWS_WITH(search.read(in), "it ends too early");
   old.put(std::vector<int>{0, 5});
   StateReader wrong(old.bytes());
-  CHECK_THROWS_WITH(search.read(wrong), "its order of actions is none");
+  CHECK_THROWS_WITH(search.read(wrong), "its order of actions is invalid");
 }
 
 TEST_CASE("Values are the same with and without merging, in a world of penalties too") {

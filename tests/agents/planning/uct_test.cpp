@@ -46,7 +46,7 @@ TEST_CASE("The values of a line are those computed by hand") {
   const double below = 2 + 0.9 * 4;  // what a rollout from the child returns
   CHECK(child.visits == 1);
   CHECK(child.mean == Approx(1 + 0.9 * below));
-  // The root has no reward of its own: both returns are discounted once on the way into it.
+  // The root itself has no reward: both returns are discounted once on the way into it.
   CHECK(uct.root()->mean == Approx(0.9 * (1 + 0.9 * below)));
   CHECK(uct.frames() == 5 * (3 + 3));
 }

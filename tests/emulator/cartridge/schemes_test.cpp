@@ -10,8 +10,8 @@
 namespace racebeam::test {
 namespace {
 
-// As in the specification's cases: byte k of slice s is 16s + (k mod 16). For the detection of on-board RAM
-// the first 256 bytes of each bank are all 16s + 3.
+// The images of the specification's cases: byte k of slice s is 16s + (k mod 16). For the detection of
+// on-board RAM the first 256 bytes of each bank are all 16s + 3.
 Rom filled(std::size_t size, std::size_t slice, bool ram_ports = false) {
   Rom rom(size);
   for (std::size_t i = 0; i < size; ++i)

@@ -65,7 +65,7 @@ const char* difference(const Vector& vector, unsigned opcode) {
   if (is_one_of(operation, {"sha", "shx", "shy", "shs"}) && crosses_page(vector, mode))
     return "sha, shx, shy, shs across a page: the address is not altered (section 6)";
   if (is_one_of(operation, {"adc", "sbc", "rra", "isb", "arr"}) && (vector.before.p & kDecimal))
-    return "decimal mode: N, V, Z and digits that are none (sections 6 and 8)";
+    return "decimal mode: N, V, Z and invalid digits (sections 6 and 8)";
   if (pointer_wraps(vector, mode)) return "a pointer at $FF: its high byte comes from $0100 (section 4)";
   return nullptr;
 }

@@ -1,4 +1,4 @@
-// A second 6507, written from docs/spec/cpu.md alone: its own copy of the opcode grid, and one bus access
+// A second 6507, written only from docs/spec/cpu.md: its own copy of the opcode grid, and one bus access
 // after the other. Slow and simple, and independent of emulator/. The interpreter is compared with it.
 #pragma once
 

@@ -1,4 +1,4 @@
-// A second TIA, written from docs/spec/tia.md alone. It draws clock by clock and pixel by pixel, at the
+// A second TIA, written only from docs/spec/tia.md. It draws clock by clock and pixel by pixel, at the
 // moments that the specification gives. Slow and simple, and independent of emulator/. The machine is
 // compared with it.
 #pragma once

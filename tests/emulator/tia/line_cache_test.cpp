@@ -21,7 +21,7 @@ LineNumber draw(LineCache& memory, std::size_t row, unsigned colour) {
   return memory.add(record);
 }
 
-// Draws frames with the row colours `colour(frame, row)`. Returns whether each row had a record of its own in
+// Draws frames with the row colours `colour(frame, row)`. Returns whether each row had its own record in
 // the last two frames.
 bool ends_with_two_sets(int frames, const std::function<unsigned(int, std::size_t)>& colour) {
   LineCache memory;

@@ -23,7 +23,7 @@ constexpr const char* kNames[] = {
 
 constexpr int kTries = 20000;
 
-// What a painter hears of a write (render_policies.hpp). It draws nothing, so that the writes alone change
+// What a painter hears of a write (render_policies.hpp). It draws nothing, so that only the writes change
 // registers.
 struct Heard {
   std::int32_t clock = -1000;  // the latest that was named
@@ -162,7 +162,7 @@ TEST_CASE("A write sets what its row says, from what its row says, and touches n
   }
 }
 
-// Is there a case in which this byte alone makes a difference to `bytes` after the write?
+// Is there a case in which only this byte makes a difference to `bytes` after the write?
 bool matters(Trial& trial, unsigned reg, std::size_t byte, const TiaRegisters& bytes) {
   const TiaBytes chosen = bytes_of(bytes);
   for (int i = 0; i < kTries; ++i) {

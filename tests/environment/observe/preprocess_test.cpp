@@ -148,7 +148,7 @@ TEST_CASE("A stack in colour has red, green and blue of each pixel, and may be a
   }
 }
 
-TEST_CASE("A stack that sees the upper rows alone is that of a screen without the others") {
+TEST_CASE("A stack that sees only the upper rows is that of a screen without the others") {
   Environment environment = steered(plain());
   environment.act(0);
   environment.act(1);

@@ -65,7 +65,7 @@ TEST_CASE("A batch gives the same on one thread and on several") {
   CHECK(std::ranges::count(a.ram, a.ram[0]) != std::ssize(a.ram));
 }
 
-TEST_CASE("The machines of a batch have seeds of their own, one after the other") {
+TEST_CASE("The machines of a batch have their own seeds, one after the other") {
   auto settings = short_episodes();
   Batch three(copies(3), settings);
   settings.slot.machine.random_seed += 2;

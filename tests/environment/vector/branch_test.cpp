@@ -21,7 +21,7 @@ Settings sticky() {
   return settings;
 }
 
-// The same, played by hand.
+// Plays the branch by hand.
 BranchEnd by_hand(const Environment::Saved& start, const Environment::Saved& root, const Sequence& sequence) {
   Environment environment = steered(sticky());
   environment.restore(start);

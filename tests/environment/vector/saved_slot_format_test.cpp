@@ -92,7 +92,7 @@ TEST_CASE("A slot's bytes that were cut or altered are refused") {
   };
   for (std::size_t size = 0; size < whole.size(); size += size < 100 ? 1 : 997)
     refuses(Bytes(whole.begin(), whole.begin() + std::ptrdiff_t(size)),
-            size < 60 ? "are no state of a vector environment" : "it was truncated, or bytes were added");
+            size < 60 ? "are not a state of a vector environment" : "it was truncated, or bytes were added");
   for (std::size_t at = 0; at < whole.size(); at += at < 100 ? 1 : 997) {
     Bytes altered = whole;
     altered[at] ^= 0x40;

@@ -289,7 +289,7 @@ TEST_CASE("A step of frames refuses what it does not know") {
   };
   refuses([](auto& s) { s.machine.frame_skip_max = 5; }, "a step of frames has a fixed number of them");
   refuses([](auto& s) { s.machine.truncate_on_life_loss = true; },
-          "a step of frames knows lost lives by life_loss alone");
+          "a step of frames takes only life_loss for the effect of lost lives");
   refuses([](auto& s) { s.machine.color_averaging = true; },
           "a step of frames has no colour averaging; it takes max_pool");
 }

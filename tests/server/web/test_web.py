@@ -318,7 +318,7 @@ class Origins(Case):
         self.assertIn(b" admitted=0 ", wire.ask(b"hello"))
         self.assertEqual(self.refusal(Origin="http://node8:80", Host="node7:80").status, 403)
 
-    def test_what_is_no_origin_is_refused_at_the_start(self):
+    def test_an_invalid_origin_is_refused_at_the_start(self):
         for origin in ("*", "lab.example", "https://", "https://lab.example/page"):
             status, _, errors = run("serve", "--listen", "ws://127.0.0.1:0", "--allow-origin", origin)
             self.assertEqual((status, len(errors)), (2, 1), errors)
@@ -356,7 +356,7 @@ class Tokens(Case, test_access.Folder):
         wire.write(frame(TEXT, b"", length=size))
         return wire.end()[1]
 
-    def test_those_that_do_not_come_to_a_session_are_closed(self):
+    def test_connections_without_a_session_are_closed(self):
         self.start("--token-file", self.tokens, "--handshake", "1")
         begun = time.monotonic()
         silent, half, other = self.raw(), self.raw(), self.connect()
@@ -445,7 +445,7 @@ class Hostile(Case):
         self.check_bystander()
         self.assertLess(self.memory() - before, 16 << 20)
 
-    def test_what_is_no_handshake_is_refused(self):
+    def test_an_invalid_handshake_is_refused(self):
         port = port_of(self.server)
         for fields in ({"Upgrade": None}, {"Connection": None}, {"Connection": "close"}, {"Upgrade": "h2c"}):
             self.assertEqual(self.refusal(**fields).status, 426, fields)

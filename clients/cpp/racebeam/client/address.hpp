@@ -58,7 +58,7 @@ class ServerFile {
   explicit ServerFile(const std::string& path) {
     const auto kind = std::filesystem::status(path).type();
     if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
-      refuse(path, "is no regular file");  // a pipe might block
+      refuse(path, "is not a regular file");  // a pipe might block
     std::ifstream file(path);
     if (!file) throw Lost(std::string("cannot read ").append(path));
     for (std::string line; std::getline(file, line);) addresses.push_back(line);
@@ -111,7 +111,7 @@ inline Address address_in_file(const std::string& path) {
 }
 
 /// `file:PATH?wait=SECONDS` without what begins at the question mark, and the seconds; else the text, and 0.
-/// Throws std::invalid_argument if what follows is no time.
+/// Throws std::invalid_argument if what follows is not a time.
 inline std::pair<std::string_view, double> without_wait(std::string_view text) {
   constexpr std::string_view kWait = "?wait=";
   const std::size_t at = text.rfind(kWait);
@@ -126,7 +126,7 @@ inline std::pair<std::string_view, double> without_wait(std::string_view text) {
   return {text.substr(0, at), seconds};
 }
 
-/// Throws std::invalid_argument if the text is no address.
+/// Throws std::invalid_argument if the text is not an address.
 inline Address parse_address(std::string_view text) {
   if (text == "stdio") return {};
   const std::size_t colon = text.find(':');

@@ -32,7 +32,7 @@ class AsyncSession : public Commands<AsyncSession> {
   AsyncSession& operator=(AsyncSession&& other) noexcept = default;
   ~AsyncSession() { close(); }
 
-  /// Ends the session. More than once does nothing. It does not wait for a server of its own, which a thread
+  /// Ends the session. More than once does nothing. It does not wait for its own server, which a thread
   /// kills if it has not ended after 10 seconds.
   void close() noexcept {
     if (lines_) lines_->close();
@@ -156,7 +156,7 @@ class AsyncSession : public Commands<AsyncSession> {
                      end == std::string::npos ? "" : line.substr(end + 1));
     }
     if (line != "ok" && !line.starts_with("ok "))
-      throw std::invalid_argument(std::string("'").append(line, 0, 60).append("' is no reply"));
+      throw std::invalid_argument(std::string("'").append(line, 0, 60).append("' is not a reply"));
     return fields_.follow(request, std::move(line), bytes);
   }
 
@@ -248,7 +248,7 @@ inline asio::awaitable<AsyncSession> launched(std::vector<std::string> command, 
 
 }  // namespace detail
 
-// These are no coroutines themselves, and the defaults are no temporary objects: g++ 12 destroys some
+// These are not coroutines themselves, and the defaults are not temporary objects: g++ 12 destroys some
 // temporary arguments in co_await twice.
 
 /// Connects to the server at an address, by default that in the environment variable RACEBEAM_ADDRESS:
@@ -263,7 +263,7 @@ inline boost::asio::awaitable<AsyncSession> async_connect(std::string_view addre
       address.empty() ? detail::environment_variable("RACEBEAM_ADDRESS", "") : std::string(address), options);
 }
 
-/// Starts a server of its own, which ends with the session.
+/// Starts its own server, which ends with the session.
 /// @param program by default that of the environment variable RACEBEAM_PROGRAM, else `racebeam`
 /// @param arguments of `racebeam serve`
 /// @param options `token` has no effect

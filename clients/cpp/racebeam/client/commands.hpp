@@ -46,7 +46,7 @@ class Commands : public CommandMethods<Derived> {
   auto load(std::string_view game, const Settings&... settings) {
     return ask(first, "load", game, settings...);
   }
-  /// The same with an image of the client's. The setting `as` names the game whose rules apply.
+  /// Loads an image of the client's. The setting `as` names the game whose rules apply.
   template <class... Settings>
   auto load_image(std::span<const std::uint8_t> image, const Settings&... settings) {
     return ask(first, "load inline", Setting("image", to_base64(image)), settings...);

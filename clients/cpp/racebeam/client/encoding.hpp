@@ -134,7 +134,7 @@ inline void apply_delta(std::span<std::uint8_t> array, std::string_view text) {
 inline Bytes from_base64(std::string_view text) {
   const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with("=") ? 1 : 0;
   const std::size_t digits = text.size() - padding;
-  if (text.size() % 4 != 0) throw std::invalid_argument("the length of base64 is no multiple of 4");
+  if (text.size() % 4 != 0) throw std::invalid_argument("the length of base64 is not a multiple of 4");
   Bytes bytes;
   bytes.reserve(text.size() / 4 * 3);
   std::uint32_t bits = 0;
@@ -183,7 +183,7 @@ inline Bytes from_zlib(std::string_view text) {
   }
 }
 
-/// Decodes a text. A delta needs an array, apply_delta(), and raw bytes are no text.
+/// Decodes a text. A delta needs an array, apply_delta(), and raw bytes are not a text.
 inline Bytes decode(Encoding encoding, std::string_view text) {
   switch (encoding) {
     case Encoding::kHex: return from_hex(text);
@@ -193,7 +193,7 @@ inline Bytes decode(Encoding encoding, std::string_view text) {
     case Encoding::kDelta:
     case Encoding::kRaw: break;
   }
-  throw std::invalid_argument("this encoding is not a text alone");
+  throw std::invalid_argument("this encoding is not only a text");
 }
 
 }  // namespace racebeam::client

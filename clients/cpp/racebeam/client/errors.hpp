@@ -26,7 +26,7 @@ class Refused : public std::runtime_error {
   std::string code_, sentence_;
 };
 
-/// The server is not there, has gone, or sent what is no reply. The session has ended.
+/// The server is not there, has gone, or sent an invalid reply. The session has ended.
 class Lost : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -40,7 +40,7 @@ class TimedOut : public Lost {
 
 namespace detail {
 
-/// What a server sent, for people: a terminal would execute some of its bytes. Those that are no printable
+/// What a server sent, for people: a terminal would execute some of its bytes. Bytes that are not printable
 /// ASCII become \xNN.
 inline std::string printable(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";

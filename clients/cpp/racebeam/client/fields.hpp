@@ -74,7 +74,7 @@ class Fields {
     return machines_.try_emplace(number, Source{{}, height_, {}}).first->second;
   }
 
-  /// Of a request `watch NAME [since=FRAME] FIELD...`.
+  /// The fields of a request `watch NAME [since=FRAME] FIELD...`.
   static std::vector<std::string_view> watched_fields(const std::vector<std::string_view>& words) {
     std::vector<std::string_view> fields;
     for (std::size_t at = 1; at < words.size(); ++at)

@@ -55,7 +55,7 @@ class Group {
   /// The value as the server sent it. Throws std::out_of_range if the reply lacks the key, as do all below.
   std::string text(std::string_view key) const { return std::string(value(key).text); }
 
-  /// The value as a number. Throws std::invalid_argument if it is none of this type.
+  /// The value as a number. Throws std::invalid_argument if it does not have this type.
   template <class Number = std::int64_t>
   Number number(std::string_view key) const {
     return detail::to_number<Number>(value(key).text);
@@ -67,10 +67,10 @@ class Group {
     return {words.begin(), words.end()};
   }
 
-  /// A field of bytes, decoded. Throws std::invalid_argument if the field is none.
+  /// A field of bytes, decoded. Throws std::invalid_argument if the field does not have bytes.
   const Bytes& bytes(std::string_view field) const& {
     const Value& found = value(field);
-    if (!found.is_bytes) throw std::invalid_argument(std::string(field).append(" is no field of bytes"));
+    if (!found.is_bytes) throw std::invalid_argument(std::string(field).append(" is not a field of bytes"));
     return found.bytes;
   }
   Bytes bytes(std::string_view field) && {

@@ -25,7 +25,7 @@ class Session : public Commands<Session> {
   Session(Session&&) noexcept = default;
   Session& operator=(Session&&) noexcept = default;
 
-  /// Ends the session, and waits for a server of its own to end: it is killed after 10 seconds. More than
+  /// Ends the session, and waits for its own server to end: it is killed after 10 seconds. More than
   /// once does nothing. Another thread that waits for a reply gets Lost.
   void close() {
     boost::asio::post(state_->loop, [state = state_.get()] { state->session->close(); });
@@ -113,7 +113,7 @@ inline Session connect(std::string_view address = {}, const Options& options = O
   return Session(async_connect(address, options));
 }
 
-/// Starts a server of its own, as async_launch() does.
+/// Starts its own server, as async_launch() does.
 inline Session launch(std::string_view program = {}, const std::vector<std::string>& arguments = {},
                       const Options& options = Options::usual()) {
   return Session(async_launch(program, arguments, options));

@@ -81,7 +81,7 @@ async function inFile(path) {
     throw new LostError(error.message, { cause: error });
   }
   if (!regular) {
-    throw new TypeError(`${path} is no regular file; ${FILES}`);
+    throw new TypeError(`${path} is not a regular file; ${FILES}`);
   }
   const { addresses, token } = text.startsWith("{") ? announcement(path, text) : { addresses: text.split("\n") };
   const address = addresses.find((line) => USABLE.test(line));

@@ -7,7 +7,7 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * What an announce file says. It has each address on a line of its own, and the token in the last line (server/README.md).
+ * What an announce file says. It has each address on its own line, and the token in the last line (server/README.md).
  *
  * @param addresses of the server
  * @param token for TCP, or null

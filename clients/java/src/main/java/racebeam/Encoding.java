@@ -128,7 +128,7 @@ public enum Encoding {
     }
     int value = DIGITS[text.charAt(at) & 0xFF] << 4 | DIGITS[text.charAt(at + 1) & 0xFF];
     if (value < 0) {
-      throw new IllegalArgumentException("'" + text.substring(at, at + 2) + "' is no byte in hexadecimal");
+      throw new IllegalArgumentException("'" + text.substring(at, at + 2) + "' is not a byte in hexadecimal");
     }
     return value;
   }

@@ -54,7 +54,7 @@ final class Fields {
     return List.of(decoded);
   }
 
-  /** Of a request {@code watch NAME [since=FRAME] FIELD...}. */
+  /** The fields of a request {@code watch NAME [since=FRAME] FIELD...}. */
   private static List<String> watchedFields(List<String> words) {
     return words.stream().skip(1).filter(word -> word.indexOf('=') < 0).toList();
   }

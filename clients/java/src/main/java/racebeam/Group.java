@@ -7,7 +7,7 @@ import java.util.NoSuchElementException;
 /**
  * A group of a reply: its pairs of key and value.
  *
- * @param texts the values that are no bytes, in the order of the reply
+ * @param texts the values that are not bytes, in the order of the reply
  * @param bytes the decoded fields that are bytes, such as screen and ram
  */
 public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {

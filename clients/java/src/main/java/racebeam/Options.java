@@ -16,7 +16,7 @@ public record Options(String token, Duration timeout, SSLContext tls, int longes
   public static final Options DEFAULT = new Options(null, null, null, 1 << 28);
 
   /**
-   * The same with a token.
+   * Returns these options with a token.
    *
    * @param value the token
    * @return changed options
@@ -26,7 +26,7 @@ public record Options(String token, Duration timeout, SSLContext tls, int longes
   }
 
   /**
-   * The same with a time limit.
+   * Returns these options with a time limit.
    *
    * @param value the limit, or null
    * @return changed options
@@ -36,7 +36,7 @@ public record Options(String token, Duration timeout, SSLContext tls, int longes
   }
 
   /**
-   * The same with other trust.
+   * Returns these options with other trust.
    *
    * @param value what decides which certificates are trusted
    * @return changed options
@@ -46,7 +46,7 @@ public record Options(String token, Duration timeout, SSLContext tls, int longes
   }
 
   /**
-   * The same with another limit of replies.
+   * Returns these options with another limit of replies.
    *
    * @param value bytes
    * @return changed options

@@ -61,8 +61,8 @@ public final class Racebeam {
   }
 
   /**
-   * A session of a server of its own, which ends with the session. The program is that of the variable RACEBEAM_PROGRAM, or
-   * {@code racebeam} of the PATH.
+   * A session with a server that it starts, and that ends with it. The program is that of the variable RACEBEAM_PROGRAM,
+   * or {@code racebeam} of the PATH.
    *
    * @param options of {@code racebeam serve}, such as "--roms", DIR
    * @return the session
@@ -73,7 +73,7 @@ public final class Racebeam {
   }
 
   /**
-   * A session of a server of its own.
+   * A session with a server that it starts.
    *
    * @param program the program racebeam
    * @param options of {@code racebeam serve}

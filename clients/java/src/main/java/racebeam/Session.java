@@ -17,8 +17,8 @@ import java.util.stream.Collectors;
  * One session, with a method for each command. Threads may share it: each request gets its own reply.
  *
  * <p>Every method that asks throws {@link RefusedException} if the server refuses the request, and the session continues.
- * It throws {@link IOException} if the server has gone, does not answer in time, or sends what is no reply. The session has
- * then ended.
+ * It throws {@link IOException} if the server has gone, does not answer in time, or sends an invalid reply. The session
+ * has then ended.
  */
 public final class Session extends Commands implements AutoCloseable {
   private static final Pattern NOT_SHOWN = Pattern.compile("[^ -~]");
@@ -117,7 +117,7 @@ public final class Session extends Commands implements AutoCloseable {
         return new Outcome(null, new RefusedException(parts[1], parts.length > 2 ? parts[2] : ""));
       }
       if (!line.equals("ok") && !line.startsWith("ok ")) {
-        throw new IOException("the server sent what is no reply: '" + printable(line.substring(0, Math.min(60, line.length()))) + "'");
+        throw new IOException("the server sent an invalid reply: '" + printable(line.substring(0, Math.min(60, line.length()))) + "'");
       }
       List<Map<String, String>> groups = groups(line);
       ByteBuffer raw = ByteBuffer.wrap(connection.readBytes(takeRaw(groups)));
@@ -318,7 +318,7 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * The same, with the score, the progress of the episode and the stack of screens.
+   * Exports the state with the score, the progress of the episode and the stack of screens.
    *
    * @param name of the state
    * @return its bytes
@@ -352,7 +352,7 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * The same, and keeps the states in which the lists ended.
+   * Plays the lists, and keeps the states in which they ended.
    *
    * @param state its name
    * @param keep the beginning of the new names, which end in 0, 1 and so on

@@ -36,7 +36,7 @@ final class Transports {
   private static final String FILES = "; file:PATH takes the --ready-file or --announce file of a server";
   private static final long BETWEEN_TRIES = 50; // milliseconds
   private static final Pattern USABLE = Pattern.compile("(tcp:|tls:|unix:|pipes:).*");
-  private static final int SECONDS_TO_END = 10; // for a server of its own
+  private static final int SECONDS_TO_END = 10; // for its own server
 
   private Transports() {}
 
@@ -114,7 +114,7 @@ final class Transports {
   /** One at least. A pipe might block, and is refused. */
   private static List<String> linesOf(Path path) throws IOException {
     if (Files.exists(path) && !Files.isRegularFile(path)) {
-      throw new IllegalArgumentException(path + " is no regular file" + FILES);
+      throw new IllegalArgumentException(path + " is not a regular file" + FILES);
     }
     List<String> lines = new String(Files.readAllBytes(path), StandardCharsets.UTF_8).lines().toList();
     if (lines.isEmpty()) {

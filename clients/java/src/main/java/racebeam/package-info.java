@@ -12,6 +12,6 @@
  *
  * {@link racebeam.Racebeam} opens sessions. {@link racebeam.Session} has a method for each command. What the server
  * refuses is a {@link racebeam.RefusedException}, and the session continues. A server that has gone, that does not answer in
- * time, or that sends what is no reply, is an {@link java.io.IOException}, and the session has ended.
+ * time, or that sends an invalid reply, is an {@link java.io.IOException}, and the session has ended.
  */
 package racebeam;

@@ -98,7 +98,7 @@ class FaultsTest {
   void whatIsNoReplyIsQuotedForATerminal() throws IOException {
     try (Server server = new Server(line -> "\u001b[31mred\u00ff\n"); Session session = server.connect(Options.DEFAULT)) {
       IOException lost = assertThrows(IOException.class, () -> session.request("act FIRE"));
-      assertEquals("the server sent what is no reply: '\\x1b[31mred\\xff'", lost.getMessage());
+      assertEquals("the server sent an invalid reply: '\\x1b[31mred\\xff'", lost.getMessage());
     }
   }
 
@@ -114,7 +114,7 @@ class FaultsTest {
     assertEquals(100_001, largest[0]);
   }
 
-  /** A client in a process of its own. */
+  /** A client in its own process. */
   static final class InLittleMemory {
     public static void main(String[] arguments) throws Exception {
       try (Session session = Racebeam.connect(arguments[0])) {
@@ -152,7 +152,7 @@ class FaultsTest {
     assertEquals(file + " has other contents" + tail, refusal("file:" + file));
     Files.write(file, new byte[] {'{', 0, -1, -128, '\n'});
     assertEquals(file + " is not a whole announce file", refusal("file:" + file));
-    assertEquals(folder + " is no regular file" + tail, refusal("file:" + folder));
+    assertEquals(folder + " is not a regular file" + tail, refusal("file:" + folder));
     for (String time : new String[] {"", "x", "-1", "1e3", "99999999999999999999"}) {
       assertTrue(refusal("file:" + file + "?wait=" + time).endsWith("; ?wait= takes seconds, from 0 to 999999999"), time);
     }

@@ -15,7 +15,7 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-/** A method for each command, with a server of its own: the program that RACEBEAM_PROGRAM names. */
+/** A method for each command, with its own server: the program that RACEBEAM_PROGRAM names. */
 class ServerTest {
   @TempDir java.nio.file.Path folder;
   private Session session;
