@@ -231,7 +231,7 @@ std::shared_ptr<const Image> thinking_image() {
   return make_image(std::move(bytes), "thinking");
 }
 
-TEST_CASE("The screen before is what was shown a frame ago, be it of the same picture") {
+TEST_CASE("The screen before is what was shown a frame ago, even if the picture is the same") {
   Environment environment(thinking_image(), game(), plain());
   environment.set_drawing(Drawing::kEvery);
   std::vector<std::vector<std::uint8_t>> seen;
