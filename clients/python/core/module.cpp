@@ -1,9 +1,6 @@
 // The module racebeam._core.
 #include <nanobind/nanobind.h>
 
-#include <atomic>
-#include <cstdint>
-
 #include "clients/python/core/bindings.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
@@ -19,22 +16,11 @@ void bind_errors(nb::module_& m) {
   nb::exception<racebeam::InvalidInput>(m, "InvalidInput", bases);
 }
 
-// The types of nanobind belong to the whole process: a second interpreter that registers them takes them from
-// the first. The first interpreter that asks gets the module; the number of an interpreter is never used
-// again.
-bool is_first_interpreter() {
-  constexpr std::int64_t kNone = -1;
-  static std::atomic<std::int64_t> first = kNone;
-  const std::int64_t own = PyInterpreterState_GetID(PyInterpreterState_Get());
-  std::int64_t found = kNone;
-  return first.compare_exchange_strong(found, own) || found == own;
-}
-
 }  // namespace
 
-NB_MODULE(_core_of_first, m) {
+NB_MODULE(_core_unchecked, m) {
   m.doc() = "racebeam's machine in this process. Use the package racebeam, which is built on it.";
-  nb::set_leak_warnings(false);  // what threads hold when Python ends is no leak
+  nb::set_leak_warnings(false);  // threads may hold objects when Python ends
   bind_errors(m);
   racebeam::python::bind_enumerations(m);
   racebeam::python::bind_catalogue(m);
@@ -45,11 +31,30 @@ NB_MODULE(_core_of_first, m) {
   racebeam::python::bind_xla(m);
 }
 
-// Nothing is registered before the check.
+namespace {
+
+// Python runs this in the interpreter that imports the module. The types of nanobind belong to the whole
+// process, and a second interpreter that registers them would take them from the first. So nothing is
+// registered in a sub-interpreter. NumPy does not support sub-interpreters either.
+int fill_module(PyObject* module) {
+  constexpr auto kMainInterpreter = 0;
+  if (PyInterpreterState_GetID(PyInterpreterState_Get()) == kMainInterpreter)
+    return nanobind__core_unchecked_exec(module);
+  PyErr_SetString(
+      PyExc_ImportError,
+      "racebeam was imported in a sub-interpreter, and it works only in the main interpreter of a "
+      "process; import it there, or in another process");
+  return -1;
+}
+
+}  // namespace
+
+// Python 3.13 calls this in the main interpreter, whichever interpreter imports the module.
 extern "C" NB_EXPORT PyObject* PyInit__core() {
-  if (is_first_interpreter()) return PyInit__core_of_first();
-  PyErr_SetString(PyExc_ImportError,
-                  "another interpreter of this process has imported racebeam, and its objects work in one "
-                  "interpreter only; import it in the same interpreter, or in another process");
-  return nullptr;
+  PyObject* const definition = PyInit__core_unchecked();
+  if (definition == nullptr) return nullptr;
+  PyModuleDef_Slot* slot = reinterpret_cast<PyModuleDef*>(definition)->m_slots;
+  while (slot->slot != Py_mod_exec) ++slot;
+  slot->value = reinterpret_cast<void*>(fill_module);
+  return definition;
 }
