@@ -35,7 +35,7 @@ class Report:
         return files
 
     def document(self) -> str:
-        """report.md, which shows the tables and the figures."""
+        """The report in Markdown, which shows the tables and the figures."""
         sections = [f"# {self.title}", " ".join(self.introduction), *self.untested]
         sections += ["\n".join(f"- {line}" for line in made_from(self.sources))] if self.sources else []
         for part in self.parts:
