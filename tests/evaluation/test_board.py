@@ -124,7 +124,8 @@ class Board(Folder):
         self.assertIn("mine 1.0", index)
         self.assertNotIn("yours 1.0", index)
         self.assertIn("2.episode is no episode log", index)
-        self.assertIn("none/agent.toml cannot be read", index)
+        self.assertIn(">none/agent.toml cannot be read", index)
+        self.assertNotIn(str(self.root), index)
 
     def test_one_version_of_an_agent_and_one_image_of_a_game(self):
         submission(self.root / "a")

@@ -46,10 +46,15 @@ def build(folders: list[pathlib.Path], bootstrap: Bootstrap, viewer: str) -> Sit
             _check_images(folder, submission, images)
             found[submission.about.name] = submission
         except BadInput as error:
-            broken.append(str(error))
+            broken.append((folder, str(error)))
     if not found:
-        raise BadInput("; ".join(broken))
+        raise BadInput("; ".join(sentence for _, sentence in broken))
     return _site(list(found.values()), broken, bootstrap, viewer)
+
+
+def _from_here(folder: pathlib.Path, sentence: str) -> str:
+    """The sentence without the path of the folder's parent, which is nobody's business on a page."""
+    return sentence.replace(f"{folder.parent}/", "")
 
 
 def _check_images(folder: pathlib.Path, submission: Submission, images: dict[str, str]) -> None:
@@ -61,7 +66,9 @@ def _check_images(folder: pathlib.Path, submission: Submission, images: dict[str
     images.update(ours)
 
 
-def _site(submissions: list[Submission], broken: list[str], bootstrap: Bootstrap, viewer: str) -> Site:
+def _site(
+    submissions: list[Submission], broken: list[tuple[pathlib.Path, str]], bootstrap: Bootstrap, viewer: str
+) -> Site:
     files: dict[str, bytes | pathlib.Path] = {}
     pages = {}
     for place, submission in enumerate(submissions, 1):
@@ -74,10 +81,10 @@ def _site(submissions: list[Submission], broken: list[str], bootstrap: Bootstrap
         shown = [each for each in submissions if each.about.preset == preset]
         parts += _section(preset, shown, pages, bootstrap, files)
     if broken:
-        items = "".join(f'<li class="broken">{page.text(sentence)}</li>' for sentence in broken)
+        items = "".join(f'<li class="broken">{page.text(_from_here(*each))}</li>' for each in broken)
         parts.append(f"<h2>Not shown</h2>\n<ul>{items}</ul>")
     files["index.html"] = page.document("Scores of agents", *parts).encode()
-    return Site(files, broken, len(submissions))
+    return Site(files, [sentence for _, sentence in broken], len(submissions))
 
 
 def _section(
