@@ -2,11 +2,14 @@
 #include <fcntl.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/arguments/options.hpp"
@@ -27,6 +30,7 @@
 #include "cli/commands/with.hpp"
 #include "cli/connect/connect.hpp"
 #include "cli/connect/watch.hpp"
+#include "games/similar.hpp"
 #include "system/printable.hpp"
 
 namespace {
@@ -45,12 +49,44 @@ Each subcommand has a help text, such as racebeam serve --help.
 Exit status: 0 success; 1 failure, with one line on standard error that gives the reason; 2 usage error;
 3 to 5 the start of a server failed (see racebeam serve --help); 255 a classic client requested an action that does not exist.)";
 
-std::string subcommand_names(const CLI::App& app) {
-  std::string names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  }
+std::vector<std::string> subcommand_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
   return names;
+}
+
+// --NAME of each option.
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+// " did you mean A?", or "".
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  return racebeam::did_you_mean(word, std::vector<std::string_view>(known.begin(), known.end()));
+}
+
+std::string explain_no_subcommand(const CLI::App& app) {
+  const auto given = app.remaining();
+  const auto known = subcommand_names(app);
+  const std::string names = CLI::detail::join(known, ", ");
+  if (given.empty()) return "a subcommand is required: " + names;
+  const std::string meant = suggestion(given.front(), known);
+  return "'" + given.front() + "' is not a subcommand;" +
+         (meant.empty() ? " there are " : meant + " There are ") + names;
+}
+
+// The words that a subcommand does not take, and what the first option among them may have meant.
+std::string explain_extras(const CLI::App& command) {
+  const auto words = command.remaining();
+  const std::string sentence = "unknown argument: " + CLI::detail::join(words, " ");
+  const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
+  if (option == words.end()) return sentence;
+  const std::string meant = suggestion(option->substr(0, option->find('=')), option_names(command));
+  return meant.empty() ? sentence : sentence + ";" + meant;
 }
 
 // Tools from the time of ALE 0.6 call a program of that name.
@@ -68,15 +104,9 @@ std::vector<const char*> words_of(int argc, char** argv) {
 // An error message for the command line, with a pointer to the help text.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
-  if (chosen.empty()) {
-    const auto given = app.remaining();
-    return (given.empty() ? "a subcommand is required: "
-                          : "'" + given.front() + "' is not a subcommand; there are ") +
-           subcommand_names(app) + " (see racebeam --help)";
-  }
-  const std::string sentence = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)
-                                   ? "unknown argument: " + CLI::detail::join(chosen[0]->remaining(), " ")
-                                   : std::string(error.what());
+  if (chosen.empty()) return explain_no_subcommand(app) + " (see racebeam --help)";
+  const bool extras = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  const std::string sentence = extras ? explain_extras(*chosen[0]) : std::string(error.what());
   return sentence + " (see racebeam " + chosen[0]->get_name() + " --help)";
 }
 

@@ -7,13 +7,15 @@ namespace racebeam {
 namespace {
 
 struct Form {
-  std::string_view name, ending;
+  std::string_view name;  // as a recording's kind; empty: it is none
+  std::string_view ending;
   decltype(&make_png) make;
 };
 
 constexpr std::array kForms = {Form{"png", "", make_png},        Form{"gif", ".gif", make_gif},
                                Form{"y4m", ".y4m", make_y4m},    Form{"wav", ".wav", make_wav},
-                               Form{"webm", ".webm", make_webm}, Form{"mp4", ".mp4", make_mp4}};
+                               Form{"webm", ".webm", make_webm}, Form{"mp4", ".mp4", make_mp4},
+                               Form{"", ".png", make_picture}};
 
 const Form& form(MediaKind kind) { return kForms[static_cast<std::size_t>(kind)]; }
 
@@ -21,7 +23,7 @@ const Form& form(MediaKind kind) { return kForms[static_cast<std::size_t>(kind)]
 
 std::optional<MediaKind> media_kind(std::string_view name) {
   const auto found = std::ranges::find(kForms, name, &Form::name);
-  if (found == kForms.end()) return std::nullopt;
+  if (name.empty() || found == kForms.end()) return std::nullopt;
   return static_cast<MediaKind>(found - kForms.begin());
 }
 

@@ -1,4 +1,4 @@
-// A recording of frames or of sound, in one of six forms.
+// A recording of frames or of sound, in one of several forms.
 #pragma once
 
 #include <cstddef>
@@ -37,12 +37,12 @@ class Media {
   virtual void commit() = 0;
 };
 
-enum class MediaKind { kPng, kGif, kY4m, kWav, kWebm, kMp4 };
+enum class MediaKind { kPng, kGif, kY4m, kWav, kWebm, kMp4, kPicture };
 std::optional<MediaKind> media_kind(std::string_view name);  // png gif y4m wav webm mp4
 
 bool is_encoded(MediaKind kind);  // by ffmpeg, in its own process
 
-// The name of the file, or of the folder of PNGs: NAME/, NAME.gif and so on.
+// The name of the file, or of the folder of PNGs: NAME/, NAME.gif and so on; NAME.png of a picture.
 std::string file_name(MediaKind kind, const std::string& name);
 
 // `folder` must exist. Throws std::runtime_error.
@@ -53,6 +53,7 @@ std::unique_ptr<Media> make_png(const std::string& path, const Footage& footage,
 std::unique_ptr<Media> make_gif(const std::string& path, const Footage& footage, DiskBudget& budget);
 std::unique_ptr<Media> make_y4m(const std::string& path, const Footage& footage, DiskBudget& budget);
 std::unique_ptr<Media> make_wav(const std::string& path, const Footage& footage, DiskBudget& budget);
+std::unique_ptr<Media> make_picture(const std::string& path, const Footage& footage, DiskBudget& budget);
 
 std::unique_ptr<Media> make_webm(const std::string& path, const Footage& footage, DiskBudget& budget);
 std::unique_ptr<Media> make_mp4(const std::string& path, const Footage& footage, DiskBudget& budget);

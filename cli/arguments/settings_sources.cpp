@@ -11,6 +11,7 @@
 
 #include "cli/arguments/subcommand.hpp"
 #include "games/files/toml.hpp"
+#include "protocol/line/words.hpp"
 #include "system/input_file.hpp"
 
 namespace racebeam {
@@ -69,10 +70,13 @@ Values values_of(const toml::node& node, const std::string& where) {
   return values;
 }
 
-std::string names_of(const std::vector<CLI::Option*>& options) {
-  std::string names;
-  for (const CLI::Option* option : options) names += (names.empty() ? "" : ", ") + key_of(*option);
-  return names;
+[[noreturn]] void refuse_key(const std::string& path, const std::string& key,
+                             const std::vector<CLI::Option*>& options) {
+  std::vector<std::string> keys;
+  for (const CLI::Option* option : options) keys.push_back(key_of(*option));
+  const std::vector<std::string_view> known(keys.begin(), keys.end());
+  throw UsageError(path + ": unknown setting '" + key + "';" +
+                   advice(key, known, "there are " + CLI::detail::join(keys, ", ")));
 }
 
 FromFile read_file(const std::string& path, const std::vector<CLI::Option*>& options) {
@@ -92,8 +96,7 @@ FromFile read_file(const std::string& path, const std::vector<CLI::Option*>& opt
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
     const auto is_named = [&name](const CLI::Option* option) { return key_of(*option) == name; };
-    if (std::ranges::none_of(options, is_named))
-      throw UsageError(path + ": unknown setting '" + name + "'; there are " + names_of(options));
+    if (std::ranges::none_of(options, is_named)) refuse_key(path, name, options);
     file.values[name] = values_of(node, path + ": " + name);
   }
   return file;

@@ -95,7 +95,7 @@ class ScreenFolder {
     std::snprintf(name.data(), name.size(), "/%06d.png", number_++);
     machine.screen_rgb(rgb_);
     try {
-      write_png(path_ + name.data(), rgb_);
+      write_screen(path_ + name.data(), rgb_);
     } catch (const std::exception& error) {
       log(std::string(error.what()) + "; no further screen is recorded");
       failed_ = true;

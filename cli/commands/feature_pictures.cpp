@@ -29,7 +29,7 @@ std::size_t pixel_at(int x, int y) {
 void write(const std::string& path, const Picture& picture) {
   std::vector<std::uint8_t> rgb;
   for (const Rgb& colour : picture) rgb.insert(rgb.end(), {colour.r, colour.g, colour.b});
-  write_png(path, rgb);
+  write_screen(path, rgb);
 }
 
 void write(const std::string& path, const Colours& colours, Format format) {

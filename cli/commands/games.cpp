@@ -1,14 +1,19 @@
 #include "cli/commands/games.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/arguments/subcommand.hpp"
 #include "games/catalogue.hpp"
+#include "games/similar.hpp"
+#include "system/folded.hpp"
 
 namespace racebeam {
 namespace {
@@ -23,7 +28,10 @@ With --rules, RULE is the origin of the rule, B says whether player B gets rewar
 variations in which both play. FIXED is what --rules fixed corrects in the rule of ALE 0.12; docs/rules.md
 gives the reasons.
 
+With GAME, one game: the names of its actions, its controllers, and where its rule comes from.
+
 Examples:
+  racebeam games pong
   racebeam games | grep -i pong
   racebeam games --rules | grep -i wrap
   racebeam games --json | jq '.[] | select(.name == "pong").modes')";
@@ -126,21 +134,93 @@ nlohmann::ordered_json as_json(const CatalogueEntry& entry) {
   };
 }
 
-void print_json() {
+// All games, or the one of this name.
+void print_json(const std::string& name) {
   auto rows = nlohmann::ordered_json::array();
-  for (const CatalogueEntry& entry : catalogue()) rows.push_back(as_json(entry));
+  for (const CatalogueEntry& entry : catalogue())
+    if (name.empty() || entry.name == name) rows.push_back(as_json(entry));
   std::cout << rows.dump(1) << '\n';
+}
+
+const CatalogueEntry& entry_named(const std::string& name) {
+  const auto found = std::ranges::find(catalogue(), name, &CatalogueEntry::name);
+  if (found != catalogue().end()) return *found;
+  const std::string meant = did_you_mean(name, game_names());
+  throw std::invalid_argument("there is no game '" + name + "';" +
+                              (meant.empty() ? " racebeam games lists them" : meant));
+}
+
+void print_fact(std::string_view name, const std::string& fact) {
+  constexpr std::size_t kColumns = 100, kIndent = 14;
+  std::string line(name);
+  line.resize(kIndent, ' ');
+  append_folded(line, fact, kColumns, kIndent, kIndent);
+  std::cout << line << '\n';
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) (text += text.empty() ? "" : " ") += word;
+  return text;
+}
+
+std::string console_of(const Game& game) {
+  const Properties properties = game.properties_for(recognised_md5(game));
+  const std::string scheme(properties.scheme),
+      format(kFormatNames[static_cast<std::size_t>(properties.format)]);
+  return std::string(name_of(properties.left)) + " on the left, " + std::string(name_of(properties.right)) +
+         " on the right; scheme " + (scheme.empty() ? "auto" : scheme) + ", format " + format;
+}
+
+std::string modes_of(const Game& game) {
+  const std::string two =
+      game.two_player_modes.empty() ? "" : "; of two players: " + ranges(game.two_player_modes);
+  return ranges(game.modes) + two + " (default " + std::to_string(game.default_mode) + ")";
+}
+
+std::string rule_of(const Game& game) {
+  if (!game.has_rule()) return "none: there is no score, and no end";
+  const std::string whose = game.rule_source == RuleSource::kRacebeam ? "racebeam's own" : "that of ALE 0.12";
+  return whose + (game.has_second_reward() ? "; player B gets rewards, too" : "");
+}
+
+void print_game(const CatalogueEntry& entry) {
+  const auto game = find_game(entry.name);
+  print_fact("name", game->name + ": " + game->title);
+  print_fact("image", "MD5 " + recognised_md5(*game) + (entry.built_in ? ", part of this program" : ""));
+  print_fact("console", console_of(*game));
+  print_fact("modes", modes_of(*game));
+  print_fact("difficulties", ranges(game->difficulties) + " (default 0)");
+  print_fact("minimal", joined(names(game->minimal_actions)));
+  print_fact("legal", joined(names(game->legal_actions)));
+  print_fact("rule", rule_of(*game));
+  if (game->fixed) print_fact("rules fixed", correction(*game));
+}
+
+struct GamesOptions {
+  std::string name;
+  bool json = false, rules = false;
+};
+
+void print(const GamesOptions& options) {
+  const CatalogueEntry* const one = options.name.empty() ? nullptr : &entry_named(options.name);
+  if (options.json) return print_json(options.name);
+  if (one) return print_game(*one);
+  options.rules ? print_rules() : print_table();
 }
 
 }  // namespace
 
 void add_games(Subcommand& program) {
-  const auto json = std::make_shared<bool>(false), rules = std::make_shared<bool>(false);
-  Subcommand command = program.add_subcommand("games", "List the games of the catalogue", kGamesFooter);
-  const Option as_array = command.flag("--json", *json, "Print a JSON array instead of a table");
-  command.flag("--rules", *rules, "Print the origin of each rule, and what --rules fixed corrects")
-      .excludes(as_array);
-  command.runs([json, rules] { *json ? print_json() : *rules ? print_rules() : print_table(); });
+  const auto options = std::make_shared<GamesOptions>();
+  Subcommand command =
+      program.add_subcommand("games", "List the games of the catalogue, or describe one", kGamesFooter);
+  const Option name = command.option("GAME", options->name, "Describe only this game");
+  const Option as_array = command.flag("--json", options->json, "Print a JSON array instead of a table");
+  command.flag("--rules", options->rules, "Print the origin of each rule, and what --rules fixed corrects")
+      .excludes(as_array)
+      .excludes(name);
+  command.runs([options] { print(*options); });
 }
 
 }  // namespace racebeam

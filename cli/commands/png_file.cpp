@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "recording/atomic_file.hpp"
@@ -12,7 +13,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kPngWidth = 160, kChannels = 3;
+constexpr std::size_t kChannels = 3;
 
 std::vector<std::uint8_t> doubled(std::span<const std::uint8_t> rgb) {
   std::vector<std::uint8_t> wide;
@@ -24,16 +25,16 @@ std::vector<std::uint8_t> doubled(std::span<const std::uint8_t> rgb) {
   return wide;
 }
 
-std::string encoded(std::span<const std::uint8_t> rgb, const std::string& path) {
-  const auto wide = doubled(rgb);
+std::vector<std::uint8_t> encoded(std::span<const std::uint8_t> rgb, std::size_t width,
+                                  const std::string& path) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
-  image.width = 2 * kPngWidth;
-  image.height = static_cast<png_uint_32>(rgb.size() / (kPngWidth * kChannels));
+  image.width = static_cast<png_uint_32>(width);
+  image.height = static_cast<png_uint_32>(rgb.size() / (width * kChannels));
   image.format = PNG_FORMAT_RGB;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-  std::string bytes(size, '\0');
-  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, wide.data(), 0, nullptr) == 0)
+  std::vector<std::uint8_t> bytes(size);
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0)
     throw std::runtime_error("cannot write '" + path + "': " + image.message);
   bytes.resize(size);
   return bytes;
@@ -41,9 +42,18 @@ std::string encoded(std::span<const std::uint8_t> rgb, const std::string& path) 
 
 }  // namespace
 
+void write_png(const std::string& path, std::span<const std::uint8_t> rgb, std::size_t width) {
+  write_picture_file(path, encoded(rgb, width, path));
+}
+
+void write_screen(const std::string& path, std::span<const std::uint8_t> rgb) {
+  constexpr std::size_t kWidth = 160;
+  write_png(path, doubled(rgb), 2 * kWidth);
+}
+
 // A device or a pipe is written to; another file could not replace it.
-void write_png(const std::string& path, std::span<const std::uint8_t> rgb) {
-  const std::string bytes = encoded(rgb, path);
+void write_picture_file(const std::string& path, std::span<const std::uint8_t> picture) {
+  const std::string_view bytes(reinterpret_cast<const char*>(picture.data()), picture.size());
   std::error_code none;
   if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none)) {
     if (std::ofstream(path, std::ios::binary) << bytes << std::flush) return;

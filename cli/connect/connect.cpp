@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <racebeam/client.hpp>
 #include <sstream>
 #include <string>
 
 #include "cli/arguments/subcommand.hpp"
+#include "cli/connect/completion.hpp"
+#include "cli/connect/help_lines.hpp"
 #include "cli/connect/line_editor.hpp"
+#include "cli/connect/server_address.hpp"
 #include "cli/terminal/display.hpp"
 #include "system/input_file.hpp"
 #include "system/printable.hpp"
@@ -22,19 +24,20 @@ namespace {
 
 constexpr auto kConnectFooter =
     R"(Sends each line to a server of the line protocol, and prints its reply. On a terminal, lines can be edited, and
-earlier lines are recalled with the arrow keys; a value of more than 200 characters is shown by its length. Lines
-that begin with a colon are for this program:
+earlier lines are recalled with the arrow keys; Tab completes commands, games, keys, fields and actions; a value of
+more than 200 characters is shown by its length. Replies of help are folded. Lines that begin with a colon are for
+this program:
   :screen     show the screen in colours, as --graphics says
   :help       list these lines; help is the server's
   :quit       end, as the end of the input does
 
-Address: tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, or file:PATH, a server's --ready-file or
---announce file. Without one, the variable RACEBEAM_ADDRESS is used.
+Address: tcp://HOST:PORT, or HOST:PORT for short, tls://HOST:PORT, unix:PATH, pipes:PREFIX, or file:PATH, a server's
+--ready-file or --announce file. Without one, the variable RACEBEAM_ADDRESS is used.
 
 Exit status: 0; 1 if the server is not there or goes; with --strict also at the first error.
 
 Examples:
-  racebeam connect tcp://127.0.0.1:7800
+  racebeam connect localhost:7800
   printf 'load beamfall\nact FIRE*30\n:screen\n' | racebeam connect unix:/run/racebeam/socket)";
 
 constexpr auto kLocalHelp =
@@ -85,7 +88,7 @@ class Conversation {
       : session_(std::move(session)),
         strict_(options.strict),
         graphics_(options.graphics),
-        editor_("racebeam> ", commands(session_)) {}
+        editor_("racebeam> ", [this](auto before, auto word) { return completion_.words(before, word); }) {}
 
   // Returns the exit status.
   int hold() {
@@ -99,14 +102,15 @@ class Conversation {
   }
 
  private:
-  // The commands of the server, for completion: help begins with "commands: hello help ...;".
-  static std::vector<std::string> commands(client::Session& session) {
-    std::vector<std::string> words{":screen", ":help", ":quit"};
-    const std::string told = session.help();
-    std::istringstream list(told.substr(0, told.find(';')));
-    list.ignore(std::numeric_limits<std::streamsize>::max(), ':');
-    for (std::string word; list >> word;) words.push_back(word);
-    return words;
+  // For completion.
+  std::string told(const std::string& request) {
+    try {
+      constexpr std::string_view kOk = "ok ";
+      const std::string line = session_.request(request).line();
+      return line.substr(std::min(kOk.size(), line.size()));
+    } catch (const client::Refused&) {
+      return {};
+    }
   }
 
   // Prints what a line leads to. False if it was refused.
@@ -117,13 +121,21 @@ class Conversation {
       } else if (line.starts_with(':')) {
         std::cout << kLocalHelp << std::endl;
       } else {
-        const std::string reply = session_.request(line).line();
-        std::cout << printable(editor_.interactive() ? shortened(reply) : reply) << std::endl;
+        show(line, printable(session_.request(line).line()));
       }
       return true;
     } catch (const client::Refused& refused) {
       std::cout << "error " << printable(refused.code()) << ' ' << printable(refused.sentence()) << std::endl;
       return false;
+    }
+  }
+
+  void show(const std::string& line, const std::string& reply) const {
+    const std::string command = line.substr(0, line.find(' '));
+    if (command == "help" || command == "?") {
+      std::cout << help_lines(reply, columns_of_output()) << std::endl;
+    } else {
+      std::cout << (editor_.interactive() ? shortened(reply) : reply) << std::endl;
     }
   }
 
@@ -146,6 +158,8 @@ class Conversation {
   client::Session session_;
   bool strict_;
   Graphics graphics_;
+  Completion completion_{[this](const std::string& request) { return told(request); },
+                         {":screen", ":help", ":quit"}};
   LineEditor editor_;
 };
 
@@ -153,7 +167,7 @@ int connect(ConnectOptions options) {
   if (!options.token_file.empty()) options.client.token = token_in(options.token_file);
   if (options.timeout > 0)
     options.client.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * options.timeout));
-  return Conversation(client::connect(options.address, options.client), options).hold();
+  return Conversation(client::connect(server_address(options.address), options.client), options).hold();
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -21,25 +22,35 @@ namespace {
 constexpr int kMostHistory = 1000;  // lines
 
 // libedit has one state for the program, and its callbacks have no argument of ours.
-std::vector<std::string>& completions() {
-  static std::vector<std::string> words;
-  return words;
+struct Completions {
+  LineEditor::Complete complete;
+  std::vector<std::string> words;  // that are offered
+};
+Completions& completions() {
+  static Completions all;
+  return all;
 }
 
-// Called until it returns null: the next word that begins with `text`, in memory that libedit frees.
-char* complete(const char* text, int state) {
+// Called until it returns null: the next word, in memory that libedit frees.
+char* next_word(const char*, int state) {
   static std::size_t next = 0;
   if (state == 0) next = 0;
-  while (next < completions().size()) {
-    const std::string& word = completions()[next++];
-    if (word.starts_with(text)) return ::strdup(word.c_str());
-  }
-  return nullptr;
+  const auto& words = completions().words;
+  return next < words.size() ? ::strdup(words[next++].c_str()) : nullptr;
 }
 
-char** complete_first_word(const char* text, int begin, int) {
+// No exception may pass through libedit. What cannot be completed stays as it is.
+char** complete_word(const char* text, int begin, int) {
   ::rl_attempted_completion_over = 1;  // no file names
-  return begin == 0 ? ::rl_completion_matches(text, complete) : nullptr;
+  auto& [complete, words] = completions();
+  try {
+    words = complete(std::string_view(::rl_line_buffer).substr(0, static_cast<std::size_t>(begin)), text);
+  } catch (const std::exception&) {
+    words.clear();
+  }
+  const bool goes_on = words.size() == 1 && (words[0].ends_with('=') || words[0].ends_with(':'));
+  ::rl_completion_append_character = goes_on ? '\0' : ' ';
+  return ::rl_completion_matches(text, next_word);
 }
 
 // Where the history is kept (XDG base directories); empty if there is no place.
@@ -53,18 +64,22 @@ std::filesystem::path history_file() {
 
 }  // namespace
 
-LineEditor::LineEditor(std::string prompt, std::vector<std::string> words)
+LineEditor::LineEditor(std::string prompt, Complete complete)
     : prompt_(std::move(prompt)), interactive_(::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0) {
   if (!interactive_) return;
-  completions() = std::move(words);
-  ::rl_attempted_completion_function = complete_first_word;
+  static char blank[] = " ";  // libedit's type has no const
+  completions().complete = std::move(complete);
+  ::rl_basic_word_break_characters = ::rl_completer_word_break_characters = blank;
+  ::rl_attempted_completion_function = complete_word;
   ::using_history();
   ::stifle_history(kMostHistory);
   ::read_history(history_file().c_str());
 }
 
 LineEditor::~LineEditor() {
-  if (!interactive_ || history_file().empty()) return;
+  if (!interactive_) return;
+  completions().complete = nullptr;
+  if (history_file().empty()) return;
   std::error_code ignored;  // without a history, everything else works
   std::filesystem::create_directories(history_file().parent_path(), ignored);
   ::write_history(history_file().c_str());
@@ -80,7 +95,7 @@ std::optional<std::string> LineEditor::next() {
   return line;
 }
 #else
-LineEditor::LineEditor(std::string prompt, std::vector<std::string>)
+LineEditor::LineEditor(std::string prompt, Complete)
     : prompt_(std::move(prompt)), interactive_(::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0) {}
 
 LineEditor::~LineEditor() = default;

@@ -1,17 +1,22 @@
 // Lines that a person types, or that come from a pipe.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace racebeam {
 
 class LineEditor {
  public:
+  // The words that may stand where `word` begins, after `before` in the same line.
+  using Complete = std::function<std::vector<std::string>(std::string_view before, std::string_view word)>;
+
   // On a terminal, lines can be edited, earlier ones are recalled, also those of earlier sessions, and the
-  // tabulator completes a line's first word to one of `words`. Elsewhere, there is no prompt.
-  LineEditor(std::string prompt, std::vector<std::string> words);
+  // tabulator completes words. Elsewhere, there is no prompt.
+  LineEditor(std::string prompt, Complete complete);
   ~LineEditor();  // writes the history
   LineEditor(const LineEditor&) = delete;
   LineEditor& operator=(const LineEditor&) = delete;

@@ -15,6 +15,7 @@
 #include "cli/arguments/subcommand.hpp"
 #include "cli/connect/browser.hpp"
 #include "cli/connect/page_address.hpp"
+#include "cli/connect/server_address.hpp"
 #include "cli/terminal/display.hpp"
 #include "system/printable.hpp"
 
@@ -153,7 +154,7 @@ void open_page(const WatchOptions& options) {
 
 void watch(const WatchOptions& options) {
   if (!options.terminal) return open_page(options);
-  Watcher watcher(client::connect(options.address), options.session);
+  Watcher watcher(client::connect(server_address(options.address)), options.session);
   ::isatty(STDOUT_FILENO) != 0 ? watcher.watch(options.graphics) : watcher.show(options.graphics);
 }
 

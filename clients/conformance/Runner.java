@@ -114,6 +114,10 @@ public final class Runner {
           print(this::reply);
         }
       }
+      case "picture" -> {
+        session.savePng(Path.of(rest));
+        return "picture " + digest(Files.readAllBytes(Path.of(rest)));
+      }
       case "keep" -> variables.put(parts[0], last.text(parts[1]));
       case "close" -> close();
       case "timeout" -> options = options.withTimeout(Duration.ofSeconds(Long.parseLong(rest)));

@@ -70,6 +70,14 @@ step() {
     '>') racebeam_send "$*" && reply || { local status=$?; ((status == 0)) || failed $status; } ;;
     send) racebeam_send "$*" || failed $? ;;
     receive) for ((n = 0; n < $1; ++n)); do reply; done ;;
+    picture)
+      if racebeam_save_png "$1"; then
+        local digits
+        digits=$(_racebeam_octets <"$1")
+        echo "picture $((${#digits} / 2)):$(racebeam_sum <<<"$digits")"
+      else
+        failed $?
+      fi ;;
     keep) printf -v "$1" '%s' "$(racebeam_value "$2")" ;;
     close) racebeam_close ;;
     timeout) racebeam_timeout=$1 ;;

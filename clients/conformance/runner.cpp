@@ -133,6 +133,13 @@ class Runner {
     return {};
   }
 
+  Printed picture(const std::string& rest, const Words&) {
+    session_->save_png(rest);
+    std::ifstream file(rest, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    return "picture " + digest({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  }
+
   Printed keep(const std::string&, const Words& words) {
     variables_[words[0]] = last_.text(words[1]);
     return {};
@@ -230,6 +237,7 @@ class Runner {
       {">", &Runner::ask},
       {"send", &Runner::send},
       {"receive", &Runner::receive},
+      {"picture", &Runner::picture},
       {"keep", &Runner::keep},
       {"close", &Runner::close_session},
       {"timeout", &Runner::timeout},

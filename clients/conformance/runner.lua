@@ -133,6 +133,14 @@ function steps.receive(_, count)
   end
 end
 
+function steps.picture(_, path)
+  game:save_png(path)
+  local file = assert(io.open(path, "rb"))
+  local bytes = file:read("*a")
+  file:close()
+  return "picture " .. adler(bytes)
+end
+
 function steps.keep(_, name, key)
   variables[name] = last[key]
 end

@@ -109,6 +109,10 @@ const steps = {
       await say(reply);
     }
   },
+  async picture(_, path) {
+    await session.savePng(path);
+    return `picture ${adler(readFileSync(path))}`;
+  },
   keep(_, name, key) {
     variables[name] = last[key];
   },

@@ -101,6 +101,10 @@ class Runner:
         for _ in range(int(count)):
             print(outcome(self.reply))
 
+    def picture(self, path):
+        self.session.save_png(path)
+        return f"picture {shown(pathlib.Path(path).read_bytes())}"
+
     def keep(self, variable, key):
         self.variables[variable] = str(self.last[key])
 

@@ -141,6 +141,7 @@ def started(racebeam, roms=None):
                 "AUTHORITY": str(chain),
                 "IMAGE": base64.b64encode((ROOT / "games/homebrew/updraft.bin").read_bytes()).decode(),
                 "LONG": "A" * 110000,
+                "PICTURE": f"{folder}/picture.png",
                 "RACEBEAM_BINARY": str(racebeam),
                 **{name: os.environ[name] for name in ("PATH", "HOME", "JAVA_HOME") if name in os.environ},
             }

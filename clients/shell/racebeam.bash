@@ -180,6 +180,12 @@ racebeam_value() {
   printf '%s\n' "${rest%% *}"
 }
 
+# racebeam_save_png PATH [MACHINE]: saves a picture of the screen as a PNG file.
+racebeam_save_png() {
+  racebeam_ask shot ${2:+"machine=$2"} || return
+  { racebeam_value data | base64 -d >"$1"; } 2>/dev/null || _racebeam_fail 4 "the picture cannot be written to $1"
+}
+
 # Remembers what a request that was granted changes about later replies.
 _racebeam_follow() {
   local seen word

@@ -93,8 +93,11 @@ def commands(protocol):
 
 
 def flags(protocol):
-    """Fields that are true or false, and what `act` says with them."""
-    return [*(field.name for field in protocol.fields if field.type == "flag"), "over"]
+    """The keys of replies that are true or false: fields, settings, and those of commands."""
+    rows = [row.name for row in (*protocol.fields, *protocol.settings) if row.type == "flag"]
+    replies = [reply for command in protocol.commands for reply in (command.reply, command.groups)]
+    keys = [key.removesuffix("?") for reply in replies for key, kind in reply.items() if kind == "flag"]
+    return list(dict.fromkeys([*rows, *keys]))
 
 
 def table(pairs):
@@ -108,7 +111,7 @@ def fields(protocol):
         f"  -- What bytes are written in where the client does not say.\n  usual = {usual},\n"
         f"  -- Bytes of fields that always have the same number.\n  sizes = {sizes},\n"
         f"  -- Bytes of a pixel of fields that have the size of the screen.\n  pixels = {pixels},\n"
-        f"  -- What is true or false: 0 would be true in Lua.\n  flags = "
+        f"  -- What is true or false where its value is 1 or 0: 0 would be true in Lua.\n  flags = "
         f"{table((name, 'true') for name in flags(protocol))},\n}}\n"
     )
 

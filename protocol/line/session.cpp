@@ -81,6 +81,7 @@ Session::~Session() {
 void Session::leave() {
   pacer.cancel();
   recording.reset();
+  picture.reset();
   sharing.reset();
   watching.clear();
 }
@@ -159,7 +160,9 @@ bool Session::pauses() const {
           input.lines(kLastRequests + 1) == kLastRequests);
 }
 
-bool Session::waits() const { return pacer.in_progress() && recording && recording->is_behind(); }
+bool Session::waits() const {
+  return pacer.in_progress() && ((recording && recording->is_behind()) || (picture && picture->is_behind()));
+}
 
 // Works on a request until `end`. Returns false if there is nothing to do before more input comes.
 bool Session::go_on(Clock::time_point end) {

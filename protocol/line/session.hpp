@@ -24,6 +24,7 @@
 namespace racebeam {
 
 struct CommandTable;
+class Recording;
 class SessionRecording;
 
 // Frames that a machine may run beyond those of the request. Power-on and an ordinary reset take about 130.
@@ -62,6 +63,7 @@ class Session {
   std::int64_t episode = 1;                     // of the loaded machine, from 1
   int last_action = 0;                          // of player A, played on it
   std::unique_ptr<SessionRecording> recording;  // null if nothing is being recorded
+  std::shared_ptr<Recording> picture;           // that the request writes; null if it writes none
   std::unique_ptr<Sharing> sharing;             // null if the session is not shared
   Watching watching;                            // shared sessions that this one watches
 

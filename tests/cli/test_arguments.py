@@ -150,6 +150,21 @@ class Options(Case):
         self.refused(2, "DIR is required", "roms")
         self.refused(2, "OUT.png is required", "png")
 
+    def test_an_unknown_option_is_answered_with_similar_names(self):
+        for meant, given, *words in (
+            ("--frames", "--frams", "bench", "--rom", GAME, "--frams"),
+            ("--frame-skip", "--frameskip=4", "bench", "--rom", GAME, "--frameskip=4"),
+            ("--max-states", "--max-state 3", "serve", "--stdio", "--max-state", "3"),
+            ("--strict", "--stict", "connect", "tcp://127.0.0.1:1", "--stict"),
+        ):
+            with self.subTest(words=words):
+                self.refused(2, f"unknown argument: {given}; did you mean {meant}", *words)
+        self.refused(2, r"unknown argument: --colour \(see", "bench", "--rom", GAME, "--colour")
+
+    def test_an_unknown_subcommand_is_answered_with_similar_names(self):
+        self.refused(2, r"'conect' is not a subcommand; did you mean connect\? There are serve, ", "conect")
+        self.refused(2, "'conquer' is not a subcommand; ", "conquer")
+
     def test_unknown_words_are_named(self):
         self.refused(2, "--faster", "bench", "--rom", GAME, "--faster")
         self.refused(2, "some", "bench", "--rom", GAME, "--screen", "some")

@@ -1,13 +1,16 @@
 """racebeam connect: a line client for people and for scripts."""
 
+import fcntl
 import os
 import pathlib
 import pty
 import re
 import select
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 import unittest
 
@@ -51,6 +54,27 @@ class Piped(unittest.TestCase):
     def test_the_address_may_be_in_the_environment(self):
         done = connect("", "hello\n", RACEBEAM_ADDRESS=f"unix:{self.server.path('s')}")
         self.assertRegex(done.stdout, r"^ok server=racebeam/\S+ protocol=1 ")
+
+    def test_the_address_may_be_host_and_port(self):
+        for host in ("127.0.0.1", "localhost"):
+            done = connect(f"{host}:{self.server.port()}", "hello\n")
+            self.assertRegex(done.stdout, r"^ok server=racebeam/\S+ protocol=1 ")
+        self.assertIn("refused", connect("127.0.0.1:1", "hello\n").stderr)
+        self.assertIn("tcp://127.0.0.1:1", connect("127.0.0.1:1", "hello\n").stderr)
+
+    def test_without_an_address_it_says_so(self):
+        done = connect("", "hello\n", RACEBEAM_ADDRESS="")
+        self.assertIn("there is no address, and the variable RACEBEAM_ADDRESS is not set", done.stderr)
+
+    def test_help_is_folded(self):
+        lines = connect(self.address, "help settings\nhelp act\nhelp\nstats\n").stdout.splitlines()
+        self.assertEqual(lines[0], "ok settings of load, as KEY=VALUE:")
+        self.assertIn("  preset (none or a preset's name): a set of settings from the literature; other", lines)
+        self.assertIn("      keys override it", lines)
+        self.assertIn("  example: act FIRE RIGHT*10 3", lines)
+        self.assertIn("  help COMMAND explains one", lines)
+        self.assertEqual([line for line in lines if len(line) > 80 and not line.startswith("ok requests=")], [])
+        self.assertRegex(lines[-1], "^ok requests=")
 
     def test_strict_ends_at_the_first_error(self):
         done = connect(self.address, "nonsense\nhello\n", "--strict")
@@ -207,11 +231,13 @@ class Typed(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.state = folder.name
 
-    def run_typed(self, *keys):
-        """What the terminal shows. Each of `keys` is typed after a prompt."""
+    def run_typed(self, *keys, columns=0):
+        """What the terminal shows. Each of `keys` is typed after a prompt. columns: its width, if it is known."""
         words = [BINARY, "connect", f"tcp://127.0.0.1:{self.server.port()}"]
         child, terminal = pty.fork()
         if child == 0:
+            if columns:
+                fcntl.ioctl(0, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
             os.execve(BINARY, words, {**os.environ, "XDG_STATE_HOME": self.state, "TERM": "xterm"})
         shown, waiting, until = "", list(keys), time.monotonic() + PATIENCE
         prompts = 1
@@ -243,6 +269,44 @@ class Typed(unittest.TestCase):
         if not self.edits():
             self.skipTest("built without libedit")
         self.assertIn("error no-game", self.run_typed("difficul\t\n", ":quit\n"))
+
+    def test_games_keys_fields_actions_and_states_are_completed(self):
+        if not self.edits():
+            self.skipTest("built without libedit")
+        shown = self.run_typed(
+            "load beam\tseed=7 stic\t0 preset=dq\t\n",
+            "act fi\t\n",
+            "act FIRE/righ\t\n",
+            "save here\n",
+            "restore he\t\n",
+            "help fie\t\n",
+            "open 2 autoreset=sa\t\n",
+            "observe screen:zl\t\n",
+            ":quit\n",
+        )
+        for reply in (
+            "sticky=0 mode=0",
+            "preset=dqn2015",
+            "ok state=here",
+            "ok fields of observe and look:",
+            "ok machines=2 autoreset=same-step",
+            "ok fields=screen",
+        ):
+            self.assertIn(reply, shown)
+        self.assertIn("act FIRE/RIGHT", shown)
+        self.assertNotIn("error", shown)
+
+    def test_what_the_server_refuses_is_not_completed(self):
+        if not self.edits():
+            self.skipTest("built without libedit")
+        self.assertIn("error no-game", self.run_typed("act fi\t\n", ":quit\n"))
+
+    def test_help_has_the_width_of_the_terminal(self):
+        for columns in (50, 100):
+            shown = self.run_typed("help settings\n", ":quit\n", columns=columns)
+            lines = [len(line) for line in shown.replace("\r", "").splitlines() if line.startswith("  ")]
+            self.assertLessEqual(max(lines), columns)
+            self.assertGreater(max(lines), columns - 15)
 
     @staticmethod
     def edits():

@@ -58,6 +58,35 @@ class Games(unittest.TestCase):
         )
         self.assertRegex(next(row for row in rows if row.startswith("warlords ")), r"racebeam +yes +1-3 5-8 10-13")
 
+    def test_one_game_is_described(self):
+        lines = answer("games", "pong").splitlines()
+        self.assertEqual(
+            lines,
+            [
+                "name          pong: Pong",
+                "image         MD5 60e0ea3cbe0913d39803477945e9e5ec",
+                "console       paddles on the left, joystick on the right; scheme auto, format auto",
+                "modes         0-1 (default 0)",
+                "difficulties  0-3 (default 0)",
+                "minimal       NOOP FIRE RIGHT LEFT RIGHTFIRE LEFTFIRE",
+                "legal         NOOP FIRE RIGHT LEFT RIGHTFIRE LEFTFIRE",
+                "rule          that of ALE 0.12",
+            ],
+        )
+        self.assertIn("racebeam's own; player B gets rewards, too", answer("games", "warlords"))
+        self.assertRegex(answer("games", "seaquest"), r"rules fixed +The score may wrap at 1000000\.")
+        self.assertRegex(answer("games", "tennis"), r"modes +0 2; of two players: 1 3 \(default 0\)")
+        self.assertIn("part of this program", answer("games", "beamfall"))
+        self.assertTrue(all(len(line) <= 100 for line in answer("games", "seaquest").splitlines()))
+
+    def test_one_game_as_json_is_its_row(self):
+        self.assertEqual(json.loads(answer("games", "pong", "--json")), [self.games["pong"]])
+
+    def test_an_unknown_game_is_answered_with_similar_names(self):
+        self.assertEqual(run("games", "pongg"), (1, b"", ["racebeam: there is no game 'pongg'; did you mean pong?"]))
+        self.assertIn("there is no game 'xyzzy'; racebeam games lists them", run("games", "xyzzy")[2][0])
+        self.assertEqual(run("games", "pong", "--rules")[0], 2)
+
     def test_the_table_has_a_row_for_each(self):
         rows = answer("games").splitlines()
         self.assertEqual([row.split()[0].rstrip("*") for row in rows[1:]], list(self.games))

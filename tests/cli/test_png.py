@@ -1,6 +1,8 @@
 """racebeam png: the picture shows the screen of the client's line."""
 
+import base64
 import os
+import re
 import resource
 import stat
 import struct
@@ -109,6 +111,93 @@ class Png(unittest.TestCase):
         width, height, rows = self.picture(lines.decode().splitlines()[2])
         self.assertEqual((width, height), (2 * WIDTH, HEIGHT))
         self.assertGreater(len(set(rows)), 5)
+
+    def replies(self, *requests):
+        """What a server answers, as bytes."""
+        lines = "".join(f"{request}\n" for request in ("load beamfall seed=7 sticky=0 frame_skip=4", *requests))
+        status, printed, errors = run("serve", "--stdio", data=lines.encode())
+        self.assertEqual((status, errors), (0, []))
+        return printed
+
+    def shown(self, replies, *words):
+        """The picture that replies give: width, height and rows."""
+        status, printed, errors = run("png", self.path, *words, data=replies)
+        self.assertEqual((status, printed, errors), (0, b"", []))
+        with open(self.path, "rb") as file:
+            return read_png(file.read())
+
+    def test_a_reply_in_each_encoding_is_the_same_picture(self):
+        first = self.shown(self.replies("act FIRE*30", "look screen"))
+        self.assertEqual(first[:2], (2 * WIDTH, HEIGHT))
+        self.assertGreater(len(set(first[2])), 5)
+        for field in ("screen", "rgb"):
+            for encoding in ("hex", "rle", "base64", "zlib", "raw"):
+                with self.subTest(field=field, encoding=encoding):
+                    replies = self.replies("act FIRE*30", f"look lives ram:raw {field}:{encoding} palette", "stats")
+                    self.assertEqual(self.shown(replies), first)
+                    self.assertEqual(self.shown(replies, "--field", field), first)
+                    if encoding != "raw":
+                        self.assertEqual(self.shown(replies, "--encoding", encoding), first)
+            replies = self.replies(f"observe reward {field}:delta", "act FIRE*20", "act FIRE*10")
+            self.assertEqual(self.shown(replies, "--encoding", "delta"), first)
+
+    def test_a_single_reply_without_its_load_is_enough(self):
+        replies = self.replies("act FIRE*30", "look screen:zlib")
+        self.assertEqual(self.shown(replies.splitlines()[-1]), self.shown(replies))
+
+    def test_grey_and_resized_screens_keep_their_size(self):
+        for field, size in (
+            ("grey", (2 * WIDTH, HEIGHT)),
+            ("grey84", (84, 84)),
+            ("grey84x4", (84, 4 * 84)),
+            ("grey40x30x2", (40, 60)),
+            ("rgb40x30x1", (40, 30)),
+        ):
+            for encoding in ("hex", "zlib", "delta", "raw"):
+                with self.subTest(field=field, encoding=encoding):
+                    replies = self.replies(f"observe {field}:{encoding}", "act FIRE*9")
+                    words = ("--encoding", "delta") if encoding == "delta" else ()
+                    width, height, rows = self.shown(replies, *words)
+                    self.assertEqual((width, height), size)
+                    self.assertGreater(len(set(rows)), 5)
+                    if "rgb" not in field:
+                        self.assertTrue(all(row[0::3] == row[1::3] == row[2::3] for row in rows))
+
+    def test_a_shot_is_written_as_it_came(self):
+        replies = self.replies("act FIRE*30", "shot")
+        self.assertEqual(run("png", self.path, data=replies), (0, b"", []))
+        data = re.search(rb" data=(\S+)", replies)[1]
+        with open(self.path, "rb") as file:
+            self.assertEqual(file.read(), base64.b64decode(data))
+
+    def test_machines_are_told_apart(self):
+        replies = self.replies("observe screen", "open 2", "step FIRE UP", "step RIGHT*1 LEFT", "step RIGHT LEFT")
+        pictures = [self.shown(replies, *words) for words in ((), ("--machine", "0"), ("--machine", "1"))]
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertNotEqual(pictures[1], pictures[2])
+
+    def test_the_palette_is_that_of_the_loaded_game(self):
+        lines = b"load beamfall seed=7 format=pal\nlook screen\n"
+        _, printed, _ = run("serve", "--stdio", data=lines)
+        self.assertEqual(self.shown(printed), self.shown(printed.splitlines()[-1], "--palette", "pal"))
+        self.assertNotEqual(self.shown(printed), self.shown(printed, "--palette", "ntsc"))
+
+    def test_replies_without_a_picture_are_refused(self):
+        for complaint, replies, *words in (
+            ("no reply on standard input has a picture", self.replies("act FIRE")),
+            ("the server refused a request: no-game look needs a game", b"error no-game look needs a game; load\n"),
+            ("no reply on standard input has the field grey", self.replies("look screen"), "--field", "grey"),
+            ("ram is no picture", self.replies("look ram"), "--field", "ram"),
+            ("no whole screen in hex, rle, base64 or zlib", self.replies("look screen")[:-9]),
+            ("no whole screen", self.replies("look screen"), "--encoding", "hex"),
+            ("the input ends within the bytes", self.replies("look screen:raw")[:-9]),
+            ("a reply says raw=", b"ok screen=33600 raw=999999999\n"),
+        ):
+            with self.subTest(complaint=complaint):
+                ended, printed, errors = run("png", self.path, *words, data=replies)
+                self.assertEqual((ended, printed, len(errors)), (1, b"", 1), errors)
+                self.assertIn(complaint, errors[0])
+                self.assertFalse(os.path.exists(self.path))
 
     def refused(self, status, complaint, line, *words):
         ended, printed, errors = run("png", self.path, *words, data=line.encode())

@@ -41,6 +41,8 @@ const std::string
     kStart = "open 1 steps=frames start=", kLives = "open 1 steps=frames lives=",
     kStacked = "load beamfall seed=7 sticky=0 frame_skip=4\nobserve grey84x3:hex\nopen 1 steps=frames ";
 
+const std::string kShot = "load beamfall seed=7 sticky=0 frame_skip=20\nopen 2\nact FIRE\nstep RIGHT LEFT";
+
 const std::string kUneven = "load duel seed=7 sticky=0 frame_skip=1-9\nopen 2\n",
                   kFourSteps = "step NOOP\nstep NOOP\nstep NOOP\nstep NOOP\nrecord stop";
 
@@ -194,6 +196,10 @@ const Cases kWithDuel = {
     {"record machine", kUneven + "record png a machine=1", kUneven + "record png a", kFourSteps},
     {"record N", kUneven + "record png a machine=1", kUneven + "record png a machine=0", kFourSteps},
     {"record stop", "record gif a\nact NOOP*4\nrecord stop", "record gif a\nact NOOP*4", "record gif b"},
+    {"shot", kShot + "\nshot", "stats"},
+    {"shot NAME", "shot a", "shot b"},
+    {"shot machine", kShot + "\nshot machine=1", kShot + "\nshot"},
+    {"shot N", kShot + "\nshot machine=1", kShot + "\nshot machine=0"},
     {"stats", "stats", "act NOOP\nstats"},
     {"quit", "quit", "stats"},
 };

@@ -1,7 +1,8 @@
-// record
+// record, shot
 #include <catch2/catch.hpp>
 #include <thread>
 
+#include "protocol/encoding/base64.hpp"
 #include "recording/recorder.hpp"
 #include "tests/games/scratch.hpp"
 #include "tests/protocol/line_client.hpp"
@@ -182,4 +183,82 @@ TEST_CASE("An act that begins the next episode tells, too, that the recording ha
   for (int look = 0; look < 10'000 && !studio.client.service.recorder->idle(); ++look)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   CHECK(value(studio.ask("act FIRE"), "recording_ended") == "limit");
+}
+
+TEST_CASE("A shot is the frame that a recording of PNGs has") {
+  Studio studio;
+  studio.ask("record png film");
+  studio.ask("act FIRE*20");
+  const std::string told = studio.ask("shot now");
+  CHECK_THAT(told, Contains("ok picture=now.png width=320 height=210 bytes="));
+  studio.ask("record stop");
+  const std::string picture = studio.file("now.png");
+  CHECK((picture == studio.file("film/000039.png")));
+  CHECK(value(told, "bytes") == std::to_string(picture.size()));
+  const std::string handed_over = studio.ask("shot");
+  CHECK(value(handed_over, "bytes") == value(told, "bytes"));
+  const auto bytes = bytes_of_base64(value(handed_over, "data"));
+  REQUIRE(bytes);
+  CHECK((std::string(bytes->begin(), bytes->end()) == picture));
+}
+
+TEST_CASE("A server that keeps no files hands a shot over, whatever its name") {
+  test::LineClient client;
+  client.ask(kLoad);
+  const std::string told = client.ask("shot");
+  CHECK(value(told, "data").starts_with("iVBORw0KGgo"));
+  CHECK(client.ask("shot now") == told);
+  client.ask("act FIRE*20");
+  CHECK(client.ask("shot") != told);
+}
+
+TEST_CASE("A shot of a machine of open shows that machine") {
+  Studio studio;
+  studio.ask("open 2");
+  for (int step = 0; step < 9; ++step) studio.ask("step RIGHT LEFT");
+  const auto data = [&studio](const std::string& request) { return value(studio.ask(request), "data"); };
+  CHECK(data("shot machine=0") != data("shot machine=1"));
+  CHECK(data("shot machine=0") != data("shot"));
+  CHECK(studio.ask("shot machine=1 one").starts_with("ok picture=one.png"));
+  const std::string file = studio.file("one.png");
+  const auto bytes = bytes_of_base64(data("shot machine=1"));
+  REQUIRE(bytes);
+  CHECK((std::string(bytes->begin(), bytes->end()) == file));
+}
+
+TEST_CASE("An invalid shot is refused, with what is accepted") {
+  Studio studio;
+  CHECK_THAT(studio.ask("shot a b"), Contains("bad-arguments the name of the picture is given twice"));
+  CHECK_THAT(studio.ask("shot a seed=1"),
+             Contains("bad-arguments 'seed=1' is not accepted here; shot takes machine="));
+  CHECK_THAT(studio.ask("shot ../a"), Contains("bad-value '../a' is not a name for a picture"));
+  CHECK(code(studio.ask("shot a machine=0")) == "no-machines");
+  studio.ask("open 2");
+  CHECK_THAT(studio.ask("shot machine=2"), Contains("machine is '2'; it takes a whole number from 0 to 1"));
+  CHECK(test::files_in(studio.folder.path("")) == 0);
+  studio.ask("shot a");
+  CHECK(studio.ask("shot a") == "error recording a.png exists; choose another name");
+  test::LineClient without;
+  CHECK(code(without.ask("shot")) == "no-game");
+}
+
+TEST_CASE("A shot above the limit of a recording is refused, and leaves nothing") {
+  Studio studio(500);
+  CHECK(studio.ask("shot a") == "error recording the picture is longer than a recording may be");
+  CHECK(test::files_in(studio.folder.path("")) == 0);
+  CHECK(studio.ask("shot").starts_with("ok width=320"));
+}
+
+TEST_CASE("A shot that a reply or the memory has no room for is refused") {
+  LineLimits limits;
+  limits.reply = 1000;
+  test::LineClient client(test::line_service(limits));
+  client.ask(kLoad);
+  CHECK_THAT(client.ask("shot"), Contains("error limit a reply about a picture would have about "));
+  Studio studio;
+  MemoryBudget& memory = *studio.client.service.memory;
+  memory.take_anyway(kMemory - memory.taken() - 1000);
+  CHECK(code(studio.ask("shot")) == "limit");
+  CHECK(code(studio.ask("shot a")) == "limit");
+  CHECK(test::files_in(studio.folder.path("")) == 0);
 }

@@ -82,6 +82,11 @@ export class Session {
   importState(name: string, bytes: Uint8Array): Promise<void>;
   /** Each list is played from the state. */
   branch(name: string, lists: Action[][], settings?: { keep?: string }): Promise<Branch[]>;
+  /**
+   * Saves a picture of the screen as a PNG file. In a browser, offers the file for download under this name.
+   * machine: one of those of open, 0 the first
+   */
+  savePng(path: string, machine?: number): Promise<void>;
   stopRecording(): Promise<Group>;
 
   // generated: commands, from protocol/protocol.toml
@@ -164,6 +169,12 @@ export class Session {
    * machine: one of those of open, 0 the first
    */
   record(kinds: string, name: string, machine?: number | { machine?: number }): Promise<Group>;
+  /**
+   * Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
+   * name: a name for the file, without .png
+   * machine: one of those of open, 0 the first
+   */
+  shot(name?: string | Settings, machine?: number | { machine?: number }): Promise<Group>;
   /**
    * Let other sessions watch the game under this name.
    * watchers: how many may watch at the same time

@@ -1,10 +1,10 @@
-import { toBase64 } from "#platform";
+import { saveFile, toBase64 } from "#platform";
 import { Commands } from "./commands.js";
 import { base64, hex, rewards } from "./decode.js";
 import { LostError, printable, RefusedError } from "./errors.js";
 import { Fields } from "./fields.js";
 import { Lines } from "./lines.js";
-import { list, words } from "./words.js";
+import { keyed, list, words } from "./words.js";
 
 function toHex(bytes) {
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("").toUpperCase();
@@ -146,6 +146,10 @@ export class Session extends Commands {
       }
     }
     return branches;
+  }
+
+  async savePng(path, machine) {
+    await saveFile(path, base64(await this.#text("data", "shot", keyed("machine", machine))));
   }
 
   stopRecording() {

@@ -150,6 +150,13 @@ function methods:record(kinds, name, machine)
   return first(self, "record", kinds, name, keyed("machine", machine))
 end
 
+-- Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
+-- name: a name for the file, without .png.
+-- machine: one of those of open, 0 the first.
+function methods:shot(name, machine)
+  return first(self, "shot", name or "", keyed("machine", machine))
+end
+
 -- Let other sessions watch the game under this name.
 -- watchers: how many may watch at the same time.
 function methods:share(name, watchers)

@@ -33,7 +33,7 @@ end
 
 -- The boolean or the number that a text is, or the text. An MD5 is not a number, nor are bytes such as 0046.
 local function value(field, text)
-  if known.flags[field] then
+  if known.flags[field] and (text == "0" or text == "1") then
     return text == "1"
   elseif #text <= 15 and (text:find("^%-?[1-9]%d*$") or text:find("^%-?[1-9]%d*%.%d+$") or text:find("^%-?0%.%d+$") or text == "0") then
     return tonumber(text)

@@ -7,7 +7,8 @@
 --   local shown = game:act("FIRE")      -- { reward = 0, terminated = false, truncated = false, screen = "..." }
 --   game:close_connection()
 --
--- Numbers come as numbers, bytes as strings, and terminated, truncated, game_over and over as booleans. racebeam/fault.lua says what is raised. README.md is the page of this client.
+-- Numbers come as numbers, bytes as strings, and what is true or false, such as terminated, over and rule, as booleans.
+-- racebeam/fault.lua says what is raised. README.md is the page of this client.
 
 local decode = require("racebeam.decode")
 local fault = require("racebeam.fault")
@@ -308,6 +309,20 @@ end
 -- Closes the machines, as close_machines() does. The session goes on.
 function Session:close()
   self:close_machines()
+end
+
+-- Saves a picture of the screen as a PNG file. machine: one of those of open, 0 the first.
+function Session:save_png(path, machine)
+  local bytes = decode.base64(self:request_text("data", "shot", machine and { machine = machine } or ""))
+  local file, problem = io.open(path, "wb")
+  if file then
+    local written, why = file:write(bytes)
+    local closed, too_late = file:close()
+    problem = not (written and closed) and (why or too_late)
+  end
+  if problem then
+    fault("invalid", ("the picture cannot be saved: %s"):format(problem))
+  end
 end
 
 function Session:stop_recording()

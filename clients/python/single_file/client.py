@@ -1285,6 +1285,17 @@ class Commands(Exchange):
         """Close the machines, as `close_machines` does. The session goes on."""
         self.close_machines()
 
+    def save_png(self, path: str | os.PathLike[str], machine: int | None = None) -> None:
+        """Save a picture of the screen as a PNG file.
+
+        Args:
+            path: Path of the file, on this computer.
+            machine: One of those of open, 0 the first.
+        """
+        data = base64.b64decode(self.ask("shot", *key_values(machine=machine))[0]["data"])
+        with open(path, "wb") as file:
+            file.write(data)
+
     def stop_recording(self) -> Values:
         """End the recording."""
         return self._first("record", "stop")
@@ -1500,6 +1511,18 @@ class Commands(Exchange):
             The values of the first group of the reply.
         """
         return self._first("record", kinds, name, *key_values(machine=machine))
+
+    def shot(self, name: str | None = None, machine: int | None = None) -> Values:
+        """Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
+
+        Args:
+            name: A name for the file, without .png.
+            machine: One of those of open, 0 the first.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("shot", *optional_words(name), *key_values(machine=machine))
 
     def share(self, name: str, watchers: int | None = None) -> Values:
         """Let other sessions watch the game under this name.

@@ -1,10 +1,15 @@
-// record
+// record, shot
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "games/similar.hpp"
+#include "protocol/encoding/base64.hpp"
+#include "protocol/encoding/encoding.hpp"
 #include "protocol/line/session.hpp"
 #include "protocol/line/session_recording.hpp"
+#include "recording/footage.hpp"
+#include "recording/png.hpp"
 #include "recording/recorder.hpp"
 
 namespace racebeam {
@@ -54,10 +59,10 @@ struct Subject {  // of a recording
   Pacer& pacer;  // on which it runs
 };
 
-// The machine of `load`, or one of `open`.
-Subject subject_of(Session& session, Words arguments) {
-  if (arguments.empty()) return {session.loaded->slot(), session.loaded->pacer()};
-  const std::size_t number = session.machines.number_of(value_of(arguments[0], "machine", "record"));
+// One of the machines of `open`, or without a number the machine of `load`.
+Subject subject_of(Session& session, std::optional<std::string_view> text) {
+  if (!text) return {session.loaded->slot(), session.loaded->pacer()};
+  const std::size_t number = session.machines.number_of(*text);
   return {session.machines.slot(number), session.machines.pacer(number)};
 }
 
@@ -92,6 +97,55 @@ void start(Session& session, const std::vector<MediaKind>& kinds, std::string_vi
   append_pair(session.out, "recording", recording->names());
 }
 
+// The words of `shot`, in any order.
+struct ShotWords {
+  std::optional<std::string_view> name, machine;
+};
+
+ShotWords shot_words(Words arguments) {
+  ShotWords words;
+  for (const std::string_view word : arguments) {
+    const bool is_pair = word.find('=') != word.npos;
+    auto& place = is_pair ? words.machine : words.name;
+    if (place) refuse_twice(is_pair ? "machine" : "the name of the picture");
+    place = is_pair ? value_of(word, "machine", "shot") : checked_name(word, "picture");
+  }
+  return words;
+}
+
+void append_size(std::string& out, const Environment& machine, std::size_t bytes) {
+  append_pair(out, "width", static_cast<std::int64_t>(kPictureWidth));
+  append_pair(out, "height", machine.height());
+  append_pair(out, "bytes", static_cast<std::int64_t>(bytes));
+}
+
+void write_picture(Session& session, std::string_view name, const Environment& machine) {
+  const auto picture = session.picture = begin(session.service, {MediaKind::kPicture}, name, machine);
+  await(*picture, session.pacer);
+  if (!picture->finished()) picture->add(machine);
+  picture->finish();
+  await(*picture, session.pacer);
+  session.picture.reset();
+  const Recording::Result& result = picture->result();
+  if (result.names.empty()) throw RequestError(ErrorCode::kRecording, result.failure);
+  session.out += "ok";
+  append_pair(session.out, "picture", result.names);
+  append_size(session.out, machine, result.bytes);
+}
+
+void hand_over_picture(Session& session, const Environment& machine) {
+  const auto pixels = machine.screen();
+  constexpr std::size_t kBytesOfPixel = 8;  // rows, packed rows, the file and its text
+  session.memory.check(kBytesOfPixel * pixels.size(), "a picture");
+  PngWriter writer(footage_of(machine));
+  const auto file = writer.file(pixels);
+  session.check_reply(text_size(Encoding::kBase64, file.size()), "a picture");
+  session.out += "ok";
+  append_size(session.out, machine, file.size());
+  append_pair(session.out, "data", "");
+  append_base64(session.out, file);
+}
+
 }  // namespace
 
 void run_record(Session& session, Words arguments) {
@@ -105,7 +159,16 @@ void run_record(Session& session, Words arguments) {
     throw RequestError(ErrorCode::kRecording,
                        session.recording->names() + " has not been stopped; record stop does it");
   const std::string_view name = checked_name(arguments[1], "recording");
-  start(session, kinds, name, subject_of(session, arguments.subspan(2)));
+  std::optional<std::string_view> machine;
+  if (arguments.size() > 2) machine = value_of(arguments[2], "machine", "record");
+  start(session, kinds, name, subject_of(session, machine));
+}
+
+void run_shot(Session& session, Words arguments) {
+  const ShotWords words = shot_words(arguments);
+  const Environment& machine = subject_of(session, words.machine).slot.environment();
+  if (words.name && session.service.recorder) return write_picture(session, *words.name, machine);
+  hand_over_picture(session, machine);
 }
 
 }  // namespace racebeam

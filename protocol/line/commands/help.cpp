@@ -10,6 +10,7 @@
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
 #include "protocol/line/play_settings.hpp"
+#include "system/folded.hpp"
 
 namespace racebeam {
 namespace {
@@ -146,21 +147,6 @@ template <typename... Rows>
 constexpr int kNarrowest = 20;
 constexpr std::size_t kIndent = 2, kHanging = 6;
 
-// Writes `text` in lines of at most `columns`, broken at blanks. The first begins at `column`.
-void append_folded(std::string& out, std::string_view text, std::size_t columns, std::size_t column) {
-  std::vector<std::string_view> words;
-  split(text, words);
-  for (const std::string_view& word : words) {
-    if (&word != words.data()) {
-      const bool fits = column + 1 + word.size() <= columns;
-      fits ? out += ' ' : (out += '\n').append(kHanging, ' ');
-      column = fits ? column + 1 : kHanging;
-    }
-    out += word;
-    column += word.size();
-  }
-}
-
 }  // namespace
 
 std::span<const HelpTopic> help_topics() { return kTopics; }
@@ -201,10 +187,10 @@ void append_help(std::string& out, const HelpText& help, int columns) {
     return;
   }
   const auto width = static_cast<std::size_t>(std::max(columns, kNarrowest));
-  append_folded(out, help.head, width, 3);
+  append_folded(out, help.head, width, 3, kHanging);
   for (const std::string& entry : help.entries) {
     (out += '\n').append(kIndent, ' ');
-    append_folded(out, entry, width, kIndent);
+    append_folded(out, entry, width, kIndent, kHanging);
   }
 }
 

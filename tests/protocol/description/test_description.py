@@ -61,13 +61,23 @@ class Rows(unittest.TestCase):
 
     def test_a_setting_and_an_error_code_reach_the_program_and_the_document(self):
         for text in (
-            '[[setting]]\nname = "tint"\ntype = "flag"\naccepted = "0 or 1"\ndefault = "0"\nsummary = "colours"\n',
+            '[[setting]]\nname = "tint"\ntype = "int"\naccepted = "0 to 9"\ndefault = "0"\nsummary = "colours"\n',
             '[[error]]\ncode = "too-dark"\nmeaning = "nothing is seen"\n',
         ):
             files = changed(text)
             self.assertIn("protocol/PROTOCOL.md", files)
             self.assertIn("protocol/description/tables.hpp", files)
             self.assertEqual(folders(files), set())
+
+    def test_what_is_true_or_false_is_known_where_0_would_be_true(self):
+        for text in (
+            '[[setting]]\nname = "tint"\ntype = "flag"\naccepted = "0 or 1"\ndefault = "0"\nsummary = "colours"\n',
+            '[[command]]\nname = "rewind"\nneeds = "game"\nsummary = "go back"\nreturns = "own"\n'
+            '[command.reply]\n"tint?" = "flag"\n',
+        ):
+            files = changed(text)
+            self.assertEqual(folders(files), {"lua"})
+            self.assertIn(", tint = true", files["clients/lua/racebeam/field_table.lua"])
 
     def test_what_is_deprecated_is_marked(self):
         files = changed('[[encoding]]\nname = "old"\nsummary = "as before"\ndeprecated = "hex"\n')

@@ -135,6 +135,13 @@ class CommandMethods {
     return ask(first, "record", kinds, name, settings...);
   }
 
+  /// Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64. Returns Group.
+  /// @param settings a name for the file, without .png; `Setting("machine", N)`: one of those of open, 0 the first
+  template <class... Words>
+  auto shot(const Words&... settings) {
+    return ask(first, "shot", settings...);
+  }
+
   /// Let other sessions watch the game under this name. Returns Group.
   /// @param name NAME
   /// @param settings `Setting("watchers", N)`: how many may watch at the same time

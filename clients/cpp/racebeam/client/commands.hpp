@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <ios>
 #include <map>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -114,6 +118,15 @@ class Commands : public CommandMethods<Derived> {
     return ask(branches, "branch", state, words);
   }
 
+  /// Saves a picture of the screen as a PNG file. Throws std::runtime_error if it cannot be written.
+  /// @param path of the file, on this computer
+  /// @param settings `Setting("machine", N)` for one of the machines of `open`, 0 the first
+  template <class... Settings>
+  auto save_png(const std::filesystem::path& path, const Settings&... settings) {
+    return ask([path](const Reply& reply) { write_file(path, from_base64(reply.first().text("data"))); },
+               "shot", settings...);
+  }
+
   /// Ends the recording: what was kept, Group.
   auto stop_recording() { return ask(first, "record stop"); }
 
@@ -121,6 +134,12 @@ class Commands : public CommandMethods<Derived> {
   Commands() = default;
 
  private:
+  static void write_file(const std::filesystem::path& path, const Bytes& bytes) {
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+  }
+
   static std::vector<Branch> branches(const Reply& reply) {
     std::vector<Branch> found;
     for (Group& group : reply.rest()) {

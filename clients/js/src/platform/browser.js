@@ -19,3 +19,12 @@ export function toBase64(bytes) {
   }
   return btoa(text);
 }
+
+/** Offers the file for download under this name. */
+export async function saveFile(name, bytes) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([bytes]));
+  link.download = name;
+  link.click();
+  URL.revokeObjectURL(link.href);
+}

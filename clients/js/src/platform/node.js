@@ -1,5 +1,6 @@
 // What Node offers, and browsers offer otherwise: browser.js has the same functions.
 
+import { writeFile } from "node:fs/promises";
 import { inflateSync } from "node:zlib";
 
 export function inflate(bytes) {
@@ -12,4 +13,8 @@ export function fromBase64(text) {
 
 export function toBase64(bytes) {
   return Buffer.from(bytes).toString("base64");
+}
+
+export function saveFile(path, bytes) {
+  return writeFile(path, bytes);
 }

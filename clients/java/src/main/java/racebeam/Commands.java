@@ -350,6 +350,50 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
+   * Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
+   *
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group shot() throws IOException {
+    return request("shot").first();
+  }
+
+  /**
+   * Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
+   *
+   * @param machine one of those of open, 0 the first
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group shot(long machine) throws IOException {
+    return request("shot" + " machine=" + machine).first();
+  }
+
+  /**
+   * Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
+   *
+   * @param name a name for the file, without .png
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group shot(String name) throws IOException {
+    return request("shot" + " " + name).first();
+  }
+
+  /**
+   * Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
+   *
+   * @param name a name for the file, without .png
+   * @param machine one of those of open, 0 the first
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group shot(String name, long machine) throws IOException {
+    return request("shot" + " " + name + " machine=" + machine).first();
+  }
+
+  /**
    * Let other sessions watch the game under this name.
    *
    * @param name NAME

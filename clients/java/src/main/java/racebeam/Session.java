@@ -2,6 +2,8 @@ package racebeam;
 
 import java.io.IOException;
 import java.nio.ByteBuffer;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.ArrayDeque;
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -378,6 +380,27 @@ public final class Session extends Commands implements AutoCloseable {
    */
   public List<Group> step(int... actions) throws IOException {
     return step(Arrays.stream(actions).mapToObj(Integer::toString).toArray(String[]::new));
+  }
+
+  /**
+   * Saves a picture of the screen as a PNG file.
+   *
+   * @param path of the file, on this computer
+   * @throws IOException if the session has ended, or the file cannot be written
+   */
+  public void savePng(Path path) throws IOException {
+    Files.write(path, Encoding.BASE64.decode(shot().text("data")));
+  }
+
+  /**
+   * Saves a picture of the screen of one of the machines of {@code open} as a PNG file.
+   *
+   * @param path of the file, on this computer
+   * @param machine 0 for the first
+   * @throws IOException if the session has ended, or the file cannot be written
+   */
+  public void savePng(Path path, long machine) throws IOException {
+    Files.write(path, Encoding.BASE64.decode(shot(machine).text("data")));
   }
 
   /**
