@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """SARSA(lambda) with Basic features (Bellemare et al. 2013): an agent that learns a game over the line protocol.
 
-It needs NumPy, and Matplotlib for --curve. With the same seeds, it chooses what the agent `basic` of
-`racebeam experiment` chooses.
+It needs NumPy, for --curve Matplotlib, and for --log the package racebeam. With the same seeds, it chooses what the
+agent `basic` of `racebeam experiment` chooses.
 """
 
 import argparse
@@ -20,6 +20,7 @@ WIDTH, HEIGHT, COLOURS = 160, 210, 128
 TILE_WIDTH, TILE_HEIGHT = 10, 15  # pixels; 16 x 14 tiles
 STEP_SIZE = 0.5  # alpha, divided by the largest number of active features so far
 DISCOUNT, DECAY = 0.999, 0.9  # gamma, lambda
+FRAME_SKIP = 5  # frames of a step, in the preset paper2013
 EXPLORATION = 0.05  # epsilon, in evaluation too
 LEAST_TRACE = np.float32(0.01)  # smaller traces are dropped
 
@@ -59,7 +60,7 @@ class Basic:
         ).ravel()  # feature of each pixel's tile
 
     def active(self, screen):
-        """The features of a screen of palette indices, in ascending order. Rows that are missing are black."""
+        """Returns the features of a screen of palette indices, in ascending order. Missing rows are black."""
         colours = np.zeros(WIDTH * HEIGHT, np.uint8)
         pixels = np.frombuffer(screen, np.uint8)[: WIDTH * HEIGHT]
         colours[: len(pixels)] = pixels >> 1
@@ -110,7 +111,7 @@ class Sarsa:
         self.learn(self.features, self.action, scaled - before)
 
     def values(self, features):
-        """Of all actions. The sums are in the features' order, so that they are the same everywhere."""
+        """Returns the values of all actions. The sums have the order of the features: they are the same everywhere."""
         return np.cumsum(self.weights[features], axis=0, dtype=float)[-1] if len(features) else np.zeros(ACTIONS)
 
     def value_before(self):
@@ -126,7 +127,7 @@ class Sarsa:
         return action
 
     def scaled(self, reward):
-        """The reward, divided by the size of the first one that is not 0."""
+        """Divides the reward by the size of the first one that is not 0."""
         self.first_reward = self.first_reward or abs(reward)
         return reward / self.first_reward if reward else 0.0
 
@@ -164,39 +165,91 @@ def play(session, agent, basic, load, film):
         actions.append(agent.next(reply["reward"], basic.active(reply["screen"])))
 
 
-def draw(path, scores, title):
-    """The scores as a picture, and their mean over the last 5 episodes."""
+def random_score(session, options, episodes=5):
+    """Plays episodes with random actions. Returns their mean score, the baseline of the curve."""
+    random, total = Random(options.agent_seed), 0
+    for episode in range(episodes):
+        session.load(**load_of(options, options.seed + episode))
+        session.observe("reward", "ends")
+        reply = {"terminated": 0, "truncated": 0}
+        while not (reply["terminated"] or reply["truncated"]):
+            reply = session.act(random.below(ACTIONS))
+            total += reply["reward"]
+    return total / episodes
+
+
+def draw(path, steps, scores, baseline, title):
+    """Draws the score of each episode, their mean over the last 5, and the score of random play."""
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    episodes = range(1, len(scores) + 1)
-    pyplot.figure(figsize=(6, 4))
-    pyplot.plot(episodes, scores, ".", episodes, [np.mean(scores[max(0, end - 5) : end]) for end in episodes], "-")
-    pyplot.xlabel("episode")
-    pyplot.ylabel("score")
-    pyplot.title(title)
+    means = [np.mean(scores[max(0, end - 5) : end]) for end in range(1, len(scores) + 1)]
+    _, axes = pyplot.subplots(figsize=(7, 4.5), layout="constrained")
+    axes.plot(steps, scores, ".", label="an episode")
+    axes.plot(steps, means, label="mean of the last 5 episodes")
+    axes.axhline(baseline, color="grey", linestyle="--", label=f"random play: {baseline:.1f}")
+    axes.set(title=title, xlabel="steps", ylabel="score of an episode")
+    axes.set_xlim(0)
+    axes.xaxis.set_major_formatter("{x:,.0f}")
+    axes.yaxis.set_major_formatter("{x:,.0f}")
+    axes.grid(alpha=0.3)
+    axes.legend()
     pyplot.savefig(path, dpi=120)
 
 
-def show_progress(done, total, start):
+def load_of(options, seed):
+    """Returns the settings of an episode."""
+    return {"game": options.game, "preset": "paper2013", "seed": seed, "max_episode_frames": options.frames}
+
+
+def write_log(options, seed, actions):
+    """Writes the log of an episode, which `racebeam verify` confirms."""
+    try:
+        from racebeam import episode_log
+    except ImportError as missing:
+        sys.exit(f"sarsa.py: --log needs the package racebeam: {missing}")
+    how = {"seed": seed, "frame_skip": FRAME_SKIP, "max_episode_frames": options.frames}
+    episode_log.write_log(options.log, options.game, actions, **how, agent="basic", agent_seed=options.agent_seed)
+
+
+def show_progress(options, steps, start):
     """Shows how far the program is, and how long it still takes, if a person looks on."""
-    if sys.stderr.isatty():
-        left = (time.monotonic() - start) * (total - done) / done
-        print(
-            f"\r[{'#' * (30 * done // total):30}] {done} of {total} episodes, {left:.0f} s left ",
-            end="",
-            file=sys.stderr,
-        )
-        print(end="\n" if done == total else "", file=sys.stderr, flush=True)
+    if not sys.stderr.isatty():
+        return
+    if options.steps:
+        done, total, unit = min(sum(steps), options.steps), options.steps, "steps with learning"
+    else:
+        done, total, unit = len(steps), options.training + options.evaluation, "episodes"
+    left = (time.monotonic() - start) * (total - done) / done
+    bar = "#" * (30 * done // total)
+    print(f"\r[{bar:30}] {done:,} of {total:,} {unit}, {left:.0f} s left ", end="", file=sys.stderr)
+    print(end="\n" if done == total else "", file=sys.stderr, flush=True)
 
 
-def main():
+def schedule(options, steps):
+    """Yields for each episode whether the agent learns in it, and whether it is the last one.
+
+    `steps` has the number of steps of each episode that was played.
+    """
+    while sum(steps) < options.steps if options.steps else len(steps) < options.training:
+        yield True, not options.evaluation and not options.steps and len(steps) == options.training - 1
+    for left in reversed(range(options.evaluation)):
+        yield False, left == 0
+
+
+def read_options():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("server", help="the program racebeam, or the address of a server, such as tcp://HOST:PORT")
     parser.add_argument("game", nargs="?", default="beamfall", help="(default: %(default)s)")
-    parser.add_argument("--training", type=int, default=20, help="episodes (default: %(default)s)")
+    parser.add_argument("--training", type=int, default=20, help="episodes with learning (default: %(default)s)")
+    parser.add_argument(
+        "--steps",
+        type=int,
+        help="steps of the agent that learns, of 5 frames each, in place of --training; the episode that reaches "
+        "them is played to its end",
+    )
     parser.add_argument(
         "--evaluation", type=int, default=0, help="episodes after it, without learning (default: %(default)s)"
     )
@@ -209,72 +262,89 @@ def main():
         "--background", help="a CSV file of 210 lines of 160 colours (racebeam background); without it: black"
     )
     parser.add_argument("--actions", action="store_true", help="print the actions of each episode")
-    parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores")
+    parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores, beside that of random play")
     parser.add_argument("--keep", metavar="FILE", help="the file for what was learned, at the end")
     parser.add_argument("--play", metavar="FILE", help="begin with what this file has; --training 0 only plays")
     parser.add_argument(
         "--film", metavar="NAME", help="record the last episode as NAME.gif, in the folder of a server if it has one"
     )
+    parser.add_argument("--log", metavar="FILE", help="the log of the last episode, FILE.episode")
     options = parser.parse_args()
-    episodes = options.training + options.evaluation
-    background = np.zeros(WIDTH * HEIGHT, np.uint8)
-    if options.background:
-        try:
-            background = np.loadtxt(options.background, np.uint8, delimiter=",").reshape(WIDTH * HEIGHT)
-        except (OSError, ValueError) as error:
-            sys.exit(f"sarsa.py: --background is {options.background!r}: {error}; it takes 210 lines of 160 colours")
-    agent, basic = Sarsa(Basic.SIZE, options.agent_seed), Basic(background)
+    if options.film and options.steps and not options.evaluation:
+        parser.error("--film is given with --steps; it takes --evaluation 1 or more, and films the last of these")
+    return options
+
+
+def background_of(options):
+    """Returns the colours of the background."""
+    if not options.background:
+        return np.zeros(WIDTH * HEIGHT, np.uint8)
+    try:
+        return np.loadtxt(options.background, np.uint8, delimiter=",").reshape(WIDTH * HEIGHT)
+    except (OSError, ValueError) as error:
+        sys.exit(f"sarsa.py: --background is {options.background!r}: {error}; it takes 210 lines of 160 colours")
+
+
+def agent_of(options):
+    """Makes the agent, with what the file of --play has."""
+    agent = Sarsa(Basic.SIZE, options.agent_seed)
     if options.play:
         try:
             agent.restore(options.play)
         except (OSError, ValueError, KeyError) as error:
             sys.exit(f"sarsa.py: --play is {options.play!r}: {error}; it takes a file of --keep")
+    return agent
+
+
+def open_session(server):
+    """Starts the program, or connects to the address of a server."""
     try:
-        opened = (
-            connect(options.server) if ":" in options.server else Session.start(options.server, "--record-dir", ".")
-        )
+        return connect(server) if ":" in server else Session.start(server, "--record-dir", ".")
     except (OSError, ValueError, Refused) as error:
-        sys.exit(f"sarsa.py: no server at {options.server}: {error}")
+        sys.exit(f"sarsa.py: no server at {server}: {error}")
+
+
+def play_all(session, agent, basic, options):
+    """Plays the episodes. Returns the steps and the score of each, and the actions of the last one."""
+    start, steps, scores, actions = time.monotonic(), [], [], []
+    for agent.learning, is_last in schedule(options, steps):  # the schedule reads `steps`
+        load = load_of(options, options.seed + len(steps))
+        score, actions = play(session, agent, basic, load, options.film if is_last else None)
+        steps.append(len(actions))
+        scores.append(score)
+        kind = "training" if agent.learning else "evaluation"
+        print(
+            kind,
+            f"episode {len(steps)}: score {score} in {len(actions)} decisions",
+            *actions if options.actions else [],
+        )
+        show_progress(options, steps, start)
+    print(f"{sum(steps) / (time.monotonic() - start):.0f} decisions a second", file=sys.stderr)
+    return steps, scores, actions
+
+
+def main():
+    options = read_options()
+    agent, basic = agent_of(options), Basic(background_of(options))
+    training = f"{options.steps:,} steps" if options.steps else f"{options.training} episodes"
     print(
-        f"plan: {options.training} episodes with learning and {options.evaluation} without, "
+        f"plan: {training} with learning and {options.evaluation} episodes without, "
         f"of {options.frames:,} frames at most",
         file=sys.stderr,
     )
-    start, decisions, scores = time.monotonic(), 0, []
-    with opened as session:
-        for episode in range(episodes):
-            agent.learning = episode < options.training
-            film = options.film if episode == episodes - 1 else None
-            score, actions = play(
-                session,
-                agent,
-                basic,
-                {
-                    "game": options.game,
-                    "preset": "paper2013",
-                    "seed": options.seed + episode,
-                    "max_episode_frames": options.frames,
-                },
-                film,
-            )
-            decisions += len(actions)
-            scores.append(score)
-            kind = "training" if agent.learning else "evaluation"
-            print(
-                kind,
-                f"episode {episode + 1}: score {score} in {len(actions)} decisions",
-                *actions if options.actions else [],
-            )
-            show_progress(episode + 1, episodes, start)
+    with open_session(options.server) as session:
+        steps, scores, actions = play_all(session, agent, basic, options)
+        if options.curve:
+            title = f"SARSA on {options.game}"
+            draw(options.curve, np.cumsum(steps), scores, random_score(session, options), title)
     if options.keep:
         agent.keep(options.keep)
-    print(f"{decisions / (time.monotonic() - start):.0f} decisions a second", file=sys.stderr)
-    if options.curve:
-        draw(options.curve, scores, f"SARSA on {options.game}")
+    if options.log:
+        write_log(options, options.seed + len(steps) - 1, actions)
 
 
 if __name__ == "__main__":
     try:
         main()
-    except (OSError, Refused) as error:
+    except (OSError, ValueError, Refused) as error:
         sys.exit(f"sarsa.py: {error}")

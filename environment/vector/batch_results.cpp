@@ -10,26 +10,38 @@ void put(std::span<T> array, std::size_t position, std::int64_t value) {
   if (!array.empty()) array[position] = static_cast<T>(value);
 }
 
-void put_ram(std::span<const std::uint8_t, kRamSize> ram, std::span<std::uint8_t> array,
-             std::size_t position) {
-  if (!array.empty()) std::ranges::copy(ram, &array[position * kRamSize]);
+void put(std::span<std::uint8_t> array, std::size_t position, std::span<const std::uint8_t> bytes) {
+  if (!array.empty()) std::ranges::copy(bytes, &array[position * bytes.size()]);
 }
 
 }  // namespace
 
 BatchArrays BatchResults::arrays() {
-  return {observations,   final_observations,
-          final_ram,      final_lives,
-          final_frames,   final_episode_frames,
-          screens,        ram,
-          rewards,        rewards_b,
-          raw_rewards,    raw_rewards_b,
-          terminated,     truncated,
-          finished,       game_over,
-          lives,          frames,
-          episode_frames, numbers,
-          elapsed,        acts,
-          lives_lost};
+  return {observations,
+          final_observations,
+          final_ram,
+          final_lives,
+          final_frames,
+          final_episode_frames,
+          screens,
+          ram,
+          rewards,
+          rewards_b,
+          raw_rewards,
+          raw_rewards_b,
+          terminated,
+          truncated,
+          finished,
+          game_over,
+          lives,
+          frames,
+          episode_frames,
+          numbers,
+          elapsed,
+          acts,
+          lives_lost,
+          {},
+          {}};
 }
 
 std::size_t ResultLayout::whole_screen() const { return static_cast<std::size_t>(height_) * kScreenWidth; }
@@ -96,7 +108,8 @@ void ResultLayout::write(const Slot& slot, std::size_t number, std::size_t posit
   put(arrays.elapsed, position, slot.elapsed());
   put(arrays.acts, position, outcome.acts);
   put(arrays.lives_lost, position, outcome.lives_lost);
-  put_ram(environment.ram(), arrays.ram, position);
+  put(arrays.ram, position, environment.ram());
+  put(arrays.audio, position, environment.audio());
   write_stack(slot, arrays.observations, position);
   if (arrays.screens.empty()) return;
   const auto own = arrays.screens.subspan(position * whole_screen(), whole_screen());
@@ -106,7 +119,8 @@ void ResultLayout::write(const Slot& slot, std::size_t number, std::size_t posit
 
 void ResultLayout::write_final(const Slot& slot, std::size_t position, const BatchArrays& arrays) const {
   write_stack(slot, arrays.final_observations, position);
-  put_ram(slot.environment().ram(), arrays.final_ram, position);
+  put(arrays.final_ram, position, slot.environment().ram());
+  put(arrays.final_audio, position, slot.environment().audio());
   put(arrays.final_lives, position, slot.environment().lives());
   put(arrays.final_frames, position, slot.environment().frame_number());
   put(arrays.final_episode_frames, position, slot.environment().episode_frame_number());
@@ -117,6 +131,7 @@ void FinalResult::keep(const ResultLayout& layout, const Slot& slot) {
   BatchArrays own;
   own.final_observations = observation_;
   own.final_ram = ram_;
+  own.final_audio = audio_;
   own.final_lives = {&lives_, 1};
   own.final_frames = {&frames_, 1};
   own.final_episode_frames = {&episode_frames_, 1};
@@ -127,9 +142,9 @@ void FinalResult::write(std::size_t position, const BatchArrays& arrays) const {
   put(arrays.final_lives, position, lives_);
   put(arrays.final_frames, position, frames_);
   put(arrays.final_episode_frames, position, episode_frames_);
-  put_ram(ram_, arrays.final_ram, position);
-  if (!arrays.final_observations.empty())
-    std::ranges::copy(observation_, &arrays.final_observations[position * observation_.size()]);
+  put(arrays.final_ram, position, ram_);
+  put(arrays.final_audio, position, audio_);
+  put(arrays.final_observations, position, observation_);
 }
 
 }  // namespace racebeam

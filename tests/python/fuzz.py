@@ -3,7 +3,7 @@ threads, or on a server.
 
     fuzz.py [--seconds N] [--seed N] [--calls N]
 
-Each round of calls is a process with a seed of its own. A crash, a report of a sanitizer, a round that takes longer
+Each round of calls is a process with its own seed. A crash, a report of a sanitizer, a round that takes longer
 than PATIENCE seconds, and an exception that is not documented are findings. Exit status: 1 if there are any.
 scripts/check/python-fuzz runs it under AddressSanitizer.
 """

@@ -1,6 +1,6 @@
 """What fuzz.py calls on servers: sessions, environments, and what may happen to them: Ctrl-C, a fork, other threads.
 
-A server of its own serves a round. A reply that is given to another request, and a child process that is not refused,
+Each round has its own server. A reply that is given to another request, and a child process that is not refused,
 are an AssertionError.
 """
 
@@ -51,7 +51,7 @@ class Servers:
         self._addresses = []
 
     def address(self):
-        """Of one of two servers, which end with this process."""
+        """Returns the address of one of two servers, which end with this process."""
         if not self._addresses:
             self._addresses = [self._started() for _ in range(2)]
         return self.chance.choice(self._addresses)

@@ -35,7 +35,7 @@ def require(*modules):
 
 
 def roms():
-    """The names of the games whose images are here, without those of our own."""
+    """The names of the games whose images are here, without our own games."""
     import racebeam
 
     return [game for game, image in racebeam.find_images().items() if not image.startswith("builtin:")]

@@ -661,7 +661,7 @@ class Found(unittest.TestCase):
 
 
 class Spec(unittest.TestCase):
-    """What make_spec() of EnvPool 1.2.5 shows of Pong-v5, but for the number of actions."""
+    """What make_spec() of EnvPool 1.2.5 shows of Pong-v5, except the number of actions."""
 
     def test_spaces_and_settings(self):
         for config, shape, actions in (

@@ -2,6 +2,8 @@
 installed."""
 
 import importlib.util
+import json
+import os
 import pathlib
 import re
 import subprocess
@@ -52,6 +54,20 @@ class Examples(unittest.TestCase):
         )
         self.assertEqual(len(re.findall(r"training episode \d+: score \d+", said)), 3)
 
+    def verify(self, log):
+        return subprocess.run([racebeam.program.path(), "verify", log], capture_output=True, text=True)
+
+    def test_steps_of_sarsa_end_the_training_and_the_log_of_the_last_episode_is_confirmed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            log = pathlib.Path(folder, "last.episode")
+            said = self.run_example(
+                "sarsa.py", racebeam.program.path(), "--frames", 3000, "--steps", 700, "--evaluation", 1, "--log", log
+            )
+            steps = [int(count) for count in re.findall(r"training episode .* in (\d+) decisions", said)]
+            self.assertTrue(sum(steps[:-1]) < 700 <= sum(steps), said)
+            score = re.search(r"evaluation episode \d+: score (\d+)", said)[1]
+            self.assertRegex(self.verify(log).stdout, rf"^last.episode \(beamfall, basic, score {score}\): confirmed; ")
+
     def test_what_sarsa_learned_is_kept_and_played_and_filmed(self):
         with tempfile.TemporaryDirectory() as folder:
             learned, play = pathlib.Path(folder, "learned"), ("--frames", 3000, "--evaluation", 1, "--training")
@@ -69,7 +85,7 @@ class Examples(unittest.TestCase):
                 text=True,
                 cwd=folder,
             )
-            self.assertRegex(said.stderr, r"^plan: 1 episodes with learning and 0 without, of 18,000 frames at most\n")
+            self.assertRegex(said.stderr, r"^plan: 1 episodes with learning and 0 episodes without, of 18,000 frames")
             self.assertEqual(pathlib.Path(folder, "film.gif").read_bytes()[:6], b"GIF89a")
             pathlib.Path(folder, "wrong").write_bytes(b"x")
             said = subprocess.run(
@@ -99,6 +115,32 @@ class Examples(unittest.TestCase):
                 self.assertEqual(frames.size, (320, 210))
                 self.assertGreater(frames.n_frames, 10)
             self.refuse("ppo.py", "--play", policy)
+
+    @needs("jax", "optax")
+    def test_the_log_of_a_policy_is_confirmed(self):
+        for observe in ("ram", "pixels"):
+            with tempfile.TemporaryDirectory() as folder, self.subTest(observe=observe):
+                log = pathlib.Path(folder, "game.episode")
+                small = ("--observe", observe, "--envs", 2, "--horizon", 8, "--steps", 16)
+                self.assertIn("racebeam verify confirms it", self.run_example("examples/ppo.py", *small, "--log", log))
+                done = self.verify(log)
+                self.assertRegex(done.stdout, r"^game.episode \(updraft, ppo, score \d+\): confirmed; ", done.stderr)
+                log.write_bytes(log.read_bytes()[:-1])
+                self.assertEqual(self.verify(log).returncode, 1)
+
+    @needs("matplotlib")
+    def test_the_cells_of_the_notebook_run(self):
+        notebook = json.loads((CLIENT / "examples/learning_curve.ipynb").read_text())
+        cells = [("".join(cell["source"]), cell) for cell in notebook["cells"] if cell["cell_type"] == "code"]
+        self.assertTrue(all(not cell["outputs"] and cell["execution_count"] is None for _, cell in cells))
+        code = "\n".join(source for source, _ in cells)
+        code, changed = re.subn(r"(?m)^GENERATIONS = \d+", "GENERATIONS = 2", code)
+        self.assertEqual(changed, 1)
+        done = subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, env={**os.environ, "MPLBACKEND": "Agg"}
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"random play: \d+\.\d\n(generation \d+: .*\n){2}")
 
     @needs("jax", "optax")
     def test_ppo_on_pixels(self):

@@ -1,4 +1,4 @@
-"""Games and images of one's own: game files, unknown images, other dumps, and what the console must know."""
+"""Games and images of users: game files, unknown images, other dumps, and what the console must know."""
 
 import contextlib
 import copy

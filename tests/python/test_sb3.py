@@ -1,6 +1,7 @@
 """racebeam.sb3.VecEnv is an environment of Stable-Baselines3. Skipped where that is not installed."""
 
 import importlib.util
+import os
 import unittest
 
 import package
@@ -134,6 +135,23 @@ class Interface(unittest.TestCase):
             (self.envs.render_mode, "rgb_array" in self.envs.metadata["render_modes"]), ("rgb_array", True)
         )
         self.envs.close()
+
+    @unittest.skipIf(importlib.util.find_spec("pygame") is None, "there is no pygame")
+    def test_a_person_sees_the_environments(self):
+        os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+        envs = VecEnv("beamfall", 2, render_mode="human", frameskip=1)
+        envs.reset()
+        envs.step([0, 0])
+        self.assertIsNone(envs.render("human"))
+        self.assertIsNone(envs.render())
+        envs.close()
+
+    def test_the_sound_is_a_part_of_the_observations(self):
+        envs = VecEnv("beamfall", 2, sound_obs=True, max_num_frames_per_episode=8)
+        self.assertEqual(envs.reset()["sound"].shape, (2, 512))
+        for _ in range(2):
+            *_, infos = envs.step([0, 0])
+        self.assertEqual(set(infos[0]["terminal_observation"]), {"image", "sound"})
 
     def test_it_learns(self):
         PPO("CnnPolicy", VecEnv("beamfall", 2, seed=1), n_steps=16, batch_size=16, n_epochs=1).learn(64)

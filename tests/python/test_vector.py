@@ -36,6 +36,7 @@ FLAGS = (
     "life_loss_info",
     "reward_clipping",
     "use_fire_reset",
+    "sound_obs",
 )
 SHORT = {"max_num_frames_per_episode": 12, "noop_max": 0}  # three steps an episode
 
@@ -110,7 +111,7 @@ class Observations(unittest.TestCase):
         _, info = envs.reset()
         info["env_id"][:] = 3
         envs.step([0, 0])
-        self.assertEqual(sorted([*envs._received, *envs.recv()[4]["env_id"]]), [0, 1, 2, 3])
+        self.assertEqual(sorted([*envs._received_ids, *envs.recv()[4]["env_id"]]), [0, 1, 2, 3])
 
     def test_they_go_where_the_caller_wants_them(self):
         envs, others = (AtariVectorEnv("beamfall", 2) for _ in range(2))
@@ -123,7 +124,7 @@ class Observations(unittest.TestCase):
         frozen = out.copy()
         frozen.setflags(write=False)
         for wrong in (out[:1], out.astype(np.int32), half[::2], frozen, out.tolist()):
-            with self.assertRaisesRegex(InvalidInput, "out must be"):
+            with self.assertRaisesRegex(InvalidInput, "^out "):
                 envs.step(np.ones(2, int), out=wrong)
 
     def test_kinds(self):
@@ -155,6 +156,37 @@ class Observations(unittest.TestCase):
             for action in (1, 3, 4, 0, 1):
                 seen = envs.step([action])[0].reshape(env.observation_space.shape)
                 self.assertTrue(np.array_equal(seen, env.step(action)[0]), kind)
+
+    def test_the_sound_is_that_of_AtariEnv(self):
+        settings = {"obs_type": "ram", "sound_obs": True}
+        envs = AtariVectorEnv("beamfall", 2, noop_max=0, use_fire_reset=False, frameskip=1, **settings)
+        self.assertEqual(list(envs.single_observation_space), ["image", "sound"])
+        env = racebeam.AtariEnv("beamfall", frameskip=1, repeat_action_probability=0.0, **settings)
+        seen, _ = envs.reset(seed=3)
+        env.ale.setInt("random_seed", 3)
+        env.load_game()
+        env.ale.reset_game()
+        heard = set()
+        for step in range(60):
+            self.assertIn(seen, envs.observation_space)
+            self.assertEqual({name: part.shape for name, part in seen.items()}, {"image": (2, 128), "sound": (2, 512)})
+            seen, single = envs.step([1, 0])[0], env.step(1)[0]
+            for name, part in single.items():
+                self.assertTrue(np.array_equal(seen[name][0], part), (name, step))
+            heard.add(seen["sound"][0].tobytes())
+        self.assertGreater(len(heard), 5)
+        self.assertTrue(np.array_equal(envs.show()[0]["sound"], seen["sound"]))
+
+    def test_the_sound_of_some_environments(self):
+        envs, others = (
+            AtariVectorEnv("beamfall", 3, sound_obs=True, **settings) for settings in ({"batch_size": 1}, {})
+        )
+        expected = others.reset(seed=1)[0]
+        seen, info = envs.reset(seed=1)
+        env = info["env_id"][0]
+        self.assertTrue(np.array_equal(seen["sound"][0], expected["sound"][env]))
+        out = np.zeros((1, 4, 84, 84), np.uint8)
+        self.assertIs(envs.step([0], out=out)[0]["image"], out)
 
     def test_render_shows_each_environment(self):
         for kind in ("ram", None):
@@ -227,6 +259,20 @@ class Episodes(unittest.TestCase):
                         self.assertEqual(info["final_info"][key][env], expected[key][env])
                         self.assertTrue(info["final_info"][f"_{key}"][env])
 
+    def test_final_observations_have_the_sound_of_the_episode_that_ended(self):
+        for theirs in (AtariVectorEnv, ale_py.AtariVectorEnv):
+            settings = {"sound_obs": True, "noop_max": 20, "max_num_frames_per_episode": 40}
+            envs = theirs("beamfall", 3, autoreset_mode="SameStep", **settings)
+            others = AtariVectorEnv("beamfall", 3, autoreset_mode="Disabled", **settings)
+            envs.reset(seed=2)
+            others.reset(seed=2)
+            for (_, _, _, truncated, info), (seen, *_) in zip(play(envs, 10), play(others, 10)):
+                for env in np.flatnonzero(truncated):
+                    finals = info["final_obs"]
+                    final = finals[env] if theirs is AtariVectorEnv else {key: finals[key][env] for key in finals}
+                    self.assertTrue(all(np.array_equal(final[key], seen[key][env]) for key in seen))
+            self.assertTrue(truncated.any())
+
     def test_a_reset_of_some(self):
         envs = AtariVectorEnv("beamfall", 3, autoreset_mode="Disabled", noop_max=0)
         envs.reset(seed=1)
@@ -264,7 +310,7 @@ class Episodes(unittest.TestCase):
         envs.reset(seed=1)
         self.assertEqual(envs.single_action_space.n, 18)
         self.assertEqual(int(envs.step([0])[4]["episode_frame_number"][0]), 5)
-        with self.assertRaisesRegex(InvalidInput, "there is no preset 'dqn'"):
+        with self.assertRaisesRegex(InvalidInput, "preset 'dqn'"):
             AtariVectorEnv("beamfall", 1, preset="dqn")
 
     def test_several_games(self):
@@ -276,7 +322,7 @@ class Episodes(unittest.TestCase):
         for arguments in ((["beamfall", "updraft"], 3), ([],)):
             with self.assertRaises(Error):
                 AtariVectorEnv(*arguments)
-        with self.assertRaisesRegex(Error, "rom and server take one"):
+        with self.assertRaisesRegex(Error, "^there are 2 games"):
             AtariVectorEnv(["beamfall", "updraft"], rom=b"", full_action_space=True)
 
 
@@ -288,7 +334,7 @@ class States(unittest.TestCase):
             for rom in (image, bytearray(image), memoryview(image))
         ]
         self.assertTrue(np.array_equal(shown[0], shown[1]) and np.array_equal(shown[0], shown[2]))
-        self.assertRaisesRegex(TypeError, "rom has the type int", AtariVectorEnv, "beamfall", 1, rom=3)
+        self.assertRaisesRegex(TypeError, "^rom .* int", AtariVectorEnv, "beamfall", 1, rom=3)
 
     def test_one_environment_goes_back(self):
         envs = AtariVectorEnv("beamfall", 2, repeat_action_probability=0.25, seed=1)
@@ -363,7 +409,7 @@ class States(unittest.TestCase):
         envs = AtariVectorEnv("beamfall", 1, seed=1)
         before = play(envs, 5)[-1][0]
         for settings, sentence in (
-            ({"stack_num": 2}, "a stack of 2 grey screens of 84 x 84; here, one has a stack of 4 grey screens"),
+            ({"stack_num": 2}, "stack of 2 .* stack of 4"),
             ({"img_height": 50}, "84 x 50"),
             ({"img_width": 42, "img_height": 168}, "42 x 168"),
             ({"grayscale": False}, "4 colour screens"),
@@ -420,15 +466,13 @@ class States(unittest.TestCase):
                 restored(wrong)
         with self.assertRaises(TypeError):
             restored(3)
-        with self.assertRaisesRegex(InvalidInput, "the state is of the image"):
+        with self.assertRaisesRegex(InvalidInput, "^the state "):
             others.restore(0, pickle.loads(pickle.dumps(envs.save(0))))
 
     def test_environments_say_how_they_are_carried(self):
         envs = AtariVectorEnv("beamfall", 1)
         for carry in (pickle.dumps, copy.copy, copy.deepcopy):
-            with self.assertRaisesRegex(
-                TypeError, "AtariVectorEnv cannot be pickled or copied, because it owns threads"
-            ):
+            with self.assertRaisesRegex(TypeError, "^AtariVectorEnv "):
                 carry(envs)
 
 
@@ -505,9 +549,7 @@ class Attributes(unittest.TestCase):
         single = racebeam.AtariEnv("beamfall")
         self.assertEqual(AtariVectorEnv("beamfall", 2).get_action_meanings(), single.get_action_meanings())
         for env in (2, -1):
-            self.assertRaisesRegex(
-                IndexError, f"there is no environment {env}; there are 0 to 1", envs.get_action_meanings, env
-            )
+            self.assertRaisesRegex(IndexError, f"environment {env}", envs.get_action_meanings, env)
 
     def test_attributes_and_calls(self):
         envs = AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)
@@ -515,7 +557,7 @@ class Attributes(unittest.TestCase):
         self.assertEqual(envs.get_attr("grayscale"), (True, True))
         self.assertEqual(len(envs.call("save", include_rng=False)), 2)
         self.assertRaises(AttributeError, envs.get_attr, "colour")
-        self.assertRaisesRegex(AttributeError, "they have get_action_meanings", envs.call, "step")
+        self.assertRaisesRegex(AttributeError, "get_action_meanings", envs.call, "step")
 
     def test_the_text_names_the_game(self):
         self.assertEqual(repr(AtariVectorEnv("beamfall", 2)), "AtariVectorEnv(game='beamfall', num_envs=2)")
@@ -539,7 +581,7 @@ class Options(unittest.TestCase):
         )
         with self.assertRaises(dataclasses.FrozenInstanceError):
             options.seed = 4
-        self.assertRaisesRegex(Error, "batch_size is 5; it takes 0 to 4", dataclasses.replace, options, batch_size=5)
+        self.assertRaisesRegex(Error, "batch_size is 5", dataclasses.replace, options, batch_size=5)
 
     def test_the_constructor_takes_each_of_them(self):
         taken = set(inspect.signature(AtariVectorEnv).parameters)
@@ -622,12 +664,13 @@ class BadInput(unittest.TestCase):
     def test_arguments_that_are_wrong_together(self):
         two = ["beamfall", "updraft"]
         for game, arguments, error, sentence in (
-            (["beamfall"], {"num_envs": 3}, ValueError, "game has 1 names, but num_envs is 3"),
+            (["beamfall"], {"num_envs": 3}, ValueError, "num_envs is 3"),
             ("beamfall", {"lives": "end", "episodic_life": True}, ValueError, "episodic_life is True"),
-            (two, {"rom": b"", "full_action_space": True}, ValueError, "rom and server take one"),
-            (["beamfall", ["x"]], {}, TypeError, r"game has \['x'\] in its list; it takes names of games"),
-            (b"beamfall", {}, TypeError, "game has 98 in its list"),
+            (two, {"rom": b"", "full_action_space": True}, ValueError, "^there are 2 games"),
+            (["beamfall", ["x"]], {}, TypeError, r"^game .*\['x'\]"),
+            (b"beamfall", {}, TypeError, "^game .* 98 "),
             (3, {}, TypeError, "game is 3"),
+            ("beamfall", {"sound_obs": True, "server": "unix:/nowhere"}, ValueError, "^sound_obs "),
         ):
             with self.subTest(sentence=sentence), self.assertRaisesRegex(error, sentence) as raised:
                 AtariVectorEnv(game, **arguments)
@@ -699,14 +742,14 @@ class BadInput(unittest.TestCase):
                     one.step(actions)
         self.assertEqual(envs.step([0, 0])[0].shape, (2, 4, 84, 84))
         for number in (2**63, 2**64 - 1):
-            with self.assertRaisesRegex(IndexError, f"action {number} is out of range; there are 0 to 17"):
+            with self.assertRaisesRegex(IndexError, f"action {number} "):
                 envs.step(np.array([0, number], np.uint64))
 
     def test_actions_before_the_first_reset_of_a_batch(self):
         for arguments, action in (({}, [0]), ({"continuous": True}, [[0, 0, 0]])):
             envs = AtariVectorEnv("beamfall", 2, batch_size=1, seed=1, **arguments)
             for call in (envs.send, envs.step):
-                with self.assertRaisesRegex(InvalidInput, r"call reset\(\) first"):
+                with self.assertRaisesRegex(InvalidInput, "reset"):
                     call(action)
             envs.reset()
             envs.step(action)
@@ -740,7 +783,7 @@ class BadInput(unittest.TestCase):
                 envs.reset(seed=seed)
         self.assertRaisesRegex(
             InvalidInput,
-            r"the seeds have the shape \(2, 1\); they must have \(2,\)",
+            r"seeds .*\(2, 1\)",
             envs.reset,
             seed=np.zeros((2, 1), int),
         )

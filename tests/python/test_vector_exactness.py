@@ -126,7 +126,7 @@ def awaiting_the_reference():
 
 
 def play_apart(game, seed, settings):
-    """How many episodes ended, in a process of its own. Raises Different, and TimeoutError after options.patience."""
+    """How many episodes ended, in its own process. Raises Different, and TimeoutError after options.patience."""
     awaits_the_reference[0] = 0
     reader, writer = os.pipe()
     child = os.fork()

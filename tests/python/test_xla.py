@@ -230,7 +230,7 @@ class Refused(unittest.TestCase):
         self.assertEqual(done.stdout, 'xla() needs JAX; install it with: pip install "racebeam[jax]"\n', done.stderr)
 
 
-# Of each structure of core/xla_ffi.hpp: its name in JAX's header, and its members there, in the order of the members
+# For each structure of core/xla_ffi.hpp, its name in JAX's header, and its members there, in the order of the members
 # here.
 STRUCTURES = {
     "Extension": ("XLA_FFI_Extension_Base", "struct_size type next"),

@@ -32,8 +32,9 @@ AleState::AleState(std::shared_ptr<Machine> machine, bool with_random) : machine
 AleState::AleState(std::string bytes) : bytes_(std::move(bytes)) {
   if (bytes_.empty()) return;
   if (bytes_.size() < kHead || !bytes_.starts_with(kMagic))
-    throw InvalidInput("these " + std::to_string(bytes_.size()) +
-                       " bytes are no state; ALEState takes what racebeam's ALEState.serialize() returned");
+    throw InvalidInput(
+        "these " + std::to_string(bytes_.size()) +
+        " bytes are not a state; ALEState takes what racebeam's ALEState.serialize() returned");
   std::memcpy(&facts_, bytes_.data() + kMagic.size(), sizeof facts_);
 }
 

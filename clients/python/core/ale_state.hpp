@@ -28,7 +28,7 @@ class AleState {
 
   AleState() = default;  // of no game
 
-  // Of the machine's present moment; the caller holds the lock.
+  // Saves the machine's present moment; the caller holds the lock.
   AleState(std::shared_ptr<Machine> machine, bool with_random);
 
   // What serialize() returned. Throws InvalidInput unless it begins as such bytes do; the rest is checked

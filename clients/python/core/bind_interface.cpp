@@ -305,6 +305,9 @@ void restore(AleInterface& self, const AleState& state) {
 
 void bind_states(nb::class_<AleInterface>& interface) {
   interface.def("cloneState", clone, "include_rng"_a = false)
+      .def("stateHash", ask<&Environment::state_hash>,
+           "Returns the hash of the machine's state, as logs of episodes have it. Equal states have equal "
+           "hashes.")
       .def("restoreState", restore, "state"_a)
       .def("cloneSystemState", [](AleInterface& self) { return clone(self, true); })
       .def("restoreSystemState", restore, "state"_a);
@@ -373,7 +376,7 @@ Keys as_keys(const KeysAsTables& tables) {
 
 nb::bytes as_bytes(const std::string& text) { return nb::bytes(text.data(), text.size()); }
 
-// Of one moment.
+// The state of an interface at one moment.
 struct Moment {
   Keys keys, keys_of_machine;
   std::shared_ptr<const Image> image;  // null: none is loaded

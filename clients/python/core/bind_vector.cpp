@@ -33,10 +33,10 @@ using Joysticks = nb::ndarray<const float, nb::shape<-1, 3>, nb::c_contig, nb::d
 template <class T>
 using Rows = nb::ndarray<T, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
-// racebeam.vector_results.Results, whose order this is.
-using Results =
-    std::tuple<std::optional<Buffer>, std::optional<Buffer>, Rows<std::int32_t>, Rows<bool>,
-               std::optional<Buffer>, std::optional<Rows<std::int32_t>>, std::optional<Rows<std::int32_t>>>;
+// racebeam.vector.results.Results, whose order this is.
+using Results = std::tuple<std::optional<Buffer>, std::optional<Buffer>, Rows<std::int32_t>, Rows<bool>,
+                           std::optional<Buffer>, std::optional<Rows<std::int32_t>>,
+                           std::optional<Rows<std::int32_t>>, std::optional<Buffer>, std::optional<Buffer>>;
 
 template <class T>
 std::span<const T> span_of(const Given<T>& array) {
@@ -69,11 +69,14 @@ void share_out(const Rows<T>& rows, std::size_t count, const std::array<std::spa
 }
 
 BatchArrays arrays_of(const Batch& batch, std::size_t count, const Results& results) {
-  const auto& [observations, ram, numbers, flags, final_observations, final_numbers, played] = results;
+  const auto& [observations, ram, numbers, flags, final_observations, final_numbers, played, audio,
+               final_audio] = results;
   const std::size_t screens = count * batch.observation_size();
   BatchArrays to;
   to.observations = bytes_of(observations, screens);
   to.ram = bytes_of(ram, count * kRamSize);
+  to.audio = bytes_of(audio, count * kAudioSize);
+  to.final_audio = bytes_of(final_audio, count * kAudioSize);
   share_out(numbers, count,
             std::array{&to.rewards, &to.raw_rewards, &to.lives, &to.frames, &to.episode_frames, &to.numbers});
   share_out(flags, count, std::array{&to.terminated, &to.truncated, &to.finished, &to.game_over});

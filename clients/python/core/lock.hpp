@@ -1,6 +1,7 @@
 // A lock for each object that Python can reach, so that two threads that use one object at once take turns. A
 // lock that another thread held when the process forked is refused in the child: nothing would ever release
-// it. So is one that this thread holds: a handler of signals uses the object in the midst of a call.
+// it. A lock that this thread holds is refused, too: a handler of signals uses the object in the midst of a
+// call.
 #pragma once
 
 #include <atomic>
@@ -11,7 +12,7 @@
 
 namespace racebeam::python {
 
-// Of this process; a child has another than its parent.
+// The generation of this process; a child has another one than its parent.
 unsigned process_generation();
 
 class Lock {

@@ -1,4 +1,4 @@
-// Types that exist for Python alone.
+// Types that exist only for Python.
 #pragma once
 
 #include <cstdint>

@@ -32,7 +32,7 @@ void SavedMachine::restore_in(Slot& slot) const {
   restore_checked(slot, saved_slot(as_span(bytes_), slot.environment()));
 }
 
-// Pictures may be left to be drawn. A machine of their own draws them, since those of the state may play.
+// Pictures may be left to be drawn. A separate machine draws them, since those of the state may play.
 std::string SavedMachine::serialize() const {
   if (!cartridge_.image) return bytes_;
   const Environment artist(cartridge_.image, cartridge_.game, settings_);

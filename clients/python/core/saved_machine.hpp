@@ -10,7 +10,7 @@ namespace racebeam::python {
 
 class SavedMachine {
  public:
-  // Of the slot's present moment. `cartridge` is what the slot plays. with_random: with its generators.
+  // Saves the slot's present moment. `cartridge` is what the slot plays. with_random: with its generators.
   SavedMachine(const Slot& slot, Cartridge cartridge, bool with_random);
 
   // What serialize() returned. Throws InvalidInput for bytes that were cut or altered, or are of another

@@ -44,7 +44,7 @@ class VectorMachines {
   VectorMachines(std::span<const Cartridge> cartridges, const BatchSettings& settings)
       : shared_(std::make_shared<SharedBatch>(cartridges, settings)) {}
 
-  // As those of SharedBatch.
+  // See SharedBatch.
   Lock& lock() { return shared_->lock(); }
   Batch& batch() { return shared_->batch(look_for_signals); }
   const Cartridge& cartridge(std::size_t machine) const { return shared_->cartridge(machine); }

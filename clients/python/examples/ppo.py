@@ -3,7 +3,8 @@
 
     pip install "racebeam[gymnasium]" jax optax matplotlib
     python ppo.py updraft --curve ppo.png --keep updraft.npz
-    python ppo.py updraft --play updraft.npz --film updraft.gif
+    python ppo.py updraft --play updraft.npz --film updraft.gif --log updraft.episode
+    racebeam verify updraft.episode
 
 A lost life ends an episode for the agent, and the game goes on. Rewards are clipped to -1..1, and scores are those of
 the game. With the same seed and processor, it learns the same.
@@ -25,11 +26,13 @@ DISCOUNT, GAE_DECAY = 0.99, 0.95  # gamma, lambda
 CLIP, ENTROPY, VALUE = 0.1, 0.01, 0.5
 LONGEST_GRADIENT = 0.5
 FRAME_SKIP = 4  # frames of a step
+LONGEST_GAME = 108000  # frames
+GAMES_OF_MEAN = 20  # of the curve, and of its baseline
 CONVOLUTIONS = ((32, 8, 4), (64, 4, 2), (64, 3, 1))  # channels, size and stride, as in DQN
 
 
 class Batch(NamedTuple):
-    """Of each step of each environment."""
+    """A row for each step of each environment."""
 
     observations: np.ndarray
     actions: np.ndarray
@@ -131,20 +134,25 @@ def advantages_of(rewards, values, ends, last_values):
     return advantages
 
 
+def make_envs(options, count, **arguments):
+    view = {"obs_type": "ram"} if options.observe == "ram" else {}
+    return racebeam.AtariVectorEnv(
+        options.game,
+        count,
+        seed=options.seed,
+        frameskip=FRAME_SKIP,
+        max_num_frames_per_episode=LONGEST_GAME,
+        **view,
+        **arguments,
+    )
+
+
 class Player:
     """Plays the environments, and keeps the scores of whole games."""
 
     def __init__(self, options, **arguments):
-        view = {"obs_type": "ram"} if options.observe == "ram" else {}
-        self.envs = racebeam.AtariVectorEnv(
-            options.game,
-            options.envs,
-            seed=options.seed,
-            lives="end",
-            autoreset_mode="SameStep",
-            server=options.server,
-            **view,
-            **arguments,
+        self.envs = make_envs(
+            options, options.envs, lives="end", autoreset_mode="SameStep", server=options.server, **arguments
         )
         self.observations, _ = self.envs.reset()
         self.sums, self.scores, self.seconds = np.zeros(options.envs, np.int64), [], 0.0
@@ -153,7 +161,7 @@ class Player:
         return network(key, self.envs.single_observation_space.shape, int(self.envs.single_action_space.n))
 
     def play(self, parameters, key, steps):
-        """A batch of so many steps of each environment."""
+        """Plays so many steps in each environment. Returns the batch."""
         rows = []
         for one in jax.random.split(key, steps):
             observations = self.observations
@@ -207,6 +215,25 @@ def play_games(options, parameters):
         film(options.film, frames)
 
 
+def log_game(options, parameters):
+    """Plays one game with a policy, from power-on and without random no-ops, and writes its log."""
+    from racebeam.episode_log import write_log
+
+    envs = make_envs(options, 1, noop_max=0, use_fire_reset=False, autoreset_mode="Disabled")
+    numbers = [racebeam.Action[name].value for name in envs.get_action_meanings()]
+    (observations, _), key = envs.reset(), jax.random.key(options.seed)
+    actions, is_over = [], False
+    while not is_over:
+        key, one = jax.random.split(key)
+        action = np.asarray(choose(parameters, observations, one)[0])
+        actions.append(numbers[action[0]])
+        observations, _, terminated, truncated, _ = envs.step(action)
+        is_over = terminated[0] or truncated[0]
+    how = {"seed": options.seed, "frame_skip": FRAME_SKIP, "max_episode_frames": LONGEST_GAME}
+    episode = write_log(options.log, options.game, actions, **how, agent="ppo", agent_seed=options.seed)
+    print(f"{options.log}: score {episode.score} in {episode.frames:,} frames; racebeam verify confirms it")
+
+
 def film(path, frames):
     """Writes screens as an animated GIF, in the width that they had on a television."""
     from PIL import Image
@@ -225,18 +252,31 @@ def show_progress(done, total, began):
         print(end="\n" if done == total else "", file=sys.stderr)
 
 
-def draw(path, points, title):
-    """The curve as a picture."""
+def random_score(options):
+    """Plays games with random actions. Returns their mean score, the baseline of the curve."""
+    player, random = Player(options), np.random.default_rng(options.seed)
+    while len(player.scores) < max(GAMES_OF_MEAN, 4 * options.envs):  # the first ones are the short ones
+        player.step(random.integers(player.envs.single_action_space.n, size=options.envs))
+    return float(np.mean(player.scores))
+
+
+def draw(path, points, baseline, title):
+    """Draws the curve, with the score of random play as a line."""
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    pyplot.figure(figsize=(6, 4))
-    pyplot.plot(*zip(*points))
-    pyplot.xlabel("steps")
-    pyplot.ylabel("mean score of the last 20 games")
-    pyplot.title(title)
+    _, axes = pyplot.subplots(figsize=(7, 4.5), layout="constrained")
+    axes.plot(*zip(*points), marker=".", label=f"mean of the last {GAMES_OF_MEAN} games")
+    axes.axhline(baseline, color="grey", linestyle="--", label=f"random play: {baseline:.1f}")
+    axes.set(title=title, xlabel="steps of all environments", ylabel="score of a game")
+    axes.set_xlim(0)
+    axes.set_ylim(min(0, baseline, *(score for _, score in points)))
+    axes.xaxis.set_major_formatter("{x:,.0f}")
+    axes.yaxis.set_major_formatter("{x:,.0f}")
+    axes.grid(alpha=0.3)
+    axes.legend()
     pyplot.savefig(path, dpi=120)
 
 
@@ -254,10 +294,11 @@ def learn(options, player, parameters, key):
         parameters, state = update(parameters, state, batch, to_learn, optimizer, options.epochs, options.parts)
         show_progress(number * steps, updates * steps, began)
         if player.scores:
-            points.append((number * steps, float(np.mean(player.scores[-20:]))))
+            points.append((number * steps, float(np.mean(player.scores[-GAMES_OF_MEAN:]))))
         if points and (number % 10 == 0 or number == updates):
             print(
-                f"update {number}: {len(player.scores)} games, mean score of the last 20: {points[-1][1]:.1f}",
+                f"update {number}: {len(player.scores)} games, "
+                f"mean score of the last {GAMES_OF_MEAN}: {points[-1][1]:.1f}",
                 flush=True,
             )
     seconds = time.perf_counter() - began
@@ -266,7 +307,7 @@ def learn(options, player, parameters, key):
         f"{100 * player.seconds / seconds:.0f} % of the time"
     )
     if options.curve and points:
-        draw(options.curve, points, f"PPO on {options.observe} of {options.game}")
+        draw(options.curve, points, random_score(options), f"PPO on the {options.observe} of {options.game}")
     return parameters
 
 
@@ -275,7 +316,12 @@ def main():
     parser.add_argument("game", nargs="?", default="updraft", help="(default: %(default)s)")
     parser.add_argument("--observe", choices=("ram", "pixels"), default="ram", help="(default: %(default)s)")
     parser.add_argument("--envs", type=int, default=32, help="(default: %(default)s)")
-    parser.add_argument("--steps", type=int, default=409600, help="of all environments (default: %(default)s)")
+    parser.add_argument(
+        "--steps",
+        type=int,
+        default=409600,
+        help="steps of the agent that learns, of 4 frames each, in all environments (default: %(default)s)",
+    )
     parser.add_argument(
         "--horizon", type=int, default=128, help="steps of each environment before an update (default: %(default)s)"
     )
@@ -286,11 +332,12 @@ def main():
     )
     parser.add_argument("--seed", type=int, default=1, help="(default: %(default)s)")
     parser.add_argument("--server", help="the environments run there, such as unix:PATH")
-    parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores")
+    parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores, beside that of random play")
     parser.add_argument("--keep", metavar="FILE", help="the file for the policy, at the end")
     parser.add_argument("--play", metavar="FILE", help="play with the policy of this file, and do not learn")
     parser.add_argument("--games", type=int, default=10, help="of --play and --film (default: %(default)s)")
     parser.add_argument("--film", metavar="FILE", help="a GIF of a game with the policy; it needs Pillow")
+    parser.add_argument("--log", metavar="FILE", help="the log of a game with the policy, FILE.episode")
     options = parser.parse_args()
     if options.envs * options.horizon % options.parts:
         parser.error(
@@ -308,6 +355,8 @@ def main():
             keep(options.keep, parameters)
         if options.play or options.film:
             play_games(options, parameters)
+        if options.log:
+            log_game(options, parameters)
     except (racebeam.InvalidInput, racebeam.Refused, OSError, ValueError) as error:
         sys.exit(f"ppo.py: {error}")
 

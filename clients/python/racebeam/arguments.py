@@ -219,7 +219,7 @@ def seconds(name: str, value: Any) -> float | None:
     return number
 
 
-# Games and images of one's own
+# Your own games and images
 
 
 def path_of(game_file: Any) -> str | None:

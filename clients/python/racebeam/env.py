@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-import numbers
-import operator
 import os
 from typing import Any, Literal, TypeAlias, TypedDict
 
-import gymnasium
-import numpy as np
-import numpy.typing as npt
-from gymnasium import error, spaces
-from gymnasium.utils import seeding
-
 from . import images
-from ._core import Action, ALEState, View
+from ._core import Action, View
 from .arguments import (
     MOST,
     WrongType,
@@ -24,7 +16,6 @@ from .arguments import (
     console_of,
     flag,
     image,
-    join,
     optional_whole,
     path_of,
     real,
@@ -34,29 +25,20 @@ from .arguments import (
     warn_of,
     whole,
 )
-from .errors import InvalidInput
 from .interface import ALEInterface
 from .presets import preset as preset_of
-from .window import Window
+from .single.actions import PlayerAction
+from .single.arguments import check_reward_range, check_rules, frameskip_of
+from .single.view import VIEWS, EnvWithView, Observation, closed_error
 from .wire.remote import RemoteInterface
 
 __all__ = ["AtariEnv", "AtariEnvStepMetadata"]
 
-Pixels: TypeAlias = npt.NDArray[np.uint8]
-Observation: TypeAlias = Pixels | dict[str, Pixels]
-PlayerAction: TypeAlias = Any  # an index, a pair of indices, or (radius, angle, fire)
 Rom: TypeAlias = images.Rom | bytearray | memoryview
 # What ALEInterface.step() returns: observation, rewards of A and B, ends, lives, and frame numbers.
 StepResults: TypeAlias = tuple[Any, float, float, bool, bool, int, int, int]
 
-VIEWS = {"rgb": View.RGB, "grayscale": View.GRAYSCALE, "ram": View.RAM}
-RULES = ("ale-0.12", "fixed")
 RENDER_MODES = (None, "human", "rgb_array")
-FIRST_OF_B = 18  # player B's actions have the numbers after A's
-KEYS = (("UP", "w"), ("DOWN", "s"), ("RIGHT", "d"), ("LEFT", "a"), ("FIRE", " "))
-KEY_OF_NOOP = "e"
-SIDES = {-1: "LEFT", 0: "", 1: "RIGHT"}
-HEIGHTS = {-1: "DOWN", 0: "", 1: "UP"}
 
 
 class _Counts(TypedDict):
@@ -82,7 +64,7 @@ class AtariEnvStepMetadata(_Counts, total=False):
     reward_b: float
 
 
-class AtariEnv(gymnasium.Env[Any, Any]):
+class AtariEnv(EnvWithView):
     """An Atari 2600 game. It returns what ale_py's AtariEnv returns, byte for byte, for the same arguments and actions.
 
     A new environment has random seeds. `reset(seed=S)` powers the console on anew with seeds derived from S. Without a
@@ -191,7 +173,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         timeout: float | None = None,
     ) -> None:
         usual = preset_of(preset)
-        _check_rules(rules)
+        check_rules(rules)
         check_choice("obs_type", obs_type, tuple(VIEWS))
         check_choice("render_mode", render_mode, RENDER_MODES)
         two_player, continuous = flag("two_player", two_player), flag("continuous", continuous)
@@ -201,7 +183,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         check_source(game, self._rom, self._game_file, server)
         self._game_mode, self._game_difficulty = optional_whole("mode", mode), optional_whole("difficulty", difficulty)
         self._obs_type, self._view = obs_type, VIEWS[obs_type]
-        self._frameskip = _frameskip(value_or(frameskip, usual.frameskip))
+        self._frameskip = frameskip_of(value_or(frameskip, usual.frameskip))
         self._noop_max = whole("noop_max", value_or(noop_max, usual.noop_max), 0, MOST)
         self._reward_range: tuple[float, float] | None = value_or(reward_range, usual.reward_range)
         self._two_player = two_player
@@ -210,10 +192,10 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self.sound_obs = flag("sound_obs", sound_obs)
         self.render_mode = render_mode
         self._sound = flag("sound", sound) and render_mode == "human"
-        self._window: Window | None = None
+        self._window = None
         self._is_closed = False
         self._name = str(game)
-        _check_reward_range(self._reward_range)
+        check_reward_range(self._reward_range)
         sticky = share(
             "repeat_action_probability", value_or(repeat_action_probability, usual.repeat_action_probability)
         )
@@ -250,88 +232,6 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     def __repr__(self) -> str:
         return f"{type(self).__name__}(game={self._name!r}, obs_type={self._obs_type!r}, frameskip={self._frameskip})"
 
-    def _set_keys(self, rules: str, sticky: float, limit: int | None, life_loss_ends: bool) -> None:
-        """Sets what takes effect when the game is loaded."""
-        self.ale.setString("rules", rules)
-        self.ale.setFloat("repeat_action_probability", sticky)
-        if limit is not None:
-            self.ale.setInt("max_num_frames_per_episode", limit)
-        self.ale.setBool("truncate_on_loss_of_life", life_loss_ends)
-        self.ale.setBool("sound_obs", self.sound_obs or self._sound)
-
-    def _set_console(self, words: dict[str, str], numbers: dict[str, int | None]) -> None:
-        """Sets what the console must know of your own image."""
-        self.ale.setString("game_file", self._game_file or "")
-        self.ale.setBool("unknown_images", self._game is None)
-        for key, word in words.items():
-            self.ale.setString(key, word)
-        for key, number in numbers.items():
-            if number is not None:
-                self.ale.setInt(key, number)
-
-    # Seeds and images
-
-    def seed_game(self, seed: int | None = None) -> tuple[int, int]:
-        """Seeds `np_random`, and the game from its next `load_game` on.
-
-        Args:
-            seed: Seed from 0, or None for a random one.
-
-        Returns:
-            The seeds of `np_random` and of the game, uint32.
-
-        Raises:
-            gymnasium.error.Error: If `seed` is invalid.
-        """
-        seeding.np_random(seed)  # raises Error if `seed` is invalid
-        step_seed, game_seed = np.random.SeedSequence(seed).generate_state(2)
-        self._np_random, _ = seeding.np_random(int(step_seed))
-        self._np_random_seed = -1 if seed is None else seed
-        self.ale.setInt("random_seed", int(game_seed.astype(np.int32)))
-        return step_seed, game_seed
-
-    def load_game(self) -> None:
-        """Powers the console on, with the mode and the difficulty of the constructor.
-
-        Raises:
-            InvalidInput: If the game does not have the mode or the difficulty.
-        """
-        if isinstance(self.ale, RemoteInterface):
-            self.ale.loadROM(self._rom, self._game)
-        else:
-            rom = images.find(str(self._game)) if self._rom is None else self._rom
-            self.ale.loadROM(rom, self._game)
-        if self._game is None:
-            self._name = str(self.ale.getGame())
-        mode = self._mode_for_two() if self._two_player else self._mode_for_one()
-        if mode is not None:
-            self.ale.setMode(mode)
-        if self._game_difficulty is not None:
-            self.ale.setDifficulty(self._game_difficulty)
-
-    def _mode_for_one(self) -> int | None:
-        offered: list[int] = self.ale.getAvailableModes()
-        if (
-            self._game_mode is not None
-            and self._game_mode in self.ale.getTwoPlayerModes()
-            and self._game_mode not in offered
-        ):
-            raise InvalidInput(
-                f"{self._name} has mode {self._game_mode} only for two, which two_player=True plays; "
-                f"for one it offers {join(offered)}"
-            )
-        return self._game_mode
-
-    def _mode_for_two(self) -> int:
-        offered: list[int] = self.ale.getTwoPlayerModes()
-        if not offered:
-            raise InvalidInput(f"two_player is True, but {self._name} has no mode for two")
-        if self._game_mode is None:
-            return offered[0]
-        if self._game_mode not in offered:
-            raise InvalidInput(f"{self._name} has no mode {self._game_mode} for two; it offers {join(offered)}")
-        return self._game_mode
-
     # Spaces
 
     def _set_spaces(self, full: bool) -> None:
@@ -339,21 +239,6 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self._action_set: list[Action] = self.ale.getLegalActionSet() if is_full else self.ale.getMinimalActionSet()
         self.action_space = self._space_of_actions()
         self.observation_space = self._space_of_observations()
-
-    def _space_of_actions(self) -> spaces.Space[Any]:
-        count = len(self._action_set)
-        if self.continuous:
-            low, high = np.array([0, -np.pi, 0], np.float32), np.array([1, np.pi, 1], np.float32)
-            return spaces.Box(low, high, (3,), np.float32)
-        return spaces.MultiDiscrete([count, count]) if self._two_player else spaces.Discrete(count)
-
-    def _space_of_observations(self) -> spaces.Space[Any]:
-        height, width = self.ale.getScreenDims()
-        shape = {View.RGB: (height, width, 3), View.GRAYSCALE: (height, width), View.RAM: (self.ale.getRAMSize(),)}
-        image = spaces.Box(0, 255, shape[self._view], np.uint8)
-        if not self.sound_obs:
-            return image
-        return spaces.Dict({"image": image, "sound": spaces.Box(0, 255, (self.ale.getAudioSize(),), np.uint8)})
 
     # Playing
 
@@ -444,97 +329,6 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         low, high = self._reward_range
         return float(min(max(reward, low), high))
 
-    # Actions
-
-    def _parse_action(self, action: PlayerAction) -> tuple[int, float, int, float]:
-        """Returns the number of A's action and the strength of its paddle, then those of B."""
-        if self.continuous:
-            return (*self._parse_continuous(action), FIRST_OF_B, 0.0)
-        if not self._two_player:
-            return self._look_up(action), 1.0, FIRST_OF_B, 0.0
-        try:
-            a, b = action
-        except (TypeError, ValueError):
-            raise TypeError(f"action is {action!r}; it must be a pair of indices, for players A and B") from None
-        return self._look_up(a), 1.0, FIRST_OF_B + self._look_up(b), 1.0
-
-    def _look_up(self, action: Any) -> int:
-        try:
-            index = operator.index(action)
-        except TypeError:
-            raise TypeError(f"action {action!r} has the type {type(action).__name__}; it must be an integer") from None
-        if not 0 <= index < len(self._action_set):
-            raise IndexError(f"action {index} is out of range; there are 0 to {len(self._action_set) - 1}")
-        return self._action_set[index].value
-
-    def _parse_continuous(self, action: Any) -> tuple[int, float]:
-        if not (isinstance(action, np.ndarray) and action.dtype == np.float32 and action.shape == (3,)):
-            raise AssertionError(f"action is {action!r}; it must be a float32 array of 3: radius, angle and fire")
-        if not np.isfinite(action).all():
-            raise InvalidInput(f"action is {action!r}; each part must be a finite number")
-        radius, angle, fire = action
-        threshold = np.float32(self.continuous_action_threshold)  # the comparisons are those of float32
-        x, y = radius * np.cos(angle), radius * np.sin(angle)
-        chosen = self.map_action_idx(
-            left_center_right=int(x > threshold) - int(x < -threshold),
-            down_center_up=int(y > threshold) - int(y < -threshold),
-            fire=bool(fire > threshold),
-        )
-        return chosen.value, float(radius)
-
-    @staticmethod
-    def map_action_idx(left_center_right: int, down_center_up: int, fire: bool) -> Action:
-        """Converts the position of a joystick to an action.
-
-        Args:
-            left_center_right: -1 for left, 0 for the centre, 1 for right.
-            down_center_up: -1 for down, 0 for the centre, 1 for up.
-            fire: Whether the button is pressed.
-
-        Returns:
-            The action.
-
-        Raises:
-            LookupError: If a position is not -1, 0 or 1.
-        """
-        if left_center_right not in SIDES or down_center_up not in HEIGHTS:
-            raise LookupError(
-                f"left_center_right is {left_center_right} and down_center_up is {down_center_up}; "
-                "each must be -1, 0 or 1"
-            )
-        name = HEIGHTS[down_center_up] + SIDES[left_center_right] + ("FIRE" if flag("fire", fire) else "")
-        return Action[name or "NOOP"]
-
-    def get_action_meanings(self) -> list[str]:
-        """Returns the names of the actions in the order of their indices, such as ["NOOP", "FIRE"]."""
-        return [action.name for action in self._action_set]
-
-    def get_keys_to_action(self) -> dict[tuple[str, ...], int]:
-        """Maps the keys that a player holds to actions.
-
-        Returns:
-            The index of an action by the keys w, a, s, d and space that are held; e is for NOOP.
-
-        Raises:
-            AttributeError: With `continuous` or `two_player`.
-        """
-        if self.continuous or self._two_player:
-            setting = "continuous" if self.continuous else "two_player"
-            raise AttributeError(
-                f"`get_keys_to_action` can't be provided for this Atari environment as `{setting}=True`: "
-                "keys move one joystick"
-            )
-        return {_keys_of(name): index for index, name in enumerate(self.get_action_meanings())}
-
-    # Observations
-
-    def _observation(self, image: Pixels) -> Observation:
-        return {"image": image, "sound": self.ale.getAudio()} if self.sound_obs else image
-
-    def _get_obs(self) -> Observation:
-        show = {View.RGB: self.ale.getScreenRGB, View.GRAYSCALE: self.ale.getScreenGrayscale, View.RAM: self.ale.getRAM}
-        return self._observation(show[self._view]())
-
     def _get_info(self) -> AtariEnvStepMetadata:
         return {
             "lives": self.ale.lives(),
@@ -542,64 +336,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             "frame_number": self.ale.getFrameNumber(),
         }
 
-    def render(self) -> Pixels | None:
-        """Returns the screen.
-
-        Returns:
-            uint8 array of shape (height, 160, 3) if `render_mode` is "rgb_array"; None if it is "human", since the
-            window shows the screen already.
-
-        Raises:
-            gymnasium.error.Error: If `render_mode` is None.
-        """
-        self._check_open("render()")
-        if self.render_mode == "human":
-            return None
-        if self.render_mode != "rgb_array":
-            raise error.Error(
-                f"render_mode is {self.render_mode!r}, so render() shows nothing; make the environment "
-                "with render_mode human or rgb_array"
-            )
-        picture: Pixels = self.ale.getScreenRGB()
-        return picture
-
-    def _open_window(self) -> None:
-        if self.render_mode == "human":
-            height, width = self.ale.getScreenDims()
-            self._window = Window(images.titles().get(self._name, self._name), width, height, self._sound)
-
-    def _show_window(self) -> None:
-        if self._window is None:
-            return
-        self._window.show(self.ale.getScreenRGB())
-        if self._sound:
-            self._window.play(self.ale.getAudio())
-        self._window.wait()
-
-    # States, copies, the end
-
-    def clone_state(self, include_rng: bool = False) -> ALEState:
-        """Saves the state of the game, without `np_random`.
-
-        Args:
-            include_rng: Whether the state has the generator of sticky actions.
-
-        Returns:
-            A state that can be pickled, and restored in another process.
-        """
-        state: ALEState = self.ale.cloneState(include_rng=include_rng)
-        return state
-
-    def restore_state(self, state: ALEState) -> None:
-        """Restores a state of the game.
-
-        Args:
-            state: A state that `clone_state` returned.
-
-        Raises:
-            InvalidInput: If the state belongs to another game.
-        """
-        self.ale.restoreState(state)
+    # Copies, and the end
 
     def __getstate__(self) -> dict[str, Any]:
         """Returns the state of a copy, which continues where this game is, in the same window."""
@@ -622,10 +359,6 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             self.ale.close()
         self.ale = _Closed(self._name)
 
-    def _check_open(self, what: str) -> None:
-        if self._is_closed:
-            raise _closed_error(what, self._name)
-
 
 class _Closed:
     """Placeholder for the interface of a closed environment: any use raises ClosedEnvironmentError."""
@@ -636,44 +369,4 @@ class _Closed:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        raise _closed_error(name, self._game)
-
-
-def _closed_error(what: str, game: str) -> error.ClosedEnvironmentError:
-    return error.ClosedEnvironmentError(f"{what} is not possible: this environment of {game} was closed")
-
-
-def _keys_of(action: str) -> tuple[str, ...]:
-    return tuple(key for part, key in KEYS if part in action) or (KEY_OF_NOOP,)
-
-
-def _check_rules(rules: object) -> None:
-    if not isinstance(rules, str) or rules not in RULES:
-        raise InvalidInput(f"rules is {rules!r}; it takes {' or '.join(RULES)}")
-
-
-def _is_whole(value: object) -> bool:
-    return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
-
-
-def _frameskip(given: Any) -> int | tuple[int, int]:
-    """Checks a frameskip, and converts its numbers to int."""
-    accepted = f"it takes an int from 1 to {MOST}, or a tuple (low, high) of such ints with low < high"
-    if not isinstance(given, tuple) and not _is_whole(given):
-        raise WrongType(f"frameskip has the type {type(given).__name__}; {accepted}")
-    ends = given if isinstance(given, tuple) else (given, MOST + 1)
-    if not all(map(_is_whole, ends)):
-        raise WrongType(f"frameskip is {given}; {accepted}")
-    if not (len(ends) == 2 and 0 < ends[0] < ends[1] <= MOST + (ends is not given)):
-        raise WrongValue(f"frameskip is {given}; {accepted}")
-    return (int(ends[0]), int(ends[1])) if ends is given else int(given)
-
-
-def _check_reward_range(reward_range: object) -> None:
-    if reward_range is None:
-        return
-    sentence = f"reward_range is {reward_range!r}; it takes None, or two numbers (low, high), low <= high"
-    if not isinstance(reward_range, (tuple, list)) or not all(isinstance(end, numbers.Real) for end in reward_range):
-        raise WrongType(sentence)
-    if len(reward_range) != 2 or not reward_range[0] <= reward_range[1]:  # as with NaN
-        raise WrongValue(sentence)
+        raise closed_error(name, self._game)

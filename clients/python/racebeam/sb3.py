@@ -90,7 +90,7 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
     def __repr__(self) -> str:
         return repr(self._envs).replace(type(self._envs).__name__, type(self).__name__, 1)
 
-    def reset(self) -> npt.NDArray[np.uint8]:
+    def reset(self) -> Any:
         """Begins new episodes, with the seeds that `seed` set.
 
         Returns:
@@ -165,6 +165,17 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
     def get_images(self) -> list[npt.NDArray[np.uint8] | None]:
         """Returns the screens, uint8 of shape (height, 160, 3), if `render_mode` is "rgb_array"."""
         return list(self._envs.render() or [])
+
+    def render(self, mode: str | None = None) -> npt.NDArray[np.uint8] | None:
+        """Returns the screens as one picture, which `render_mode` "rgb_array" allows.
+
+        Args:
+            mode: Ignored if `render_mode` is "human", since the window shows the screens already.
+
+        Returns:
+            uint8 array of shape (height, width, 3), or None.
+        """
+        return None if self.render_mode == "human" else super().render(mode)
 
     # Calls of wrappers and callbacks
 

@@ -168,7 +168,7 @@ class VectorEnvironmentTests(Base):
         steps: Number of steps that each test plays.
         seed: First seed.
         has_states: Whether the state of `envs.unwrapped.save` is the whole state of an environment. It is not if a
-            wrapper keeps a state of its own.
+            wrapper keeps its own state.
 
     Example:
         >>> import unittest

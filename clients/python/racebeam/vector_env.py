@@ -2,54 +2,23 @@
 
 from __future__ import annotations
 
-import operator
 import os
 import secrets
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, SupportsIndex, TypeAlias
+from typing import Any, Literal, SupportsIndex
 
-import numpy as np
-import numpy.typing as npt
-from gymnasium import error, spaces
-from gymnasium.vector.utils import batch_space
-
-from . import _core, images, xla
-from .arguments import (
-    WrongType,
-    WrongValue,
-    check_source,
-    console_of,
-    image,
-    path_of,
-    real,
-    seconds,
-    value_or,
-    warn_of,
-    whole,
-)
-from .autoreset import AutoresetMode, VectorEnv, check_supported
-from .errors import InvalidInput
-from .machines import Actions, Joysticks, Machines
-from .machines import Seeds as SeedArray
+from . import images, xla
+from .arguments import WrongValue, check_source, console_of, image, path_of, real, seconds, value_or, warn_of
+from .autoreset import AutoresetMode, check_supported
 from .presets import vector_preset
-from .vector_inputs import indices_of, joysticks_of, mask_of, seeds_of
-from .vector_options import MOST_ENVS, VectorOptions, autoreset_of, merge_life_flags
-from .vector_results import Bools, Numbers, Pixels, Results
-from .window import Grid
-from .wire.remote_machines import Halves, RemoteMachines
-from .wire.spread_machines import SpreadMachines
+from .vector.making import Rom, make_local_machines, make_remote_machines, parse_games
+from .vector.play import PlayedVector
+from .vector_options import VectorOptions, merge_life_flags
 
 __all__ = ["AtariVectorEnv"]
 
-Rom: TypeAlias = str | os.PathLike[str] | bytes
-Info: TypeAlias = dict[str, Any]
-Seeds: TypeAlias = SupportsIndex | Sequence[SupportsIndex | None] | npt.NDArray[np.integer[Any]]
-# Observations, rewards, terminated, truncated and info.
-Step: TypeAlias = tuple[Pixels, npt.NDArray[np.int32], Bools, Bools, Info]
-RAM_SIZE, SCREEN_WIDTH = 128, 160
 
-
-class AtariVectorEnv(VectorEnv[Any, Any, Any]):
+class AtariVectorEnv(PlayedVector):
     """A vector of environments of one or several games, stepped on threads or on servers.
 
     With default arguments, it returns what ale_py's AtariVectorEnv returns, byte for byte. Arguments of None take the
@@ -117,6 +86,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         seed: Seed of the first environment, from which seeds count up. The first `reset` uses it. Default: random.
         render_mode: "rgb_array" makes `render` return the screens. "human" opens a window, which shows the first 16
             environments at 60 frames per second.
+        sound_obs: Whether an observation is a dict of "image" and "sound", the 512 samples of the last frame. All
+            frames of a step are heard. A server does not play it.
         server: Address of the server that runs the environments, or a list of addresses to spread them over. Needs one
             game, and `batch_size` equal to `num_envs`.
         token: Token that the server asks for.
@@ -153,7 +124,6 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         "raw_reward",
         "game_over",
     )
-    metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array"], "render_fps": 15}
     _check_game = staticmethod(images.check_name)
 
     def __init__(
@@ -199,6 +169,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         height: int | None = None,
         seed: SupportsIndex | None = None,
         render_mode: Literal["human", "rgb_array"] | None = None,
+        sound_obs: bool = False,
         server: str | Sequence[str] | None = None,
         token: str | None = None,
         timeout: float | None = None,
@@ -206,7 +177,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         check_supported("AtariVectorEnv")
         rom, own_file = image(rom), path_of(game_file)
         check_source(game, rom, own_file, server)
-        names, game_of_env = self._parse_games(game, num_envs, server is None)
+        names, game_of_env = parse_games(game, num_envs, self._check_game, server is None)
         console = console_of(scheme=scheme, left=left, right=right, format=format, ystart=ystart, height=height)
         usual = vector_preset(preset)
         options = VectorOptions(
@@ -236,396 +207,18 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             stack_start=stack_start,
             rules=rules,
             render_mode=render_mode,
+            sound_obs=sound_obs,
             seed=value_or(seed, secrets.randbits(32)),
         )
         self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
         if server is None:
             machines = make_local_machines(names, game_of_env, rom, options, own_file, console)
-        elif console:
-            raise WrongValue(f"{' and '.join(console)} are given with server; AtariEnv takes both")
+        elif unplayed := [*console, *(["sound_obs"] if options.sound_obs else [])]:
+            raise WrongValue(f"{' and '.join(unplayed)} cannot be given with server; AtariEnv takes both")
         else:
-            machines = _remote_machines(names, rom, options, server, token, seconds("timeout", timeout))
+            machines = make_remote_machines(names, rom, options, server, token, seconds("timeout", timeout))
         warn_of(machines.doubts())
         self._use(machines, names, game_of_env, options, None if seed is None else options.seed)
-
-    def _use(
-        self,
-        machines: Machines,
-        names: list[str | None],
-        game_of_env: Numbers,
-        options: VectorOptions,
-        first_seed: int | None = None,
-    ) -> None:
-        """Sets the attributes, for machines that were made with these options.
-
-        Args:
-            machines: The machines.
-            names: Names of the games.
-            game_of_env: For each environment, the index of its game.
-            options: The options.
-            first_seed: Seed of the first reset. It is forgotten when something is played before.
-        """
-        self._first_seed = first_seed
-        self._machines: Any = machines
-        self._options = options
-        self._games = [names[index] for index in game_of_env]
-        self.num_envs = options.num_envs
-        self.batch_size: int = options.batch_size
-        self.autoreset_mode = autoreset_of(options.autoreset_mode)
-        self.metadata = {**type(self).metadata, "autoreset_mode": self.autoreset_mode}
-        self.render_mode = options.render_mode
-        self.grayscale: bool = not options.is_rgb
-        self.continuous = options.continuous
-        self._shows_ram = options.obs_type == "ram"
-        self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
-        self._received = np.arange(self.num_envs, dtype=np.int32)
-        self._make_spaces()
-        self._window: Grid | None = None
-        if self.render_mode == "human":
-            title = images.titles().get(str(names[0]), "racebeam") if len(names) == 1 else "racebeam"
-            self._window = Grid(title, self.num_envs, SCREEN_WIDTH, self._machines.height())
-
-    def _parse_games(
-        self, game: str | Sequence[str] | None, num_envs: int | None, is_local: bool = True
-    ) -> tuple[list[str | None], Numbers]:
-        """Returns the names of the games, and for each environment the index of its game.
-
-        A server checks its names itself, since it may know others.
-        """
-        if isinstance(game, str) or game is None:
-            if game is not None and is_local:
-                self._check_game(game)
-            return [game], np.zeros(whole("num_envs", value_or(num_envs, 1), 1, MOST_ENVS), np.int32)
-        if not isinstance(game, Sequence):
-            raise WrongType(f"game is {game!r}; it takes a name, or a list of names")
-        if num_envs is not None and num_envs != len(game):
-            raise WrongValue(f"game has {len(game)} names, but num_envs is {num_envs!r}")
-        whole("num_envs", len(game), 1, MOST_ENVS)
-        for name in game:
-            if not isinstance(name, str):
-                raise WrongType(f"game has {name!r} in its list; it takes names of games")
-        names: list[str | None] = list(dict.fromkeys(game))
-        for each in names:
-            self._check_game(str(each))
-        return names, np.array([names.index(name) for name in game], np.int32)
-
-    def _make_spaces(self) -> None:
-        shape: tuple[int, ...] = (RAM_SIZE,)
-        if not self._shows_ram:
-            settings = self._options.core_settings()
-            shape = (settings.stack, settings.height or self._machines.height(), settings.width or SCREEN_WIDTH)
-            shape += () if self.grayscale else (3,)
-        self.single_observation_space = spaces.Box(0, 255, shape, np.uint8)
-        counts = sorted(set(self._machines.numbers_of_actions()))
-        if self.continuous:
-            low, high = np.array([0, -np.pi, 0], np.float32), np.array([1, np.pi, 1], np.float32)
-            self.single_action_space: spaces.Space[Any] = spaces.Box(low, high, dtype=np.float32)
-        elif len(counts) == 1:
-            self.single_action_space = spaces.Discrete(counts[0])
-        else:
-            raise InvalidInput(
-                f"the games have {' and '.join(map(str, counts))} actions; full_action_space=True gives them the same"
-            )
-        self.observation_space = batch_space(self.single_observation_space, self.batch_size)
-        self.action_space = batch_space(self.single_action_space, self.batch_size)
-        self._shape = shape
-
-    def __repr__(self) -> str:
-        game = self._games[0] if len(set(self._games)) == 1 else self._games
-        return f"{type(self).__name__}(game={game!r}, num_envs={self.num_envs})"
-
-    # Playing
-
-    def reset(
-        self, *, seed: Seeds | None = None, options: dict[str, Any] | None = None, out: Pixels | None = None
-    ) -> tuple[Pixels, Info]:
-        """Begins new episodes.
-
-        Steps that were sent and not received are played to their end, and their results are dropped. What a signal's
-        handler raises, such as KeyboardInterrupt, ends a long call, as in `step`.
-
-        Args:
-            seed: Seed of the first environment, from which seeds count up; or one for each environment, where None and
-                -1 mean unseeded. A seed powers the environment on anew. Without a seed, the generators continue; the
-                first reset uses the seed of the constructor.
-            options: May have "reset_mask", a bool array of shape (num_envs,) that chooses the environments to reset.
-                The others are returned as they are. Needs `batch_size` equal to `num_envs`.
-            out: Array for the observations. Default: a new array.
-
-        Returns:
-            Observations, uint8 of shape (n, stack_num, img_height, img_width), with 3 as a further axis for colours, or
-            of shape (n, 128) for the RAM; and the info.
-
-        Raises:
-            TypeError: If a seed or the mask has a wrong type.
-            InvalidInput: If a seed, the mask or `out` has a wrong value or shape.
-        """
-        self._check_open()
-        if not isinstance(options, (dict, type(None))):
-            raise TypeError(f"options are {options!r}; they must be a dict")
-        mask = self._parse_mask((options or {}).get("reset_mask"))
-        seeds = self._parse_seeds(value_or(seed, self._first_seed), mask)
-        results = self._allocate_results(out)
-        if mask is not None and self.batch_size < self.num_envs:
-            raise InvalidInput("reset_mask is given with batch_size < num_envs; it needs batch_size to be num_envs")
-        self._drop_pending()
-        self._first_seed = None
-        if self.batch_size == self.num_envs:
-            self._machines.reset(mask, seeds, results)
-        else:
-            self._machines.send_resets(seeds)
-            self._machines.receive(results)
-        observations, *_, info = self._format_step(results)
-        return observations, info
-
-    def _drop_pending(self) -> None:
-        """Receives what was sent and not received, and drops it."""
-        pending = int(self._machines.playing())
-        if pending == 0:
-            return
-        receive = self._machines.drop if isinstance(self._machines, Halves) else self._machines.receive
-        receive(self._allocate_results(None, pending))
-
-    def step(self, actions: npt.ArrayLike, *, out: Pixels | None = None) -> Step:
-        """Steps the environments.
-
-        What a signal's handler raises, such as KeyboardInterrupt, ends a long call. Each environment has then either
-        made the step or not, and `reset` or `restore` makes them agree. With `batch_size` below `num_envs`, the step
-        goes on, and `recv` returns it.
-
-        Args:
-            actions: An action for each environment, or for each of those that the last call returned if `batch_size` is
-                below `num_envs`. Integers of shape (n,), or numbers of shape (n, 3) if `continuous`: the radius from 0
-                to 1, the angle in radians, and fire.
-            out: Array for the observations. Default: a new array.
-
-        Returns:
-            Observations as in `reset`, rewards (int32), terminated (bool), truncated (bool) and the info.
-
-        Raises:
-            TypeError: If the actions have a wrong type.
-            IndexError: If an action is out of range.
-            InvalidInput: If the actions or `out` have a wrong shape, or a number is not finite.
-        """
-        self._check_open()
-        parsed: Any = self._parse_joysticks(actions) if self.continuous else self._parse_actions(actions)
-        if self.batch_size < self.num_envs:
-            self._send(parsed)
-            return self.recv(out=out)
-        results = self._allocate_results(out)
-        self._first_seed = None
-        if self.continuous:
-            self._machines.step_joysticks(parsed, self.continuous_action_threshold, results)
-        else:
-            self._machines.step(parsed, results)
-        return self._format_step(results)
-
-    def send(self, actions: npt.ArrayLike) -> None:
-        """Begins a step of the environments that the last call returned; `recv` returns its results.
-
-        Args:
-            actions: As in `step`.
-
-        Raises:
-            TypeError: If the actions have a wrong type.
-            IndexError: If an action is out of range.
-            InvalidInput: If the actions have a wrong shape.
-        """
-        self._check_open()
-        self._send(self._parse_joysticks(actions) if self.continuous else self._parse_actions(actions))
-
-    def recv(self, *, out: Pixels | None = None) -> Step:
-        """Waits for the first `batch_size` environments that finish their step.
-
-        After KeyboardInterrupt, the next call returns these results.
-
-        Args:
-            out: Array for the observations. Default: a new array.
-
-        Returns:
-            The same as `step`.
-
-        Raises:
-            InvalidInput: If fewer than `batch_size` environments were sent, or `out` has a wrong shape.
-        """
-        self._check_open()
-        results = self._allocate_results(out)
-        self._machines.receive(results)
-        return self._format_step(results)
-
-    def _send(self, actions: npt.NDArray[Any]) -> None:
-        envs = self._last_received()
-        self._first_seed = None
-        if self.continuous:
-            self._machines.send_joysticks(actions, self.continuous_action_threshold, envs)
-        else:
-            self._machines.send(actions, envs)
-
-    def _last_received(self) -> Numbers:
-        """Returns the environments that the last call returned. Before the first call, those are all."""
-        if len(self._received) != self.batch_size:
-            raise InvalidInput("no environment was received yet; call reset() first")
-        return self._received
-
-    def show(self) -> tuple[Pixels, Info]:
-        """Returns the present observations of all environments, such as after `restore`.
-
-        Returns:
-            The same as `reset`, for all environments.
-        """
-        self._check_open()
-        results = self._allocate_results(None, self.num_envs)
-        self._machines.show(results)
-        results.rewards[:] = results.raw_rewards[:] = 0  # nothing was played
-        return self._observations(results), self._make_info(results)
-
-    # Seeds and actions
-
-    def _parse_seeds(self, seed: Any, mask: Bools | None) -> SeedArray | None:
-        """Returns one seed for each environment, also for those that are not in the mask."""
-        return None if seed is None else seeds_of(seed, self.num_envs)
-
-    def _parse_mask(self, mask: Any) -> Bools | None:
-        return mask_of(mask, self.num_envs)
-
-    def _parse_actions(self, actions: Any, count: int | None = None) -> Actions:
-        """Converts actions of `count` environments. Default: of a batch."""
-        return indices_of(actions, value_or(count, self.batch_size), self._machines.numbers_of_actions()[0])
-
-    def _parse_joysticks(self, actions: Any) -> Joysticks:
-        return joysticks_of(actions, self.batch_size)
-
-    # Results
-
-    def _allocate_results(self, out: Pixels | None, count: int | None = None) -> Results:
-        """Allocates results for `count` environments. Default: for a batch."""
-        shape = (self.batch_size if count is None else count, *self._shape)
-        if out is None:
-            out = np.empty(shape, np.uint8)
-        elif not (isinstance(out, np.ndarray) and out.dtype == np.uint8 and out.shape == shape and out.flags.carray):
-            raise InvalidInput(f"out must be a writable, contiguous array of uint8 with the shape {shape}")
-        finals = np.empty(shape, np.uint8) if self._has_finals else None
-        observations, ram = (None, out) if self._shows_ram else (out, None)
-        return Results.allocate(observations, ram, shape[0], finals)
-
-    def _observations(self, results: Results) -> Any:
-        return results.ram if self._shows_ram else results.observations
-
-    def _format_step(self, results: Results) -> Step:
-        self._received = results.env_id.copy()
-        self._show_window()
-        observations, info = self._observations(results), self._make_info(results)
-        if self._has_finals and results.finished.any():
-            self._add_finals(info, observations, results)
-        return observations, results.rewards, results.terminated, results.truncated, info
-
-    def _make_info(self, results: Results) -> Info:
-        lost = {"lost": self._machines.lost} if isinstance(self._machines, SpreadMachines) else {}
-        return {
-            "env_id": results.env_id,
-            "lives": results.lives,
-            "frame_number": results.frames,
-            "episode_frame_number": results.episode_frames,
-            "raw_reward": results.raw_rewards,
-            "game_over": results.game_over,
-            **lost,
-        }
-
-    def _add_finals(self, info: Info, observations: Any, results: Results) -> None:
-        """Adds the keys of SAME_STEP as Gymnasium defines them: arrays of objects, None where no episode ended."""
-        finished, finals = results.finished, results.final_observations
-        assert finals is not None and results.final_numbers is not None
-        objects = np.empty(self.batch_size, object)
-        for env in np.flatnonzero(finished):
-            objects[env] = finals[env].copy()
-        numbers = np.where(finished, results.final_numbers, 0)
-        named = dict(zip(("lives", "frame_number", "episode_frame_number"), numbers, strict=True))
-        info["final_obs"], info["_final_obs"] = objects, finished
-        info["final_info"], info["_final_info"] = {**named, **{f"_{key}": finished for key in named}}, finished
-
-    def _show_window(self) -> None:
-        """Shows the environments that the last call returned."""
-        if self._window is not None:
-            shown = (int(env) for env in self._received if self._window.shows(int(env)))
-            self._window.show(((env, self._machines.screen(env)) for env in shown), self._options.frameskip)
-
-    def render(self) -> tuple[Pixels, ...] | None:
-        """Returns the screen of each environment.
-
-        Returns:
-            uint8 arrays of shape (height, 160, 3) if `render_mode` is "rgb_array"; None if it is "human", since the
-            window shows the screens already.
-
-        Raises:
-            gymnasium.error.Error: If `render_mode` is None.
-        """
-        self._check_open()
-        if self.render_mode is None:
-            raise error.Error(
-                "render_mode is None, so render() shows nothing; make the environments with render_mode='rgb_array'"
-            )
-        if self.render_mode == "human":
-            return None
-        return tuple(self._machines.screen(env) for env in range(self.num_envs))
-
-    # Attributes of the environments
-
-    def get_action_meanings(self, env: int = 0) -> list[str]:
-        """Names the actions of an environment.
-
-        Args:
-            env: Index of the environment.
-
-        Returns:
-            The names in the order of their indices, such as ["NOOP", "FIRE"].
-
-        Raises:
-            IndexError: If there is no such environment.
-        """
-        self._check_open()
-        self._check_env(env)
-        return [_core.Action(number).name for number in self._machines.actions_of(env)]
-
-    def call(self, name: str, *args: Any, **kwargs: Any) -> tuple[Any, ...]:
-        """Calls a method once for each environment, as SyncVectorEnv of Gymnasium does.
-
-        Args:
-            name: Name of a method whose first parameter is the index of an environment, such as "save" or
-                "get_action_meanings".
-            *args: Further arguments of each call.
-            **kwargs: Keyword arguments of each call.
-
-        Returns:
-            What the calls return, in the order of the environments.
-
-        Raises:
-            AttributeError: If the environments have no such method.
-        """
-        if name not in ("get_action_meanings", "restore", "save"):
-            raise AttributeError(f"environments have no method {name!r}; they have get_action_meanings, restore, save")
-        method = getattr(self, name)
-        return tuple(method(env, *args, **kwargs) for env in range(self.num_envs))
-
-    def get_attr(self, name: str) -> tuple[Any, ...]:
-        """Reads an attribute of each environment, as SyncVectorEnv of Gymnasium does.
-
-        Args:
-            name: Name of an attribute. "game" is the name of the environment's game; other attributes of this class
-                have the same value for all environments.
-
-        Returns:
-            The values in the order of the environments.
-
-        Raises:
-            AttributeError: If there is no such attribute.
-        """
-        if name == "game":
-            return tuple(self._games)
-        return (getattr(self, name),) * self.num_envs
-
-    def _check_env(self, env: int) -> None:
-        if not 0 <= operator.index(env) < self.num_envs:
-            raise IndexError(f"there is no environment {env}; there are 0 to {self.num_envs - 1}")
 
     def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
         """Makes functions that programs compiled by JAX call. Results stay on the processor.
@@ -636,138 +229,14 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         Returns:
             A handle, `reset(handle, seed=None, reset_mask=None)` and `step(handle, actions)`. Both functions return the
             handle for the next call, and a tuple of what `reset` and `step` of this class return, as arrays of JAX.
-            Seeds end at 2,147,483,647. Of the seeds in an array of JAX, the lower 31 bits are used, so that
+            Seeds end at 2,147,483,647. An array of JAX may have other seeds: their lower 31 bits are used, so that
             jax.random.bits() may draw them.
 
         Raises:
             ImportError: If JAX is not installed.
-            InvalidInput: With SAME_STEP, with `batch_size` below `num_envs`, or with a server.
+            InvalidInput: With SAME_STEP, with `batch_size` below `num_envs`, with `sound_obs`, or with a server.
         """
         self._check_open()
         functions = xla.functions(self, self._xla_infos)
         self._first_seed = None
         return functions
-
-    def machines(self) -> Machines:
-        """Returns the machines that play the environments; for other modules of this package."""
-        self._check_open()
-        machines: Machines = self._machines
-        return machines
-
-    # States and the end
-
-    def save(self, env: int, *, include_rng: bool = True) -> _core.SavedMachine:
-        """Saves the state of one environment, with its stack of screens.
-
-        Args:
-            env: Index of the environment.
-            include_rng: Whether to save the generators of sticky actions and of no-ops, so that later episodes are the
-                same.
-
-        Returns:
-            A state that can be pickled, copied and restored in another process.
-
-        Raises:
-            IndexError: If there is no such environment.
-        """
-        self._check_open()
-        return self.machines().save(operator.index(env), include_rng)
-
-    def restore(self, env: int, state: _core.SavedMachine) -> None:
-        """Restores the state of one environment. `show` returns its observation.
-
-        Args:
-            env: Index of the environment.
-            state: A state that `save` returned, of any environment of the same game.
-
-        Raises:
-            IndexError: If there is no such environment.
-            TypeError: If `state` is not a state.
-            InvalidInput: If the state belongs to another game, or its observations have another shape.
-        """
-        self._check_open()
-        self._machines.restore(operator.index(env), state)
-        self._first_seed = None
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        raise TypeError(
-            f"{type(self).__name__} cannot be pickled or copied, because it owns threads; make another one with the "
-            "same arguments, and restore() the states that save() returns, which can be pickled"
-        )
-
-    def close_extras(self, **kwargs: Any) -> None:
-        """Stops the threads or ends the sessions, and frees the memory. `close` calls it.
-
-        Args:
-            **kwargs: Ignored.
-        """
-        machines = self.__dict__.get("_machines")  # missing if the constructor failed
-        window = self.__dict__.get("_window")
-        self._machines, self._window = _Closed(), None
-        if window is not None:
-            window.close()
-        if isinstance(machines, (RemoteMachines, SpreadMachines)):
-            machines.close()
-
-    def _check_open(self) -> None:
-        if self.closed:
-            raise _closed_error()
-
-
-class _Closed:
-    """Placeholder for closed machines: any use raises ClosedEnvironmentError, also in the call of another thread."""
-
-    def __getattr__(self, name: str) -> Any:
-        raise _closed_error()
-
-
-def _closed_error() -> error.ClosedEnvironmentError:
-    return error.ClosedEnvironmentError("these environments were closed; make new ones")
-
-
-def make_local_machines(
-    names: list[str | None],
-    game_of_env: Numbers,
-    rom: Rom | None,
-    options: VectorOptions,
-    game_file: str | None = None,
-    console: dict[str, str] | None = None,
-) -> Machines:
-    """Makes the machines of a vector in this process.
-
-    Args:
-        names: Names of the games.
-        game_of_env: For each environment, the index of its game.
-        rom: Path or bytes of the image, or None to find the images.
-        options: Options of the environments.
-        game_file: Path of a game file, or None.
-        console: What the console must know of the images, as texts.
-
-    Returns:
-        The machines.
-
-    Raises:
-        WrongValue: If `rom` is given for several games.
-        MissingImage: If no image of a game is found.
-    """
-    if len(names) > 1 and rom is not None:
-        raise WrongValue(f"there are {len(names)} games; rom and server take one")
-    found = [(images.find(str(name)) if rom is None else rom, name) for name in names]
-    return _core.VectorMachines(found, game_of_env, options.core_settings(), game_file, console or {})
-
-
-def _remote_machines(
-    names: list[str | None],
-    rom: Rom | None,
-    options: VectorOptions,
-    server: str | Sequence[str],
-    token: str | None,
-    timeout: float | None,
-) -> Machines:
-    """Makes machines on one server, or on several."""
-    if len(names) > 1:
-        raise WrongValue(f"there are {len(names)} games; rom and server take one")
-    game = str(names[0])  # a server is told the game
-    if isinstance(server, str):
-        return RemoteMachines(server, token, timeout, game, rom, options)
-    return SpreadMachines(server, token, timeout, game, rom, options)

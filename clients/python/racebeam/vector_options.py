@@ -37,6 +37,7 @@ FLAGS = (
     "maxpool",
     "use_fire_reset",
     "grayscale",
+    "sound_obs",
 )
 WORDS = {"lives": _core.LifeLoss, "start": _core.ResetOrder, "stack_start": _core.StackStart}
 CHOICES = {"obs_type": OBS_TYPES, "render_mode": RENDER_MODES, "rules": tuple(RULES)}
@@ -144,6 +145,7 @@ class VectorOptions:
     rules: str = "ale-0.12"
     seed: int = dataclasses.field(default_factory=lambda: secrets.randbits(32))
     render_mode: str | None = None
+    sound_obs: bool = False
     rows: int = 0
 
     def __post_init__(self) -> None:
@@ -183,6 +185,7 @@ class VectorOptions:
         core.mode = self.mode
         core.difficulty = self.difficulty
         core.frame_skip = self.frameskip
+        core.sound = self.sound_obs
         core.sticky = self.repeat_action_probability
         is_legal = self.full_action_space or self.continuous
         core.action_set = _core.ActionSet.LEGAL if is_legal else _core.ActionSet.MINIMAL

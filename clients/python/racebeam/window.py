@@ -16,16 +16,43 @@ FRAMES_PER_SECOND = 60
 SAMPLES_PER_FRAME = 512
 SCALE = 2  # of a pixel, which is twice as wide as it is high
 MOST_SHOWN = 16  # environments in one window
+SLOWEST, FASTEST = 1 / 8, 8  # times the usual speed
+KEYS = {"p": "pause", "+": "faster", "=": "faster", "-": "slower"}  # "=" is the key of "+" without shift
+
+
+class _Speed:
+    """The speed of all games of the process, which the keys of the window set."""
+
+    def __init__(self) -> None:
+        self.factor, self.is_paused = 1.0, False
+
+    def press(self, key: str) -> None:
+        """Changes the speed, if the key is one of those that do.
+
+        Args:
+            key: The character of the key.
+        """
+        action = KEYS.get(key)
+        if action == "pause":
+            self.is_paused = not self.is_paused
+        elif action == "faster":
+            self.factor = min(2 * self.factor, FASTEST)
+        elif action == "slower":
+            self.factor = max(self.factor / 2, SLOWEST)
 
 
 class Window:
     """The window of one game.
+
+    The key P pauses and continues, + doubles the speed, and - halves it. The speed is that of all games of the process.
+    Sound is played at the usual speed only.
 
     pygame has one window per process. All games share it: it shows the game that was stepped last, and closes with the
     last game that is closed. The close button also closes it. The games that were open then go on without a window.
     """
 
     _open: weakref.WeakSet[Window] = weakref.WeakSet()
+    _speed = _Speed()
 
     def __init__(self, title: str, width: int, height: int, sound: bool, scale: int = SCALE) -> None:
         """Opens the window, or joins the open one.
@@ -92,11 +119,23 @@ class Window:
         picture = self._pygame.surfarray.make_surface(rgb.swapaxes(0, 1))
         self._pygame.transform.scale(picture, self._size, self._surface())
         self._pygame.display.flip()
-        if self._pygame.event.get(self._pygame.QUIT):
-            self._dismiss()
+        self._handle_events()
+        while self._speed.is_paused and not self._is_dismissed:
+            self._clock.tick(FRAMES_PER_SECOND)
+            self._handle_events()
+
+    def _handle_events(self) -> None:
+        """Handles the keys that were pressed, and the close button. Other events are left to the program."""
+        pygame = self._pygame
+        for event in pygame.event.get([pygame.QUIT, pygame.KEYDOWN]):
+            if event.type == pygame.QUIT:
+                self._dismiss()
+                break
+            self._speed.press(getattr(event, "unicode", ""))
 
     def _dismiss(self) -> None:
-        """Closes the window for all games that are open."""
+        """Closes the window for all games that are open, which then go on at full speed."""
+        self._speed.is_paused = False
         for window in self._open:
             window._is_dismissed = True
         self._pygame.mixer.quit()
@@ -108,7 +147,7 @@ class Window:
         Args:
             samples: uint8 array of shape (512,), at 30,720 samples per second.
         """
-        if self._channel is not None and not self._is_dismissed:
+        if self._channel is not None and not self._is_dismissed and self._speed.factor == 1:
             self._channel.queue(self._pygame.mixer.Sound(buffer=samples.tobytes()))
 
     def wait(self, frames: int = 1) -> None:
@@ -118,7 +157,7 @@ class Window:
             frames: Frames from one screen to the next.
         """
         if not self._is_dismissed:
-            self._clock.tick(FRAMES_PER_SECOND / frames)
+            self._clock.tick(self._speed.factor * FRAMES_PER_SECOND / frames)
 
     def close(self) -> None:
         """Leaves the window, and closes it if no other game uses it. Must be called once."""

@@ -16,7 +16,7 @@ from gymnasium import spaces
 
 from . import _core
 from .errors import InvalidInput
-from .machines import Machines
+from .vector.machines import Machines
 
 __all__ = ["RESULTS", "call", "check_shape", "functions", "handle_of", "import_jax", "whole"]
 
@@ -45,6 +45,7 @@ class Environments(Protocol):
     metadata: dict[str, Any]
     single_observation_space: spaces.Space[Any]
     continuous: bool
+    sound_obs: bool
     continuous_action_threshold: float
 
     def machines(self) -> Machines:
@@ -70,6 +71,8 @@ def functions(envs: Environments, infos: tuple[str, ...]) -> tuple[Any, Callable
         raise InvalidInput("autoreset_mode is SAME_STEP; xla() takes NEXT_STEP or DISABLED")
     if envs.batch_size < envs.num_envs:
         raise InvalidInput(f"batch_size is {envs.batch_size}; xla() steps all {envs.num_envs} environments")
+    if envs.sound_obs:
+        raise InvalidInput("sound_obs is True; xla() takes False")
     count, shape = envs.num_envs, envs.single_observation_space.shape or ()
     shapes: Shapes = [((count, *shape), np.uint8), *(((count,), kind) for kind in RESULTS.values())]
 

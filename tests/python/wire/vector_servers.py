@@ -1,4 +1,4 @@
-"""Servers of their own, and environments on them that are compared with those in this process."""
+"""Separate servers, and environments on them that are compared with those in this process."""
 
 import contextlib
 import pathlib

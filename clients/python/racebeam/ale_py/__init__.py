@@ -16,7 +16,7 @@ and infos are equal to the byte for the same seeds and actions. These are the di
     restoring has old pixels. serialize() gives other bytes, and only racebeam reads them.
 6.  Equal ALEStates have equal hashes, and comparing one with another type gives False.
 7.  A pickled or copied AtariEnv or ALEInterface continues the game; ale_py's copy begins anew.
-8.  loadROM() also takes bytes, and builtin:beamfall or builtin:updraft, the games of our own. roms.get_rom_path() also
+8.  loadROM() also takes bytes, and builtin:beamfall or builtin:updraft, our own games. roms.get_rom_path() also
     searches RACEBEAM_ROMS, and prints nothing.
 9.  Nothing is logged: setLoggerMode() has no effect.
 10. SDL_SUPPORT is False: the settings display_screen and sound have no effect. AtariEnv(render_mode="human") opens a

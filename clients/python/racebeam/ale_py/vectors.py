@@ -13,9 +13,9 @@ import numpy.typing as npt
 
 from .. import _core, vector_env, xla
 from ..errors import InvalidInput
-from ..machines import Actions, Joysticks, Seeds
-from ..vector_inputs import array_of, check_shape, seeds_of
-from ..vector_results import Bools, Numbers, Results
+from ..vector.inputs import array_of, check_shape, seeds_of
+from ..vector.machines import Actions, Joysticks, Seeds
+from ..vector.results import Bools, Info, Numbers, Results, Step
 from ..wire.remote_machines import STICK
 from .interface import check_game, plain_errors
 from .single import AtariEnv
@@ -57,9 +57,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
         """The same environments with the interface of lists and arrays."""
         return ALEVectorInterface.wrap(self)
 
-    def reset(
-        self, *, seed: Any = None, options: dict[str, Any] | None = None, out: Any = None
-    ) -> tuple[Any, vector_env.Info]:
+    def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None, out: Any = None) -> tuple[Any, Info]:
         """Begins new episodes, as racebeam.AtariVectorEnv does.
 
         Args:
@@ -76,7 +74,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
         """
         return plain_errors(self._reset_as_ale, ValueError)(seed, options, out)
 
-    def _reset_as_ale(self, seed: Any, options: dict[str, Any] | None, out: Any) -> tuple[Any, vector_env.Info]:
+    def _reset_as_ale(self, seed: Any, options: dict[str, Any] | None, out: Any) -> tuple[Any, Info]:
         mask = self._parse_mask(options.get("reset_mask")) if isinstance(options, dict) else None
         if not (self._was_reset or mask is None or mask.all()):
             raise RuntimeError(
@@ -94,7 +92,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
         seeds[mask] = seeds_of(seed, int(mask.sum()))
         return seeds
 
-    def step(self, actions: Any, *, out: Any = None) -> vector_env.Step:
+    def step(self, actions: Any, *, out: Any = None) -> Step:
         """Steps the environments, as racebeam.AtariVectorEnv does.
 
         Args:
@@ -180,7 +178,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
         )
         return super()._parse_joysticks(actions)
 
-    def _make_info(self, results: Results) -> vector_env.Info:
+    def _make_info(self, results: Results) -> Info:
         return {
             "env_id": results.env_id,
             "lives": results.lives,
@@ -188,13 +186,16 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
             "episode_frame_number": results.episode_frames,
         }
 
-    def _add_finals(self, info: vector_env.Info, observations: Any, results: Results) -> None:
+    def _add_finals(self, info: Info, observations: Any, results: Results) -> None:
         """Adds `final_obs`, one array. Where no episode ended, it has the present observation."""
-        finals = results.final_observations
-        assert finals is not None
         goes_on = ~results.finished
-        finals[goes_on] = observations[goes_on]
-        info["final_obs"] = finals
+        for final, present in (
+            (results.final_observations, results.ram if self._shows_ram else results.observations),
+            (results.final_sound, results.sound),
+        ):
+            if final is not None and present is not None:
+                final[goes_on] = present[goes_on]
+        info["final_obs"] = self._final_observations(results)
 
 
 class ALEVectorInterface:

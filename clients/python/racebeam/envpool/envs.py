@@ -8,12 +8,13 @@ import numpy as np
 
 from ..arguments import MOST
 from ..errors import InvalidInput
-from ..machines import Actions
-from ..vector_env import AtariVectorEnv, make_local_machines
-from ..vector_inputs import array_of
+from ..vector.inputs import array_of
+from ..vector.machines import Actions
+from ..vector.making import make_local_machines
+from ..vector.results import Numbers, Pixels
+from ..vector.results import Results as VectorResults
+from ..vector_env import AtariVectorEnv
 from ..vector_options import VectorOptions
-from ..vector_results import Numbers, Pixels
-from ..vector_results import Results as VectorResults
 from .spec import EnvSpec
 from .types import Results
 
@@ -132,7 +133,7 @@ class Envs(AtariVectorEnv):
         return results._replace(ram=np.empty((size, 128), np.uint8), counts=np.empty((3, size), np.int32))
 
     def _convert(self, results: VectorResults) -> Results:
-        self._received = results.env_id.copy()
+        self._received_ids = results.env_id.copy()
         assert results.counts is not None
         return Results(
             results.observations,

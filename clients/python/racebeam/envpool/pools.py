@@ -16,8 +16,7 @@ from gymnasium import spaces
 from ..arguments import flag, whole
 from ..autoreset import AutoresetMode, VectorEnv
 from ..errors import InvalidInput
-from ..vector_env import Info
-from ..vector_results import Numbers, Pixels
+from ..vector.results import Info, Numbers, Pixels
 from . import xla
 from .envs import ROWS, Envs, parts_of
 from .spec import EnvSpec, InvalidSetting, checked, dm_specs

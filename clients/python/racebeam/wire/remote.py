@@ -568,7 +568,7 @@ class RemoteInterface:
 
     @_exclusive
     def __getstate__(self) -> dict[str, Any]:
-        """Returns what a copy needs to continue, with a session of its own, where this game is."""
+        """Returns what a copy needs to continue, with its own session, where this game is."""
         return {
             "server": self._server,
             "token": self._token,

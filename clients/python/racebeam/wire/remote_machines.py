@@ -13,9 +13,9 @@ import numpy.typing as npt
 
 from .._core import ActionSet, ResetOrder, SavedMachine, VectorSettings
 from ..errors import InvalidInput
-from ..machines import Actions, Joysticks, Seeds
+from ..vector.machines import Actions, Joysticks, Seeds
+from ..vector.results import Bools, Numbers, Pixels, Results
 from ..vector_options import VectorOptions
-from ..vector_results import Bools, Numbers, Pixels, Results
 from .messages import Reply, Values
 from .remote import STATE, RemoteInterface
 

@@ -17,9 +17,9 @@ import numpy.typing as npt
 from .._core import SavedMachine
 from ..autoreset import AutoresetMode
 from ..errors import InvalidInput
-from ..machines import Actions, Joysticks, Seeds
+from ..vector.machines import Actions, Joysticks, Seeds
+from ..vector.results import Bools, Numbers, Pixels, Results
 from ..vector_options import VectorOptions
-from ..vector_results import Bools, Numbers, Pixels, Results
 from .messages import Refused
 from .remote_machines import Halves, RemoteMachines, with_strengths
 

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .errors import InvalidInput
+from ..errors import InvalidInput
+from ..vector_options import SEEDS
 from .machines import Actions, Joysticks, Seeds
-from .vector_options import SEEDS
-from .vector_results import Bools
+from .results import Bools
 
 __all__ = ["array_of", "check_shape", "indices_of", "joysticks_of", "mask_of", "seeds_of"]
 

@@ -7,8 +7,8 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
-from .vector_results import Bools, Numbers, Pixels, Results
+from .. import _core
+from .results import Bools, Numbers, Pixels, Results
 
 __all__ = ["Actions", "Joysticks", "Machines", "Seeds"]
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Bools", "Numbers", "Pixels", "Results"]
+__all__ = ["Bools", "Info", "Numbers", "Pixels", "Results", "Step"]
 
 Pixels = npt.NDArray[np.uint8]
 Numbers = npt.NDArray[np.int32]
 Bools = npt.NDArray[np.bool_]
+Info: TypeAlias = dict[str, Any]
+# Observations, rewards, terminated, truncated and info. With `sound_obs`, observations are a dict of arrays.
+Step: TypeAlias = tuple[Any, Numbers, Bools, Bools, Info]
 
 
 class Results(NamedTuple):
@@ -26,6 +29,8 @@ class Results(NamedTuple):
         final_numbers: With SAME_STEP, int32 array of shape (3, n): their lives, frames and frames of the episode.
         counts: int32 array of shape (3, n), or None: frames that were played in this game, acts of this step (0 in a
             reset), and lives that these acts lost.
+        sound: uint8 array of shape (n, 512), or None if the sound is not observed.
+        final_sound: With SAME_STEP, the sound at the ends of episodes; else None.
     """
 
     observations: Pixels | None
@@ -35,6 +40,8 @@ class Results(NamedTuple):
     final_observations: Pixels | None
     final_numbers: Numbers | None
     counts: Numbers | None = None
+    sound: Pixels | None = None
+    final_sound: Pixels | None = None
 
     @property
     def rewards(self) -> Numbers:
@@ -117,6 +124,8 @@ class Results(NamedTuple):
             view(self.final_observations),
             view(self.final_numbers, 1),
             view(self.counts, 1),
+            view(self.sound),
+            view(self.final_sound),
         )
 
     @classmethod

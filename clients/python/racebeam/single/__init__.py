@@ -1,0 +1,1 @@
+"""The parts of AtariEnv: arguments, the game, actions, and what is shown."""

@@ -1,0 +1,1 @@
+"""The parts of AtariVectorEnv: machines, results, calls, and the making of them."""
