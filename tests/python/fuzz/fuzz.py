@@ -10,6 +10,7 @@ scripts/check/python-fuzz runs it under AddressSanitizer.
 
 import argparse
 import faulthandler
+import os
 import pickle
 import random
 import re
@@ -19,6 +20,7 @@ import threading
 import time
 import traceback
 
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")

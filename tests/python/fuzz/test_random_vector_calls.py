@@ -2,9 +2,11 @@
 documented."""
 
 import argparse
+import os
 import random
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")

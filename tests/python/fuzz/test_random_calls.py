@@ -1,10 +1,12 @@
 """Random methods with random arguments, many of them senseless: each call returns or raises a documented exception."""
 
 import argparse
+import os
 import pickle
 import random
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy")
