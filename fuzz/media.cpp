@@ -150,6 +150,7 @@ void run(Bytes input) {
     case MediaKind::kGif: return check_gif(film, path);
     case MediaKind::kY4m: return check_y4m(film, path);
     case MediaKind::kWav: return check_wav(film, path);
+    case MediaKind::kPicture:  // one picture of kPng
     case MediaKind::kWebm:
     case MediaKind::kMp4: return;  // not made: they need another program
   }

@@ -63,14 +63,15 @@ class Games(unittest.TestCase):
         self.assertEqual(
             lines,
             [
-                "name          pong: Pong",
+                "name          pong: Pong (Video Olympics)",
                 "image         MD5 60e0ea3cbe0913d39803477945e9e5ec",
-                "console       paddles on the left, joystick on the right; scheme auto, format auto",
-                "modes         0-1 (default 0)",
+                "console       paddles on the left, paddles on the right; scheme auto, format auto",
+                "modes         0-1; of two players: 2-49 (default 0)",
                 "difficulties  0-3 (default 0)",
                 "minimal       NOOP FIRE RIGHT LEFT RIGHTFIRE LEFTFIRE",
-                "legal         NOOP FIRE RIGHT LEFT RIGHTFIRE LEFTFIRE",
-                "rule          that of ALE 0.12",
+                "legal         NOOP FIRE UP RIGHT LEFT DOWN UPRIGHT UPLEFT DOWNRIGHT DOWNLEFT UPFIRE RIGHTFIRE",
+                "              LEFTFIRE DOWNFIRE UPRIGHTFIRE UPLEFTFIRE DOWNRIGHTFIRE DOWNLEFTFIRE",
+                "rule          that of ALE 0.12; player B gets rewards, too",
             ],
         )
         self.assertIn("racebeam's own; player B gets rewards, too", answer("games", "warlords"))

@@ -142,7 +142,10 @@ class Srun(unittest.TestCase):
         for environment, warns in (({"SLURM_STEP_ID": "0"}, True), ({}, False)):
             with self.subTest(environment), Server("serve", "--stdio", streams=True, **environment) as server:
                 wire = Wire(os.dup(server.process.stdout.fileno()), os.dup(server.process.stdin.fileno()))
-                ask(wire, b"hello")
+                if warns:
+                    server.wait_for(warning)
+                ask(wire, b"quit")
+                server.wait()
                 self.assertEqual(warning in "\n".join(server.log()), warns)
                 wire.close()
 

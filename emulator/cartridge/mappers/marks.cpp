@@ -37,8 +37,8 @@ struct HotSpots {
 constexpr HotSpots kHotSpots[] = {
     {65536, 0x1FE0, 1, 16, 0xE000, 16, "EF"},
     {65536, 0x080D, 16, 16, 0, 6, "X07"},
-    {131072, 0x1FC0, 1, 32, 0xE000, 16, "DF"},
-    {262144, 0x1F80, 1, 64, 0xE000, 32, "BF"},
+    {131072, 0x1FC0, 1, 32, 0xE000, 28, "DF"},
+    {262144, 0x1F80, 1, 64, 0xE000, 56, "BF"},
 };
 constexpr std::size_t kMostHotSpots = 64, kBank = 4096;
 constexpr int kAlike = 4;  // banks with an access at one offset
