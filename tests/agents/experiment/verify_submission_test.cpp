@@ -12,12 +12,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Sticky actions, so that the seed decides what an episode gives.
+PlaySettings sticky_episodes(int frames = 3000) {
+  PlaySettings play = short_episodes(frames);
+  play.machine.sticky = 0.25;
+  return play;
+}
+
 // Three episodes of random play, without a plan.
 void make_submission(const ResultsFolder& folder) {
   std::string table = line_of(kResultColumns);
   fs::create_directories(folder.logs("mine-1"));
   for (int episode = 1; episode <= 3; ++episode) {
-    EpisodeLog log = random_log(short_episodes(), static_cast<std::uint32_t>(episode));
+    EpisodeLog log = random_log(sticky_episodes(), static_cast<std::uint32_t>(episode));
     log.origin = {"mine-1", "mine", 1, episode, 5, "2.0"};
     const std::string bytes = bytes_of(log);
     write(folder.log("mine-1", std::to_string(episode)), bytes);
@@ -75,7 +82,7 @@ TEST_CASE("A submission's rows are confirmed without a plan, and every alteratio
     refused("not confirmed: ");
   }
   SECTION("other settings") {
-    const EpisodeLog other = random_log(short_episodes(2000), 1);
+    const EpisodeLog other = random_log(sticky_episodes(2000), 1);
     reseal(folder, 2, [&](EpisodeLog& log) { log.settings = other.settings; });
     refused("its log's settings are '");
   }
