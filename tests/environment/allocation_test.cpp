@@ -103,7 +103,7 @@ const CpuKind kCpu = Translator::obstacle()[0] == '\0' ? CpuKind::kTranslator : 
 bool settles(Console& console, long most) {
   constexpr int kFrames = 50;
   int quiet = 0;
-  for (int round = 0; round < 60 && quiet < 5; ++round) {
+  for (int round = 0; round < 200 && quiet < 5; ++round) {
     const long before = allocations;
     for (int frame = 0; frame < kFrames; ++frame) console.step(frame % 2 == 0);
     quiet = allocations - before <= most * kFrames ? quiet + 1 : 0;
