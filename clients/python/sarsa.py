@@ -12,7 +12,8 @@ import time
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "single_file"))
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE / "single_file"))
 from client import Refused, Session, connect  # noqa: E402
 
 ACTIONS = 18
@@ -206,6 +207,7 @@ def load_of(options, seed):
 
 def write_log(options, seed, actions):
     """Writes the log of an episode, which `racebeam verify` confirms."""
+    sys.path[:] = [entry for entry in sys.path if entry != str(HERE)]  # the package there is not compiled
     try:
         from racebeam import episode_log
     except ImportError as missing:

@@ -305,9 +305,6 @@ void restore(AleInterface& self, const AleState& state) {
 
 void bind_states(nb::class_<AleInterface>& interface) {
   interface.def("cloneState", clone, "include_rng"_a = false)
-      .def("stateHash", ask<&Environment::state_hash>,
-           "Returns the hash of the machine's state, as logs of episodes have it. Equal states have equal "
-           "hashes.")
       .def("restoreState", restore, "state"_a)
       .def("cloneSystemState", [](AleInterface& self) { return clone(self, true); })
       .def("restoreSystemState", restore, "state"_a);
@@ -426,6 +423,8 @@ void bind_interface(nb::module_& module) {
   bind_bytes(interface);
   bind_states(interface);
   bind_keys(interface);
+  module.def("state_hash", ask<&Environment::state_hash>, "interface"_a,
+             "Returns the hash of the machine's state, as logs of episodes have it.");
 }
 
 }  // namespace racebeam::python

@@ -17,6 +17,7 @@ __all__ = ["Episode", "replay", "write_log"]
 
 MAGIC, FORMAT = b"RBEPISOD", 1
 DECISIONS_PER_HASH = 256
+MOST_SEED = 2**32 - 2  # ALE takes the next one for the time of day
 
 
 class Episode(NamedTuple):
@@ -49,7 +50,7 @@ def replay(
     Args:
         game: Name of the game.
         actions: Numbers of `Action`, 0 to 17.
-        seed: Seed of `load`.
+        seed: Seed of `load`, from 1 to 2**32 - 2.
         frame_skip: Frames of an action.
         sticky: Probability that a frame repeats the previous action.
         max_episode_frames: Frames after which the episode is truncated; 0 for no limit.
@@ -60,7 +61,7 @@ def replay(
     Raises:
         UnknownGame: If no game has this name.
         MissingImage: If no image of the game is found.
-        InvalidInput: If an action or a setting is out of range.
+        InvalidInput: If the seed, an action or a setting is out of range.
 
     Example:
         >>> from racebeam.episode_log import replay
@@ -68,13 +69,14 @@ def replay(
         40
     """
     images.check_name(game)
+    if not 1 <= seed <= MOST_SEED:
+        raise InvalidInput(f"the seed is {seed}; it takes 1 to {MOST_SEED}")
     ale = ALEInterface()
     ale.setInt("random_seed", seed - 2**32 if seed >= 2**31 else seed)
     ale.setInt("frame_skip", frame_skip)
     ale.setFloat("repeat_action_probability", sticky)
     ale.setInt("max_num_frames_per_episode", max_episode_frames)
     ale.loadROM(images.find(game), game)
-    ale.reset_game()
     score, played, first = 0, 0, ale.getFrameNumber()
     hashes = []
     for action in actions:
@@ -83,9 +85,9 @@ def replay(
         score += ale.act(action)
         played += 1
         if played % DECISIONS_PER_HASH == 0:
-            hashes.append(ale.stateHash())
+            hashes.append(_core.state_hash(ale))
     if len(hashes) < played // DECISIONS_PER_HASH + 1:
-        hashes.append(ale.stateHash())
+        hashes.append(_core.state_hash(ale))
     is_terminated = ale.game_over(with_truncation=False)
     return Episode(score, ale.getFrameNumber() - first, played, ale.game_over(), is_terminated, ale.lives(), hashes)
 
@@ -108,7 +110,7 @@ def write_log(
         path: Path of the log. It ends in ".episode".
         game: Name of the game.
         actions: Numbers of `Action`, 0 to 17, up to the end of the episode.
-        seed: Seed of `load`, from 1.
+        seed: Seed of `load`, from 1 to 2**32 - 2.
         frame_skip: Frames of an action.
         sticky: Probability that a frame repeats the previous action.
         max_episode_frames: Frames after which the episode is truncated; 0 for no limit.
