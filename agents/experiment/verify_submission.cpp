@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kRowsAtATime = 4096;  // that are in memory
+constexpr std::size_t kRowsInMemory = 4096;
 constexpr std::size_t kLongestName = 100;
 
 // Whether a name is that of a file, and leads nowhere else.
@@ -130,7 +130,7 @@ class SubmissionVerification {
       reason = "it stands twice";
     else if (!judge_.has_settings())
       judge_.take_settings(row);
-    if (taken_.size() == kRowsAtATime) judge_taken();
+    if (taken_.size() == kRowsInMemory) judge_taken();
   }
 
   void judge_taken() {

@@ -53,7 +53,7 @@ Examples:
   racebeam bench --rom pong.bin --search --frame-skip 5
   racebeam bench --rom pong.bin --frames 20000 --frame-skip 4 --screen last)";
 
-enum class Screen { kEvery, kLast, kNone };
+enum class Screens { kEvery, kLast, kNone };
 
 struct BenchOptions {
   MachineOptions machine;
@@ -94,14 +94,14 @@ std::vector<int> choose_actions(const BenchOptions& options, const Game& game) {
 class Bench {
  public:
   Bench(const BenchOptions& options, const Cartridge& cartridge)
-      : screen_(options.screen == "every"  ? Screen::kEvery
-                : options.screen == "last" ? Screen::kLast
-                                           : Screen::kNone),
-        repeat_(screen_ == Screen::kEvery ? options.machine.settings.frame_skip : 1),
+      : screen_(options.screen == "every"  ? Screens::kEvery
+                : options.screen == "last" ? Screens::kLast
+                                           : Screens::kNone),
+        repeat_(screen_ == Screens::kEvery ? options.machine.settings.frame_skip : 1),
         limit_(options.frames),
         actions_(choose_actions(options, *cartridge.game)),
         environment_(power_on(cartridge, frame_by_frame(options.machine, screen_))) {
-    if (screen_ == Screen::kNone) environment_.set_drawing(Drawing::kNone);
+    if (screen_ == Screens::kNone) environment_.set_drawing(Drawing::kNone);
   }
 
   Totals run() {
@@ -116,8 +116,8 @@ class Bench {
 
  private:
   // To observe every frame of a skip, the machine acts once a frame.
-  static MachineOptions frame_by_frame(MachineOptions machine, Screen screen) {
-    if (screen == Screen::kEvery) machine.settings.frame_skip = 1;
+  static MachineOptions frame_by_frame(MachineOptions machine, Screens screen) {
+    if (screen == Screens::kEvery) machine.settings.frame_skip = 1;
     return machine;
   }
 
@@ -135,7 +135,7 @@ class Bench {
 
   void act(int action) {
     totals_.reward += environment_.act(action);
-    if (screen_ != Screen::kNone) totals_.screens += !environment_.screen().empty();
+    if (screen_ != Screens::kNone) totals_.screens += !environment_.screen().empty();
   }
 
   void reset() {
@@ -147,7 +147,7 @@ class Bench {
     ++totals_.resets;
   }
 
-  Screen screen_;
+  Screens screen_;
   int repeat_;
   int limit_;
   std::vector<int> actions_;

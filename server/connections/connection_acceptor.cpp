@@ -40,8 +40,8 @@ void take_over(Socket& socket, int descriptor) {
   }
 }
 
-constexpr auto kPatience = 800ms;     // of a client that comes when the memory is short
-constexpr auto kBetweenTries = 20ms;  // whether there is memory for it
+constexpr auto kPatience = 800ms;      // of a client that comes when the memory is short
+constexpr auto kBetweenChecks = 20ms;  // whether there is memory for it
 constexpr int kMostWaiting = 64;
 
 // A client waits for memory as long as this exists.
@@ -247,7 +247,7 @@ Task<> ConnectionAcceptor::admit_after_relief(std::shared_ptr<Client> client, co
   const Waiting place(waiting_);
   const auto end = client->came() + kPatience;
   while (!has_memory_for_one_more(service) && Clock::now() < end)
-    co_await pause(loops_.first().context, kBetweenTries);
+    co_await pause(loops_.first().context, kBetweenChecks);
   if (!closed_) admit(std::move(client), service, std::move(carrier), endpoint);
 }
 
