@@ -193,7 +193,7 @@ class Memory(unittest.TestCase):
                 for wire in wires:
                     wire.line()
                     wire.line()
-                bound = low + (self.memory("resident") - low) / 4
+                bound = low + (self.memory("resident") - low) / 3
                 for wire in wires:
                     wire.close()
                 end = time.monotonic() + 20
