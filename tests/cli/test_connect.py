@@ -293,8 +293,21 @@ class Typed(unittest.TestCase):
             "ok fields=screen",
         ):
             self.assertIn(reply, shown)
-        self.assertIn("act FIRE/RIGHT", shown)
+        self.assertIn("racebeam> act FIRE/RIGHT", self.visible(shown))
         self.assertNotIn("error", shown)
+
+    @staticmethod
+    def visible(shown):
+        """The lines as a terminal shows them: libedit goes back to a column, and writes over what is there."""
+        rows = []
+        for line in shown.replace("\x07", "").replace("\r", "\x1b[1G").split("\n"):
+            row, at = "", 0
+            for column, text in re.findall(r"(?:\x1b\[(\d+)G)?([^\x1b]*)", line):
+                at = int(column) - 1 if column else at
+                row = row[:at] + text + row[at + len(text) :]
+                at += len(text)
+            rows.append(row)
+        return "\n".join(rows)
 
     def test_what_the_server_refuses_is_not_completed(self):
         if not self.edits():
