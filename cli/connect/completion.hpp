@@ -1,4 +1,4 @@
-// What the tabulator completes in a line to a server of the line protocol: commands, and the words of their
+// What the Tab key completes in a line to a server of the line protocol: commands, and the words of their
 // arguments. The server is asked for all of them, so that a new command is completed, too.
 #pragma once
 

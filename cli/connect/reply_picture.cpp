@@ -78,7 +78,7 @@ Bytes decoded(std::string_view field, std::string_view text, const Fits& fits) {
   const std::string subject = "the value of " + std::string(field);
   if (found.empty())
     throw std::invalid_argument(subject +
-                                " is no whole screen in hex, rle, base64 or zlib; it may be cut, or need "
+                                " is not a whole screen in hex, rle, base64 or zlib; it may be cut, or need "
                                 "--encoding delta");
   throw std::invalid_argument(subject + " may be " + std::string(found[0].first) + " or " +
                               std::string(found[1].first) + "; --encoding says which");
@@ -183,7 +183,7 @@ class Replies {
       return;
     }
     const auto form = form_of(value.key);
-    if (!form) throw std::invalid_argument(request_.field + " is no picture");
+    if (!form) throw std::invalid_argument(request_.field + " is not a picture");
     picture.pixels = form->pixels;
     picture.width = form->width;
     picture.resized = form->height > 0;
@@ -192,7 +192,8 @@ class Replies {
                         : encoded(value, raw, *form, group);
     if (picture.bytes.empty() || !fits(*form, picture.bytes.size()))
       throw std::invalid_argument("the value of " + std::string(value.key) + " has " +
-                                  std::to_string(picture.bytes.size()) + " bytes, which is no whole screen");
+                                  std::to_string(picture.bytes.size()) +
+                                  " bytes, which is not a whole screen");
     picture.height = picture.bytes.size() / form->size(1) * form->screens;
   }
 

@@ -193,10 +193,10 @@ class Memory(unittest.TestCase):
                 for wire in wires:
                     wire.line()
                     wire.line()
-                bound = low + (self.memory("resident") - low) / 3
+                bound = low + (self.memory("resident") - low) / 4
                 for wire in wires:
                     wire.close()
-                end = time.monotonic() + 20
+                end = time.monotonic() + PATIENCE
                 while time.monotonic() < end and self.memory("resident") > bound:
                     time.sleep(0.1)
                 self.assertLess(self.memory("resident"), bound)
