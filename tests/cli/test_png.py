@@ -187,9 +187,9 @@ class Png(unittest.TestCase):
             ("no reply on standard input has a picture", self.replies("act FIRE")),
             ("the server refused a request: no-game look needs a game", b"error no-game look needs a game; load\n"),
             ("no reply on standard input has the field grey", self.replies("look screen"), "--field", "grey"),
-            ("ram is no picture", self.replies("look ram"), "--field", "ram"),
-            ("no whole screen in hex, rle, base64 or zlib", self.replies("look screen")[:-9]),
-            ("no whole screen", self.replies("look screen"), "--encoding", "hex"),
+            ("ram is not a picture", self.replies("look ram"), "--field", "ram"),
+            ("the value of screen is not a whole screen in hex, rle, base64 or zlib", self.replies("look screen")[:-9]),
+            ("the value of screen has 868 bytes, which is not a whole screen", self.replies("look screen"), "--encoding", "hex"),
             ("the input ends within the bytes", self.replies("look screen:raw")[:-9]),
             ("a reply says raw=", b"ok screen=33600 raw=999999999\n"),
         ):
