@@ -16,10 +16,12 @@ void MachineMemory::rest(Slot& slot) {
 
 std::size_t MachineMemory::held(const Slot& slot) const {
   const auto rows = static_cast<std::size_t>(slot.environment().height());
-  const std::size_t pictures = slot.environment().drawing() == Drawing::kNone ? 1 : 2;
-  std::size_t bytes = kMachine;
-  if (frame_of(slot) != begun_) bytes += pictures * rows * (kScreenWidth + sizeof(LineNumber));
-  if (frame_of(slot) != rested_) bytes += rows * sizeof(LineRecord);
+  const bool played = frame_of(slot) != begun_;
+  const bool rested = frame_of(slot) == rested_;
+  const std::size_t pictures =
+      played ? (slot.environment().drawing() == Drawing::kNone ? 1 : 2) : (rested ? 0 : 1);
+  std::size_t bytes = kMachine + pictures * rows * (kScreenWidth + sizeof(LineNumber));
+  if (!rested) bytes += rows * sizeof(LineRecord);
   if (const ScreenStack* const stack = slot.stack()) {
     const auto channels = static_cast<std::size_t>(stack->settings().channels());
     bytes += stack->size() + channels * (rows * kScreenWidth + stack->screen_size()) +

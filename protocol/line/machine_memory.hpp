@@ -1,6 +1,7 @@
-// What a machine holds in memory. It is told from what the machine has done, since the emulator does not
-// count: a machine allocates pictures when it plays, one if its screens are not observed. It holds the
-// records of lines until it rests, and from its next frame on.
+// The memory that a machine holds. The emulator does not count it, so it is derived from what the machine
+// has done. A machine that plays has two pictures, or one if its screens are not observed. Until it plays, it
+// has one spare picture. It holds the spare picture and the records of lines until it rests; the next frame
+// makes them again.
 #pragma once
 
 #include <cstddef>
