@@ -1,9 +1,10 @@
 """PPO of Ray's RLlib on the RAM of a game. Prints the mean return of each iteration.
 
+    pip install ".[rllib]"   # in the root of a clone
     python3 cluster/ray/rllib_ppo.py Breakout --iterations 100 --runners 8
 
-Needs pip install "ray[rllib]" torch. The vector entry point of the id makes one racebeam.AtariVectorEnv in each runner;
-with --single, a runner has a racebeam.AtariEnv for each environment.
+The vector entry point of the id makes one racebeam.AtariVectorEnv in each runner. With --single, a runner has a
+racebeam.AtariEnv for each environment.
 """
 
 from __future__ import annotations

@@ -17,6 +17,7 @@ package.require("numpy")
 
 import racebeam
 import racebeam._core
+from racebeam.extras import install_hint
 
 FOLDER = pathlib.Path(racebeam.__file__).parent
 
@@ -60,7 +61,7 @@ class Import(unittest.TestCase):
             [
                 "(210, 160, 3)",
                 *(
-                    f'racebeam.{name} needs Gymnasium; install it with: pip install "racebeam[gymnasium]"'
+                    f"racebeam.{name} needs Gymnasium; {install_hint('gymnasium')}"
                     for name in ("AtariEnv", "AtariVectorEnv", "register_ale_ids", "envpool")
                 ),
             ],

@@ -227,7 +227,7 @@ class Refused(unittest.TestCase):
             "try: racebeam.AtariVectorEnv('beamfall', 2).xla()\nexcept ImportError as error: print(error)"
         )
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
-        self.assertEqual(done.stdout, 'xla() needs JAX; install it with: pip install "racebeam[jax]"\n', done.stderr)
+        self.assertEqual(done.stdout, 'xla() needs JAX; install it with: pip install "jax>=0.5"\n', done.stderr)
 
 
 # For each structure of core/xla_ffi.hpp, its name in JAX's header, and its members there, in the order of the members

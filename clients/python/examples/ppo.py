@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """PPO (Schulman et al. 2017) in JAX, on RAM or on pixels, over racebeam's vector environment.
 
-    pip install "racebeam[gymnasium]" jax optax matplotlib
+    pip install ".[jax]" optax matplotlib   # in the root of a clone
     python ppo.py updraft --curve ppo.png --keep updraft.npz
     python ppo.py updraft --play updraft.npz --film updraft.gif --log updraft.episode
     racebeam verify updraft.episode

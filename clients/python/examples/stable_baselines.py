@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """PPO of Stable-Baselines3, in its settings for Atari, over racebeam's environments.
 
-    pip install "racebeam[sb3]"
+    pip install ".[sb3]"   # in the root of a clone
     python stable_baselines.py breakout
 
 The line that racebeam changes is the one that makes the environments."""

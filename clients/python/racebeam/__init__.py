@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from ._core import Action, ALEState, LoggerMode
 from .errors import InvalidInput, MissingImage, UnknownGame
+from .extras import install_hint
 from .images import find as find_image
 from .images import find_all as find_images
 from .images import games
@@ -93,7 +94,7 @@ def register(game_file: str | os.PathLike[str], rom: Any, name: str | None = Non
 
 def _check_gymnasium(what: str) -> None:
     if not _HAS_GYMNASIUM:
-        raise ImportError(f'racebeam.{what} needs Gymnasium; install it with: pip install "racebeam[gymnasium]"')
+        raise ImportError(f"racebeam.{what} needs Gymnasium; {install_hint('gymnasium')}")
 
 
 def __dir__() -> list[str]:

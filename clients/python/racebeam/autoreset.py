@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import gymnasium.vector
 
+from .extras import install_hint
+
 __all__ = ["AutoresetMode", "IS_SUPPORTED", "VectorEnv"]
 
 IS_SUPPORTED = hasattr(gymnasium.vector, "AutoresetMode")
@@ -52,6 +54,5 @@ def check_supported(name: str) -> None:
     """
     if not IS_SUPPORTED:
         raise ImportError(
-            f"{name} needs Gymnasium 1.1 or later, and this is {gymnasium.__version__}; "
-            'install it with: pip install "racebeam[gymnasium]"'
+            f"{name} needs Gymnasium 1.1 or later, and this is {gymnasium.__version__}; {install_hint('gymnasium')}"
         )

@@ -1,4 +1,4 @@
-"""Starts servers as jobs of a scheduler, by submitit (pip install "racebeam[slurm]").
+"""Starts servers as jobs of a scheduler, by submitit (pip install "submitit>=1.5").
 
 Example:
     with SlurmServers(n=32, image="/shared/atari", slurm_partition="cpu") as addresses:
@@ -19,6 +19,7 @@ from typing import Any
 
 from . import program
 from .errors import InvalidInput
+from .extras import install_hint
 
 __all__ = ["SlurmServers"]
 
@@ -110,7 +111,7 @@ def _import_submitit() -> Any:
     try:
         return importlib.import_module("submitit")
     except ImportError:
-        raise ImportError('racebeam.cluster needs submitit; install it with: pip install "racebeam[slurm]"') from None
+        raise ImportError(f"racebeam.cluster needs submitit; {install_hint('submitit')}") from None
 
 
 def _image_options(image: str | os.PathLike[str] | None) -> list[str]:

@@ -3,7 +3,7 @@
     from racebeam.sb3 import VecEnv
     model = stable_baselines3.PPO("CnnPolicy", VecEnv("breakout", 8, seed=1))
 
-Importing this module needs Stable-Baselines3: pip install "racebeam[sb3]".
+Importing this module needs Stable-Baselines3: pip install "stable-baselines3>=2.4".
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .errors import InvalidInput
+from .extras import install_hint
 
 FRAMES_PER_SECOND = 60
 SAMPLES_PER_FRAME = 512
@@ -71,9 +72,7 @@ class Window:
         try:
             import pygame
         except ModuleNotFoundError as missing:
-            raise ImportError(
-                'render_mode "human" needs pygame; install it with: pip install "racebeam[human]"'
-            ) from missing
+            raise ImportError(f'render_mode "human" needs pygame; {install_hint("pygame")}') from missing
         self._pygame: Any = pygame
         self._title, self._size = title, (2 * scale * width, scale * height)
         self._is_dismissed = False  # by the close button

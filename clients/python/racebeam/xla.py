@@ -16,6 +16,7 @@ from gymnasium import spaces
 
 from . import _core
 from .errors import InvalidInput
+from .extras import install_hint
 from .vector.machines import Machines
 
 __all__ = ["RESULTS", "call", "check_shape", "functions", "handle_of", "import_jax", "whole"]
@@ -157,7 +158,7 @@ def import_jax() -> Any:
     try:
         importlib.import_module("jax.ffi")
     except ImportError:
-        raise ImportError('xla() needs JAX; install it with: pip install "racebeam[jax]"') from None
+        raise ImportError(f"xla() needs JAX; {install_hint('jax')}") from None
     return importlib.import_module("jax")
 
 

@@ -34,8 +34,10 @@ It runs on Gymnasium 0.29.1, and on 1.1 and later.
 
 import importlib.util as _util
 
+from racebeam.extras import install_hint as _install_hint
+
 if _util.find_spec("gymnasium") is None:
-    raise ImportError('racebeam.envpool needs Gymnasium; install it with: pip install "racebeam[gymnasium]"')
+    raise ImportError(f"racebeam.envpool needs Gymnasium; {_install_hint('gymnasium')}")
 
 from racebeam.envpool.making import list_all_envs, make, make_dm, make_gym, make_gymnasium, make_spec
 from racebeam.envpool.pools import DMEnvPool, EnvPool, GymEnvPool, GymnasiumEnvPool

@@ -13,6 +13,7 @@ from gymnasium import error, spaces
 from .. import ale_games, images
 from ..arguments import MOST, flag, join, share, whole
 from ..errors import InvalidInput, UnknownGame
+from ..extras import install_hint
 from ..interface import ALEInterface
 from .types import Players, State
 
@@ -373,7 +374,7 @@ def dm_specs() -> Any:
     try:
         return importlib.import_module("dm_env.specs")
     except ImportError:
-        raise ImportError("a spec of dm_env needs that package; install it with: pip install dm-env") from None
+        raise ImportError(f"a spec of dm_env needs that package; {install_hint('dm_env')}") from None
 
 
 def _dm_spec(name: str, array: ArraySpec) -> Any:
