@@ -9,8 +9,8 @@ from typing import Any, Literal, SupportsIndex
 
 from . import images, xla
 from .arguments import WrongValue, check_source, console_of, image, path_of, real, seconds, value_or, warn_of
-from .autoreset import AutoresetMode, check_supported
 from .presets import vector_preset
+from .vector.autoreset import AutoresetMode, check_supported
 from .vector.making import Rom, make_local_machines, make_remote_machines, parse_games
 from .vector.play import PlayedVector
 from .vector_options import VectorOptions, merge_life_flags

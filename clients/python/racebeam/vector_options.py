@@ -7,7 +7,7 @@ import secrets
 
 from . import _core
 from .arguments import MOST, WrongType, WrongValue, check_choice, flag, join, member, optional_whole, share, whole
-from .autoreset import AutoresetMode
+from .vector.autoreset import AutoresetMode
 
 __all__ = ["SEEDS", "VectorOptions", "autoreset_of", "merge_life_flags"]
 

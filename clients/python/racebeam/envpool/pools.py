@@ -14,8 +14,8 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from ..arguments import flag, whole
-from ..autoreset import AutoresetMode, VectorEnv
 from ..errors import InvalidInput
+from ..vector.autoreset import AutoresetMode, VectorEnv
 from ..vector.results import Info, Numbers, Pixels
 from . import xla
 from .envs import ROWS, Envs, parts_of

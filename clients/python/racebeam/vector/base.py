@@ -9,12 +9,12 @@ from gymnasium import error, spaces
 from gymnasium.vector.utils import batch_space
 
 from .. import images
-from ..autoreset import AutoresetMode, VectorEnv
 from ..errors import InvalidInput
 from ..vector_options import VectorOptions, autoreset_of
 from ..window import Grid
 from ..wire.remote_machines import RemoteMachines
 from ..wire.spread_machines import SpreadMachines
+from .autoreset import AutoresetMode, VectorEnv
 from .machines import Machines
 from .results import Info, Numbers, Pixels, Results, Step
 

@@ -15,8 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .._core import SavedMachine
-from ..autoreset import AutoresetMode
 from ..errors import InvalidInput
+from ..vector.autoreset import AutoresetMode
 from ..vector.machines import Actions, Joysticks, Seeds
 from ..vector.results import Bools, Numbers, Pixels, Results
 from ..vector_options import VectorOptions

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import gymnasium.vector
 
-from .extras import install_hint
+from ..extras import install_hint
 
 __all__ = ["AutoresetMode", "IS_SUPPORTED", "VectorEnv"]
 
