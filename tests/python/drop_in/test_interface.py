@@ -1,0 +1,222 @@
+"""ALEInterface of racebeam.ale_py returns and raises what that of ale_py does."""
+
+import inspect
+import os
+import pathlib
+import pickle
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("ale_py", "gymnasium", "numpy")
+
+import numpy as np
+from both import PONG, pong
+
+
+@unittest.skipIf(PONG is None, "there is no image of pong")
+class Interface(unittest.TestCase):
+    def outcome(self, call, ale):
+        """What a call returns, or exactly which type it raises."""
+        try:
+            value = call(ale)
+        except Exception as error:
+            return type(error)
+        if isinstance(value, np.ndarray):
+            return value.dtype, value.shape, value.flags.writeable, value.flags.c_contiguous, value.tobytes()
+        if isinstance(value, list) and value and hasattr(value[0], "name"):
+            return [action.name for action in value]
+        return type(value), value
+
+    CALLS = [
+        lambda ale: [ale.act(action % 18) for action in range(300)],
+        lambda ale: ale.act(1, 0.5),
+        lambda ale: ale.act(action=3, paddle_strength=0.25),
+        lambda ale: ale.act("FIRE"),
+        lambda ale: ale.act(-1),
+        lambda ale: ale.act(1.0),
+        lambda ale: ale.act(None),
+        lambda ale: ale.getScreen(),
+        lambda ale: ale.getScreenRGB(),
+        lambda ale: ale.getScreenGrayscale(),
+        lambda ale: ale.getRAM(),
+        lambda ale: ale.getAudio(),
+        lambda ale: ale.getScreenDims(),
+        lambda ale: ale.getRAMSize(),
+        lambda ale: ale.getAudioSize(),
+        lambda ale: ale.lives(),
+        lambda ale: ale.game_over(),
+        lambda ale: ale.game_over(False),
+        lambda ale: ale.game_over(with_truncation=True),
+        lambda ale: ale.game_truncated(),
+        lambda ale: ale.getFrameNumber(),
+        lambda ale: ale.getEpisodeFrameNumber(),
+        lambda ale: ale.getLegalActionSet(),
+        lambda ale: ale.getMinimalActionSet(),
+        lambda ale: ale.getAvailableModes(),
+        lambda ale: ale.getAvailableDifficulties(),
+        lambda ale: ale.setMode(99),
+        lambda ale: ale.setMode(5),
+        lambda ale: ale.setDifficulty(99),
+        lambda ale: ale.setMode("x"),
+        lambda ale: ale.setRAM(5, 77),
+        lambda ale: ale.getRAM(),
+        lambda ale: ale.setRAM(128, 0),
+        lambda ale: ale.setRAM(-1, 0),
+        lambda ale: ale.setRAM(0, 256),
+        lambda ale: ale.setRAM(0, -1),
+        lambda ale: ale.getScreenRGB(np.zeros((5, 5, 3), np.uint8)),
+        lambda ale: ale.getScreenRGB(np.zeros((210, 160, 3), np.int32)),
+        lambda ale: ale.getScreen(np.zeros((160, 210), np.uint8)),
+        lambda ale: ale.getScreenGrayscale(np.zeros(3, np.uint8)),
+        lambda ale: ale.getScreen(np.zeros((210, 320), np.uint8)[:, ::2]),
+        lambda ale: ale.getRAM(np.zeros(5, np.uint8)),
+        lambda ale: ale.getAudio(np.zeros(5, np.uint8)),
+        lambda ale: ale.getRAM([0] * 128),
+        lambda ale: ale.getRAM(buffer=np.zeros(128, np.uint8)),
+        lambda ale: ale.getInt("random_seed"),
+        lambda ale: ale.getInt("nonsense"),
+        lambda ale: ale.getBool("nonsense"),
+        lambda ale: ale.getFloat("nonsense"),
+        lambda ale: ale.getString("nonsense"),
+        lambda ale: ale.getInt("frame_skip"),
+        lambda ale: ale.getInt("max_num_frames"),
+        lambda ale: ale.getInt("max_num_frames_per_episode"),
+        lambda ale: ale.getInt("system_random_seed"),
+        lambda ale: ale.getInt("reward_min"),
+        lambda ale: ale.getInt("reward_max"),
+        lambda ale: ale.getFloat("repeat_action_probability"),
+        lambda ale: ale.getBool("color_averaging"),
+        lambda ale: ale.getBool("display_screen"),
+        lambda ale: ale.getBool("sound"),
+        lambda ale: ale.getBool("sound_obs"),
+        lambda ale: ale.getBool("send_rgb"),
+        lambda ale: ale.getBool("truncate_on_loss_of_life"),
+        lambda ale: ale.getString("cpu"),
+        lambda ale: ale.getString("record_screen_dir"),
+        lambda ale: ale.getString("rom_file"),
+        lambda ale: ale.setInt("nonsense", 1),
+        lambda ale: ale.setBool("random_seed", True),
+        lambda ale: ale.setInt("cpu", 1),
+        lambda ale: ale.setFloat("random_seed", 1.0),
+        lambda ale: ale.setString("nonsense", "x"),
+        lambda ale: ale.setInt("frame_skip", "4"),
+        lambda ale: ale.setFloat("repeat_action_probability", 0),
+        lambda ale: ale.setInt("random_seed", np.int32(-5)),
+        lambda ale: ale.isSupportedROM("/nowhere"),
+        lambda ale: ale.isSupportedROM("/etc/hostname"),
+        lambda ale: ale.isSupportedROM(PONG),
+        lambda ale: ale.isSupportedROM(pathlib.Path(PONG)),
+        lambda ale: ale.setLoggerMode(3.5),
+        lambda ale: ale.reset_game(),
+        lambda ale: ale.getFrameNumber(),
+        lambda ale: ale.getEpisodeFrameNumber(),
+        lambda ale: [ale.act(action % 6) for action in range(400)],
+        lambda ale: ale.getScreenRGB(),
+        lambda ale: ale.getAudio(),
+    ]
+
+    def test_all_calls_have_the_same_outcome(self):
+        ours, theirs = pong()
+        for number, call in enumerate(self.CALLS):
+            with self.subTest(call=number, line=inspect.getsource(call).strip()[:60]):
+                self.assertEqual(self.outcome(call, ours), self.outcome(call, theirs))
+
+    def test_buffers_are_filled(self):
+        for ale in pong():
+            for method, shape in (
+                (ale.getScreen, (210, 160)),
+                (ale.getScreenRGB, (210, 160, 3)),
+                (ale.getScreenGrayscale, (210, 160)),
+                (ale.getRAM, (128,)),
+                (ale.getAudio, (512,)),
+            ):
+                buffer = np.full(shape, 99, np.uint8)
+                self.assertIsNone(method(buffer))
+                self.assertTrue(np.array_equal(buffer, method()))
+
+    def test_settings_have_the_effect_that_they_have_in_ale(self):
+        settings = (
+            (),
+            (("setInt", "frame_skip", 3),),
+            (("setInt", "reward_max", 0),),
+            (("setBool", "color_averaging", True),),
+            (("setInt", "max_num_frames_per_episode", 50),),
+            (("setFloat", "repeat_action_probability", 0.9),),
+            (("setInt", "paddle_min", 100000), ("setInt", "paddle_max", 300000)),
+            (("setInt", "system_random_seed", 5),),
+        )
+        for wanted in settings:
+            with self.subTest(settings=wanted):
+                seen = []
+                for ale in pong():
+                    for setter, key, value in wanted:
+                        getattr(ale, setter)(key, value)
+                    ale.loadROM(PONG)
+                    rewards = [ale.act(step * 7 % 6) for step in range(1200)]
+                    seen.append(
+                        (
+                            rewards,
+                            ale.getScreenRGB().tobytes(),
+                            ale.getRAM().tobytes(),
+                            ale.getAudio().tobytes(),
+                            ale.game_truncated(),
+                            ale.getFrameNumber(),
+                        )
+                    )
+                self.assertEqual(seen[0], seen[1])
+
+    def test_states_agree_on_what_is_played_after_them(self):
+        seen = []
+        for ale in pong():
+            told = [[ale.act(step % 6) for step in range(100)]]
+            plain, system = ale.cloneState(), ale.cloneSystemState()
+            told.append(
+                (plain.getFrameNumber(), plain.getEpisodeFrameNumber(), plain.getDifficulty(), plain.getCurrentMode())
+            )
+            told.append((plain == ale.cloneState(), plain.equals(ale.cloneState(include_rng=False)), plain == plain))
+            for state, restore in (
+                (system, ale.restoreSystemState),
+                (plain, ale.restoreState),
+                (pickle.loads(pickle.dumps(system)), ale.restoreState),
+            ):
+                restore(state)
+                told.append(
+                    ([ale.act(step * 5 % 6) for step in range(100)], ale.getRAM().tobytes(), ale.getScreen().tobytes())
+                )
+            seen.append(told)
+        self.assertEqual(seen[0], seen[1])
+
+    def test_a_picture_is_the_same_file_to_a_reader(self):
+        import struct
+        import zlib
+
+        def pixels(path):
+            data = pathlib.Path(path).read_bytes()
+            at, packed, head = 8, b"", b""
+            while at < len(data):
+                size, kind = struct.unpack(">I4s", data[at : at + 8])
+                head, packed = (
+                    (data[at + 8 : at + 8 + size], packed)
+                    if kind == b"IHDR"
+                    else (head, packed + data[at + 8 : at + 8 + size] if kind == b"IDAT" else packed)
+                )
+                at += size + 12
+            rows = zlib.decompress(packed)
+            width, height = struct.unpack(">II", head[:8])
+            self.assertEqual({rows[row * (3 * width + 1)] for row in range(height)}, {0})
+            return head[:10], rows
+
+        with tempfile.TemporaryDirectory() as folder:
+            files = [f"{folder}/{number}.png" for number in range(2)]
+            for ale, file in zip(pong(), files):
+                ale.act(1)
+                ale.saveScreenPNG(file)
+            self.assertEqual(pixels(files[0]), pixels(files[1]))
+
+
+if __name__ == "__main__":
+    package.main()

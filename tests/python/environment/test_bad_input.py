@@ -1,0 +1,234 @@
+"""AtariEnv refuses bad input, and says where it looks for images."""
+
+import copy
+import os
+import pathlib
+import pickle
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import unittest.mock
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("gymnasium", "numpy")
+
+import gymnasium as gym
+import numpy as np
+import racebeam
+from racebeam import images
+
+HOMEBREW = package.SOURCE / "games/homebrew"
+
+
+class BadInput(unittest.TestCase):
+    def refused(self, error, sentence, call, *words, **arguments):
+        with self.assertRaisesRegex(error, sentence):
+            call(*words, **arguments)
+
+    def test_arguments(self):
+        make, wrong = racebeam.AtariEnv, gym.error.Error
+        self.refused(racebeam.UnknownGame, "game 'beamfal'.* beamfall", make, "beamfal")
+        self.refused(racebeam.UnknownGame, r"game \[1\]", make, [1])
+        self.refused(wrong, "^obs_type .*'text'", make, "beamfall", obs_type="text")
+        self.refused(
+            wrong, "render_mode is 'ansi'; it takes None, human, rgb_array", make, "beamfall", render_mode="ansi"
+        )
+        self.refused(wrong, "frameskip has the type float", make, "beamfall", frameskip=4.0)
+        for frameskip in (0, -1, (0, 3), (3, 3), (4, 3), (1, 2, 3), ()):
+            self.refused(wrong, "frameskip is", make, "beamfall", frameskip=frameskip)
+        self.refused(RuntimeError, "mode 7", make, "beamfall", mode=7)
+        self.refused(RuntimeError, "difficulty 9", make, "beamfall", difficulty=9)
+        self.refused(racebeam.InvalidInput, "preset 'dqn'", make, "beamfall", preset="dqn")
+        self.refused(racebeam.InvalidInput, r"preset \[1\]", make, "beamfall", preset=[1])
+        self.refused(racebeam.InvalidInput, "^rules .*5", make, "beamfall", rules=5)
+        for probability in (2, -0.5, "x", float("nan"), [0.5]):
+            self.refused(wrong, "repeat_action_probability is", make, "beamfall", repeat_action_probability=probability)
+        for name, values in (
+            ("mode", ("x", 1.0, -1, 2**40)),
+            ("difficulty", ("x", -1)),
+            ("max_num_frames_per_episode", (1.5, -5, 2**40)),
+            ("noop_max", (1.5, -1, 10**12)),
+            ("frameskip", (2**31, (1, 2**31), (1.0, 2), True)),
+            ("server", (5, ["unix:x"])),
+            ("continuous_action_threshold", ("x", float("nan"), None)),
+            ("timeout", ("x", 0, -1, float("nan"))),
+        ):
+            for value in values:
+                self.refused(wrong, f"{name} (is|has)", make, "beamfall", **{name: value})
+        for name in ("frameskip", "max_num_frames_per_episode", "noop_max"):
+            make("beamfall", **{name: np.int64(4)}).reset(seed=1)
+        make("beamfall", frameskip=(np.int64(2), 5), mode=np.int32(0), difficulty=np.int64(1)).reset(seed=1)
+        self.refused(racebeam.InvalidInput, "beamfall has no mode for two", make, "beamfall", two_player=True)
+        for arguments, kind in (
+            ({"frameskip": 0}, ValueError),
+            ({"frameskip": (3, 3)}, ValueError),
+            ({"frameskip": "x"}, TypeError),
+            ({"frameskip": (1.0, 2)}, TypeError),
+            ({"reward_range": (2, 1)}, ValueError),
+            ({"server": 3}, TypeError),
+            ({"reward_range": (0, float("nan"))}, ValueError),
+            ({"reward_range": (1,)}, ValueError),
+            ({"reward_range": ("a", 1)}, TypeError),
+            ({"reward_range": 5}, TypeError),
+            ({"rom": 5}, TypeError),
+            ({"two_player": True, "continuous": True}, ValueError),
+        ):
+            for also in (wrong, kind):
+                self.refused(also, next(iter(arguments)), make, "beamfall", **arguments)
+        for flag in ("two_player", "continuous", "sound", "sound_obs", "life_loss_ends", "full_action_space"):
+            self.refused(
+                wrong, f"{flag} is array.*; it takes True or False", make, "beamfall", **{flag: np.ones(2, bool)}
+            )
+
+    def test_actions(self):
+        env = racebeam.AtariEnv("beamfall")
+        env.reset(seed=1)
+        for action in (18, -1, 10**30):
+            self.refused(IndexError, "^action ", env.step, action)
+        for action in (1.5, "FIRE", None, np.zeros(2)):
+            self.refused(TypeError, "", env.step, action)
+        before = env.ale.getFrameNumber()
+        for action in (3, np.int64(3), np.array(3), np.uint8(3), True):
+            env.step(action)
+        self.assertEqual(env.ale.getFrameNumber(), before + 20)
+
+    def test_images(self):
+        good = (HOMEBREW / "beamfall.bin").read_bytes()
+        env = racebeam.AtariEnv("beamfall", rom=good)
+        self.assertEqual(env.reset(seed=1)[0].tobytes(), racebeam.AtariEnv("beamfall").reset(seed=1)[0].tobytes())
+        for rom in (bytearray(good), memoryview(good), np.frombuffer(good, np.uint8)):
+            env = racebeam.AtariEnv("beamfall", rom=rom)
+            self.assertEqual(pickle.loads(pickle.dumps(env)).reset(seed=1)[0].tobytes(), env.reset(seed=1)[0].tobytes())
+            env.ale.loadROM(rom)
+            self.assertEqual(racebeam.ALEInterface.isSupportedROM(rom), "beamfall")
+        for rom in (5, [1], env):
+            for call in (lambda rom: racebeam.AtariEnv("beamfall", rom=rom), env.ale.loadROM, env.ale.isSupportedROM):
+                self.refused(TypeError, "^rom ", call, rom)
+        for rom, sentence in (
+            (b"", "it is empty"),
+            (b"x" * 600000, "larger than the largest image"),
+            ("/nowhere/x.bin", "there is no such file"),
+            ("/dev/zero", "image /dev/zero"),
+        ):
+            self.refused(racebeam.InvalidInput, sentence, racebeam.AtariEnv, "beamfall", rom=rom)
+
+    def test_seeds(self):
+        env = racebeam.AtariEnv("beamfall")
+        for seed in (-1, 1.5, "x", np.int64(3)):
+            self.refused(gym.error.Error, "Seed must be", env.reset, seed=seed)
+        self.assertEqual(len(env.reset(seed=2**100)[1]["seeds"]), 2)
+
+    def test_a_missing_image_says_where_was_looked(self):
+        script = (
+            "import racebeam\ntry: racebeam.AtariEnv('pong')\nexcept FileNotFoundError as e: print(type(e).__name__, e)"
+        )
+        with_path = dict(os.environ, RACEBEAM_ROMS="/nowhere", ALE_ROMS_DIR=str(HOMEBREW), PYTHONPATH="")
+        blind = (
+            "import importlib.machinery as m; m.PathFinder.find_spec = classmethod(lambda *a, "
+            "_f=m.PathFinder.find_spec: "
+        )
+        blind += "None if a[1:2] == ('ale_py',) else _f(*a[1:]));"
+        done = subprocess.run(
+            [sys.executable, "-c", blind + script], env=with_path, capture_output=True, text=True, check=True
+        )
+        self.assertIn(
+            "MissingImage no cartridge image of pong was found; racebeam searched RACEBEAM_ROMS, /nowhere (not a "
+            "folder); "
+            f"ALE_ROMS_DIR, {HOMEBREW} (no file has an MD5 of the game); an installed ale_py",
+            done.stdout,
+        )
+
+    def test_an_image_is_found_by_its_md5(self):
+        if "pong" not in package.roms():
+            self.skipTest("there is no image of pong")
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "something.a26").write_bytes(pathlib.Path(racebeam.find_image("pong")).read_bytes())
+            pathlib.Path(folder, "pong.bin").write_bytes(b"no image of pong")
+            script = "import racebeam; print(racebeam.find_image('pong'))"
+            done = subprocess.run(
+                [sys.executable, "-c", script],
+                env=dict(os.environ, RACEBEAM_ROMS=folder),
+                capture_output=True,
+                text=True,
+                check=True,
+            )
+            self.assertEqual(done.stdout.strip(), str(pathlib.Path(folder, "something.a26")))
+
+    def test_a_file_that_is_overwritten_is_identified_again(self):
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ, RACEBEAM_ROMS=folder):
+            image, game = pathlib.Path(folder, "something.rom"), "updraft"
+            with unittest.mock.patch.object(images, "built_in", frozenset):
+                for name, expected in (("updraft", str(image)), ("beamfall", None), ("updraft", str(image))):
+                    image.write_bytes((HOMEBREW / f"{name}.bin").read_bytes())
+                    self.assertEqual(images.find_all().get(game), expected)
+                    if expected is None:
+                        self.refused(racebeam.MissingImage, "no file has an MD5 of the game", racebeam.find_image, game)
+                    else:
+                        self.assertEqual(racebeam.find_image(game), expected)
+
+    def test_what_counts_as_an_image_is_in_the_document(self):
+        told = re.search(
+            r"A file that ends in (.*?) is identified",
+            (package.SOURCE / "docs/python.md").read_text().replace("\n", " "),
+        )[1]
+        self.assertEqual(told, "`.bin`, `.a26` or `.rom`, also with `.gz` after it,")
+        with tempfile.TemporaryDirectory() as folder:
+            names = ("a.bin", "b.a26", "c.rom", "d.bin.gz", "e.BIN", "f", "g.foo", "h.bin.bak", "i.zip", "sub/j.bin")
+            pathlib.Path(folder, "sub").mkdir()
+            for name in names:
+                pathlib.Path(folder, name).write_bytes(b"x")
+            self.assertEqual(
+                racebeam._core.image_files(folder),
+                [str(pathlib.Path(folder, name)) for name in (*names[:5], "i.zip")],
+            )
+
+    def test_the_games_are_the_callers_own(self):
+        racebeam.games().clear()
+        self.assertEqual(len(racebeam.games()), 110)
+        self.assertEqual(racebeam.games()["beamfall"], "Beamfall")
+
+    def test_after_close(self):
+        env = racebeam.AtariEnv("beamfall")
+        env.close()
+        env.close()
+        ours = racebeam.AtariEnv("beamfall")
+        for call in (
+            lambda: env.step(0),
+            env.reset,
+            env.render,
+            env.clone_state,
+            lambda: env.restore_state(ours.clone_state()),
+            env.seed_game,
+            env.load_game,
+            lambda: env.ale.act(0),
+            lambda: env.ale.getScreenRGB(),
+            lambda: copy.copy(env),
+            lambda: copy.deepcopy(env),
+            lambda: pickle.dumps(env),
+        ):
+            self.refused(gym.error.ClosedEnvironmentError, "was closed", call)
+        self.assertEqual(env.get_action_meanings(), ours.get_action_meanings())
+
+    def test_states(self):
+        env = racebeam.AtariEnv("beamfall")
+        env.reset(seed=1)
+        whole = env.clone_state().serialize()
+        for data, sentence in (
+            (b"nonsense", "are not a state"),
+            (b"", "of no game"),
+            (whole[:-9], ""),
+            (whole + b"x", ""),
+        ):
+            self.refused(racebeam.InvalidInput, sentence, lambda data=data: env.restore_state(racebeam.ALEState(data)))
+        self.refused(
+            racebeam.InvalidInput, "the state is of", racebeam.AtariEnv("updraft").restore_state, env.clone_state()
+        )
+        self.assertEqual(env.clone_state().serialize(), whole)
+
+
+if __name__ == "__main__":
+    package.main()

@@ -1,0 +1,208 @@
+"""AtariEnv: seeds, states, copies, presets and rules."""
+
+import copy
+import os
+import pickle
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("gymnasium", "numpy")
+
+import gymnasium as gym
+import numpy as np
+import racebeam
+
+
+def played(env, actions):
+    """What some steps show, as comparable values."""
+    return [(step[0].tobytes(), *step[1:]) for step in (env.step(action) for action in actions)]
+
+
+class Playing(unittest.TestCase):
+    def setUp(self):
+        self.env = racebeam.AtariEnv("beamfall")
+        self.env.reset(seed=11)
+        self.actions = [int(action) for action in np.random.default_rng(5).integers(18, size=200)]
+
+    def test_the_same_seed_is_the_same_game_and_another_is_not(self):
+        first = played(self.env, self.actions)
+        self.env.reset(seed=11)
+        self.assertEqual(played(self.env, self.actions), first)
+        self.env.reset(seed=12)
+        self.assertNotEqual(played(self.env, self.actions), first)
+
+    def test_a_restored_state_shows_what_it_showed(self):
+        played(self.env, self.actions[:20])
+        seen, ram, info = self.env.ale.getScreenRGB(), self.env.ale.getRAM(), self.env._get_info()
+        state = self.env.clone_state(include_rng=True)
+        first = played(self.env, self.actions)
+        self.env.restore_state(state)
+        self.assertEqual(self.env.ale.getScreenRGB().tobytes(), seen.tobytes())
+        self.assertEqual(self.env.ale.getRAM().tobytes(), ram.tobytes())
+        self.assertEqual(self.env._get_info(), info)
+        self.assertEqual(played(self.env, self.actions), first)
+
+    def test_a_state_as_bytes_goes_to_another_environment(self):
+        played(self.env, self.actions[:20])
+        state = racebeam.ALEState(self.env.clone_state(include_rng=True).serialize())
+        first = played(self.env, self.actions)
+        other = racebeam.AtariEnv("beamfall")
+        other.reset(seed=99)
+        other.restore_state(pickle.loads(pickle.dumps(state)))
+        self.assertEqual(played(other, self.actions), first)
+
+    def test_copies_go_on_where_the_game_is(self):
+        played(self.env, self.actions[:30])
+        self.env.action_space.seed(3)
+        copies = [
+            copy.deepcopy(self.env),
+            pickle.loads(pickle.dumps(self.env)),
+            pickle.loads(pickle.dumps(gym.make("racebeam/Updraft-v5", frameskip=(2, 5)))),
+        ]
+        first = played(self.env, self.actions), self.env.action_space.sample()
+        for env in copies[:2]:
+            self.assertEqual((played(env, self.actions), env.action_space.sample()), first)
+        self.assertEqual(
+            played(copies[0].reset(seed=11) and copies[0], self.actions),
+            played(self.env.reset(seed=11) and self.env, self.actions),
+        )
+
+    def test_a_copy_draws_the_same_frameskips(self):
+        env = racebeam.AtariEnv("updraft", frameskip=(2, 9))
+        env.reset(seed=1)
+        actions = [action % env.action_space.n for action in self.actions]
+        self.assertEqual(played(copy.deepcopy(env), actions), played(env, actions))
+
+    def test_observations_are_the_callers_own(self):
+        first = self.env.step(0)[0]
+        before = first.copy()
+        played(self.env, self.actions[:20])
+        self.assertTrue(np.array_equal(first, before))
+        first[:] = 7
+        self.assertFalse(np.array_equal(self.env.ale.getScreenRGB(), first))
+
+    def test_two_players_are_both_rewarded(self):
+        if "pong" not in package.roms():
+            self.skipTest("there is no image of pong")
+        env = racebeam.AtariEnv("pong", two_player=True, frameskip=8)
+        env.reset(seed=1)
+        self.assertEqual(env.action_space.nvec.tolist(), [6, 6])
+        self.assertIn(env.ale.getMode(), env.ale.getTwoPlayerModes())
+        rewards = []
+        for _ in range(400):
+            _, reward, _, _, info = env.step((1, 2))
+            self.assertEqual(info["reward_a"], reward)
+            rewards.append((info["reward_a"], info["reward_b"]))
+        self.assertEqual([b for _, b in rewards], [-a for a, _ in rewards])
+        self.assertTrue(any(a for a, _ in rewards))
+
+    def test_player_b_moves(self):
+        if "pong" not in package.roms():
+            self.skipTest("there is no image of pong")
+        screens = []
+        for b in (2, 3):
+            env = racebeam.AtariEnv("pong", two_player=True, repeat_action_probability=0.0)
+            env.reset(seed=1)
+            for _ in range(30):
+                seen = env.step((0, b))[0]
+            screens.append(seen.tobytes())
+        self.assertNotEqual(*screens)
+
+    def test_a_mode_for_two_needs_two_players(self):
+        if "pong" not in package.roms():
+            self.skipTest("there is no image of pong")
+        with self.assertRaisesRegex(racebeam.InvalidInput, "pong has mode 5 only for two.*for one it offers 0, 1$"):
+            racebeam.AtariEnv("pong", mode=5)
+        self.assertEqual(racebeam.AtariEnv("pong", mode=5, two_player=True).ale.getMode(), 5)
+
+    def test_presets_are_the_settings_of_the_literature(self):
+        def settings(**arguments):
+            env = racebeam.AtariEnv("beamfall", **arguments)
+            ale = env.ale
+            return (
+                env._frameskip,
+                ale.getFloat("repeat_action_probability"),
+                env.action_space.n,
+                ale.getInt("max_num_frames_per_episode"),
+                ale.getBool("truncate_on_loss_of_life"),
+                env._noop_max,
+                env._reward_range,
+            )
+
+        self.assertEqual(settings(), (4, 0.25, 18, 0, False, 0, None))
+        self.assertEqual(settings(preset="paper2013"), (5, 0.0, 18, 18000, False, 0, None))
+        self.assertEqual(settings(preset="dqn2015"), (4, 0.0, 18, 18000, True, 30, (-1, 1)))
+        self.assertEqual(settings(preset="machado2018", frameskip=3), (3, 0.25, 18, 18000, False, 0, None))
+
+    def test_presets_are_those_of_the_line_protocol(self):
+        with racebeam.launch() as session:
+            for name in ("paper2013", "dqn2015", "machado2018", "gym-v5"):
+                told = session.load("beamfall", preset=name)
+                env = racebeam.AtariEnv("beamfall", preset=name)
+                low, high = env._reward_range or ("none", "none")
+                self.assertEqual(
+                    (
+                        told["frame_skip"],
+                        told["sticky"],
+                        told["max_episode_frames"],
+                        told["life_loss_ends"],
+                        told["noop_max"],
+                        told["reward_min"],
+                        told["reward_max"],
+                    ),
+                    (
+                        env._frameskip,
+                        env.ale.getFloat("repeat_action_probability"),
+                        env.ale.getInt("max_num_frames_per_episode"),
+                        int(env.ale.getBool("truncate_on_loss_of_life")),
+                        env._noop_max,
+                        low,
+                        high,
+                    ),
+                    name,
+                )
+
+    def test_a_lost_life_ends_the_episode_of_dqn_and_rewards_are_clipped(self):
+        env = racebeam.AtariEnv("beamfall", preset="dqn2015")
+        _, info = env.reset(seed=3)
+        rewards, truncated = set(), False
+        while not truncated:
+            _, reward, terminated, truncated, after = env.step(1)
+            rewards.add(reward)
+            self.assertFalse(terminated)
+        self.assertEqual(after["lives"], info["lives"] - 1)
+        self.assertEqual(rewards, {0.0, 1.0})
+
+    def test_the_first_frames_of_dqn_differ(self):
+        env = racebeam.AtariEnv("beamfall", preset="dqn2015")
+        begins = {env.reset(seed=seed)[1]["episode_frame_number"] for seed in range(40)}
+        self.assertGreater(len(begins), 10)
+        self.assertEqual((min(begins) >= 0, max(begins) <= 29), (True, True))
+
+    def test_fixed_rules_are_a_choice(self):
+        self.assertEqual(racebeam.AtariEnv("beamfall", rules="fixed").ale.getString("rules"), "fixed")
+        with self.assertRaisesRegex(racebeam.InvalidInput, "it takes ale-0.12 or fixed"):
+            racebeam.AtariEnv("beamfall", rules="mended")
+
+    def test_sound_is_heard(self):
+        env = racebeam.AtariEnv("beamfall", sound_obs=True)
+        env.reset(seed=1)
+        heard = {env.step(1)[0]["sound"].tobytes() for _ in range(40)}
+        self.assertGreater(len(heard), 3)
+
+    def test_a_long_step_is_one_step(self):
+        whole, parts = (racebeam.AtariEnv("beamfall", frameskip=frames) for frames in (5000, 1))
+        whole.reset(seed=2)
+        parts.reset(seed=2)
+        seen = whole.step(1)
+        reward = sum(parts.step(1)[1] for _ in range(5000))
+        self.assertEqual(
+            (seen[0].tobytes(), seen[1], seen[4]), (parts.ale.getScreenRGB().tobytes(), reward, parts._get_info())
+        )
+
+
+if __name__ == "__main__":
+    package.main()

@@ -1,0 +1,94 @@
+"""The ids of Gymnasium that racebeam registers."""
+
+import importlib.util
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("gymnasium", "numpy")
+
+import gymnasium as gym
+import racebeam
+from gymnasium.utils.env_checker import check_env
+
+
+class Registration(unittest.TestCase):
+    def test_every_game_has_an_id_and_ours_can_be_made(self):
+        ids = [env_id for env_id in gym.registry if env_id.startswith("racebeam/")]
+        self.assertEqual(len([env_id for env_id in ids if env_id.endswith("-v5")]), len(racebeam.games()))
+        self.assertEqual(len([env_id for env_id in ids if env_id.endswith("NoFrameskip-v4")]), len(racebeam.games()))
+        self.assertEqual(len(ids), 220)
+        for env_id in ("racebeam/Beamfall-v5", "racebeam/Updraft-v5"):
+            env = gym.make(env_id)
+            self.assertEqual(type(env.unwrapped).__name__, "AtariEnv")
+            self.assertEqual(env.unwrapped._frameskip, 4)
+            self.assertEqual(env.unwrapped.ale.getInt("max_num_frames_per_episode"), 108000)
+            self.assertEqual(env.unwrapped.ale.getFloat("repeat_action_probability"), 0.25)
+
+    def test_ids_without_frame_skipping_are_for_wrappers_that_skip(self):
+        env = gym.make("racebeam/BeamfallNoFrameskip-v4")
+        env.reset(seed=1)
+        self.assertEqual(env.step(0)[4]["episode_frame_number"], 1)
+        self.assertEqual(env.unwrapped.ale.getFloat("repeat_action_probability"), 0)
+        self.assertEqual(env.unwrapped.ale.getInt("max_num_frames_per_episode"), 108000)
+        if importlib.util.find_spec("cv2"):
+            gym.wrappers.AtariPreprocessing(env).reset(seed=1)
+            self.assertRaises(ValueError, gym.wrappers.AtariPreprocessing, gym.make("racebeam/Beamfall-v5"))
+
+    def test_a_spawned_process_makes_an_id_that_names_the_module(self):
+        script = (
+            "import gymnasium as gym, sys\n"
+            "if __name__ == '__main__':\n"
+            "    envs = gym.make_vec('racebeam:racebeam/Beamfall-v5', 2, vectorization_mode='async', "
+            "vector_kwargs={'context': 'spawn'})\n"
+            "    print(envs.reset(seed=1)[0].shape); envs.close()\n"
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "spawn.py")
+            file.write_text(script)
+            done = subprocess.run([sys.executable, file], capture_output=True, text=True)
+        self.assertEqual(done.stdout.strip(), "(2, 210, 160, 3)", done.stderr)
+
+    @unittest.skipUnless(importlib.util.find_spec("ale_py"), "there is no ale_py")
+    def test_a_later_import_of_ale_py_does_not_take_the_ids_back(self):
+        for ours in ("racebeam.register_ale_ids()", "import racebeam.ale_py"):
+            script = (
+                f"import gymnasium as gym, racebeam\n{ours}\n"
+                "import ale_py, inspect, sys\n"
+                "for env_id in ('ALE/Pong-v5', 'PongNoFrameskip-v4'): print(gym.spec(env_id).entry_point)\n"
+                "print(type(ale_py.__loader__) is type(ale_py.__spec__.loader), ale_py.ALEInterface.__module__)\n"
+                "print('ALEState' in inspect.getsource(ale_py))"
+            )
+            done = subprocess.run([sys.executable, "-W", "error", "-c", script], capture_output=True, text=True)
+            self.assertEqual(done.stdout.split("\n")[:2], ["racebeam.ale_py.env:AtariEnv"] * 2, done.stderr)
+            self.assertEqual(done.stdout.split("\n")[2:4], ["True ale_py._ale_py", "True"], done.stderr)
+
+    def test_the_checker_of_gymnasium_finds_nothing(self):
+        for obs_type in ("rgb", "grayscale", "ram"):
+            with self.subTest(obs_type=obs_type), warnings.catch_warnings():
+                warnings.simplefilter("error")
+                env = gym.make("racebeam/Beamfall-v5", obs_type=obs_type, render_mode="rgb_array")
+                check_env(env.unwrapped, skip_render_check=importlib.util.find_spec("pygame") is None)
+
+    def test_the_ids_of_ale_come_when_they_are_asked_for(self):
+        script = (
+            "import gymnasium as gym, racebeam\n"
+            "before = {i for i, s in gym.registry.items() if str(s.entry_point).startswith('racebeam')}\n"
+            "racebeam.register_ale_ids(); racebeam.register_ale_ids()\n"
+            "ours = {i for i, s in gym.registry.items() if str(s.entry_point).startswith('racebeam')} - before\n"
+            "print(len(before), len(ours), sorted(ours)[0], 'PongNoFrameskip-v4' in ours, 'ALE/Combat-v5' in ours)"
+        )
+        done = subprocess.run([sys.executable, "-W", "error", "-c", script], capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout.split(), ["220", "352", "ALE/Adventure-v5", "True", "False"])
+        self.assertEqual(done.stderr, "")
+
+
+if __name__ == "__main__":
+    package.main()

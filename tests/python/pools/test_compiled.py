@@ -1,0 +1,95 @@
+"""racebeam.envpool: programs that JAX compiles."""
+
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("numpy", "gymnasium")
+
+import numpy as np
+from pools import make
+from racebeam import InvalidInput
+
+
+@unittest.skipUnless(package._is_there("jax"), "there is no jax")
+class Compiled(unittest.TestCase):
+    """xla()."""
+
+    def test_it_shows_what_the_environments_show(self):
+        import jax
+
+        for env_type in ("gymnasium", "gym", "dm"):
+            for config in (
+                {"episodic_life": True, "frame_skip": 60, "reward_clip": True},
+                {"gray_scale": False, "img_height": 30, "max_episode_steps": 7},
+                {"zero_discount_on_life_loss": True, "frame_skip": 60},
+            ):
+                with self.subTest(env_type=env_type, **config):
+                    envs, others = make(env_type, **config), make(env_type, **config)
+                    handle, recv, send, step = envs.xla()
+                    envs.async_reset()
+                    others.async_reset()
+                    handle, shown = recv(handle)
+                    self.same(shown, others.recv())
+                    compiled = jax.jit(step)
+                    for number in range(40):
+                        actions = np.array([number % 18, 1, 3], np.int32)
+                        handle, shown = compiled(handle, actions)
+                        self.same(shown, others.step(actions))
+                    ids = np.array([2, 0, 1], np.int32)
+                    handle, shown = step(handle, {"action": actions, "env_id": ids})
+                    self.same(shown, others.step(actions, ids))
+
+    def same(self, compiled, shown):
+        import jax
+
+        ours, theirs = jax.tree.flatten(compiled), jax.tree.flatten(shown)
+        self.assertEqual(ours[1], theirs[1])
+        for one, other in zip(ours[0], theirs[0]):
+            self.assertEqual((one.dtype, one.shape), (other.dtype, other.shape))
+            self.assertTrue(np.array_equal(one, other))
+
+    def test_a_loop_of_some_at_a_time(self):
+        import jax
+
+        envs = make(num_envs=6, batch_size=2)
+        handle, recv, send, _ = envs.xla()
+        envs.async_reset()
+
+        def step(_, carried):
+            handle, steps = carried
+            handle, (*_, info) = recv(handle)
+            return send(handle, jax.numpy.ones(2, np.int32), info["env_id"]), steps.at[info["env_id"]].add(1)
+
+        _, steps = jax.jit(lambda: jax.lax.fori_loop(0, 30, step, (handle, jax.numpy.zeros(6, np.int32))))()
+        self.assertEqual(int(steps.sum()), 60)
+        self.assertEqual(envs.recv()[4]["env_id"].shape, (2,))
+        with self.assertRaisesRegex(InvalidInput, "env_id is None"):
+            send(handle, np.ones(2, np.int32))
+
+    def test_bad_input(self):
+        import jax
+
+        envs = make()
+        handle, recv, send, step = envs.xla()
+        self.assertRaisesRegex(
+            InvalidInput, r"actions have the shape \(2,\); they must have \(3,\)", send, handle, np.ones(2, np.int32)
+        )
+        self.assertRaises(TypeError, send, handle, np.ones(3))
+        for function, arguments, words in (
+            (recv, (), "0 machines play, and a receive takes 3"),
+            (step, (np.full(3, 99),), "out of range"),
+            (step, (np.ones(1, np.int32), np.array([7])), "there is no machine 7"),
+        ):
+            with self.assertRaisesRegex(jax.errors.JaxRuntimeError, words):
+                jax.block_until_ready(function(handle, *arguments))
+        envs.close()
+        with self.assertRaisesRegex(jax.errors.JaxRuntimeError, "closed"):
+            jax.block_until_ready(step(handle, np.ones(3, np.int32)))
+
+
+if __name__ == "__main__":
+    package.main()

@@ -1,0 +1,87 @@
+"""racebeam.envpool: pictures, and results that depend on the interface."""
+
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("numpy", "gymnasium")
+
+import gymnasium
+import numpy as np
+import racebeam
+from gymnasium.error import Error
+from pools import HAS_VECTORS, make
+from racebeam import envpool
+
+
+class Rendering(unittest.TestCase):
+    def test_what_envpool_takes_for_it(self):
+        for arguments in (
+            {"render_mode": "rgb_array"},
+            {"render_mode": None},
+            {"from_pixels": False},
+            {"render_camera_id": -1},
+        ):
+            envs = make("gymnasium", **arguments)
+            self.assertNotIn(*arguments, envs.config)
+            self.assertEqual(envs.render().shape, (1, 210, 160, 3))
+        for arguments in (
+            {"render_mode": "human"},
+            {"from_pixels": True},
+            {"render_width": 100},
+            {"render_height": 3},
+            {"render_camera_id": 4},
+        ):
+            with self.subTest(**arguments), self.assertRaisesRegex(racebeam.InvalidInput, "racebeam has"):
+                make("gymnasium", **arguments)
+
+    @unittest.skipUnless(HAS_VECTORS, "Gymnasium has no AddRenderObservation")
+    def test_the_metadata_has_the_mode_and_wrappers_use_it(self):
+        self.assertIsNone(make().render_mode)
+        envs = gymnasium.wrappers.AddRenderObservation(make(render_mode="rgb_array"))
+        self.assertEqual((envs.reset()[0].shape, envs.observation_space.shape), ((1, 210, 160, 3),) * 2)
+        self.assertEqual(envs.unwrapped.render(env_ids=2, camera_id=-1).shape, (1, 210, 160, 3))
+
+    @unittest.skipUnless("air_raid" in package.roms(), "there is no image of air_raid")
+    def test_the_upper_210_rows_of_higher_screens_are_seen(self):
+        envs = envpool.make_gymnasium(
+            "AirRaid-v5", gray_scale=False, stack_num=1, img_height=210, img_width=160, use_inter_area_resize=False
+        )
+        seen = envs.reset()[0]
+        self.assertEqual(envs.render().shape, (1, 210, 160, 3))
+        self.assertTrue(np.array_equal(seen[0].transpose(1, 2, 0), envs.render()[0]))
+        self.assertEqual(racebeam.AtariVectorEnv("air_raid", 1, obs_type="rgb").reset()[0].shape, (1, 4, 250, 160, 3))
+
+    def test_render_returns_the_chosen_environment(self):
+        first, second = (make("gymnasium", num_envs=2, env_seed=[1, 9], render_env_id=env) for env in (0, 1))
+        for envs in (first, second):
+            envs.reset()
+            for _ in range(20):
+                envs.step(np.array([3, 4]))
+        self.assertTrue(np.array_equal(second.render(), first.render(1)))
+        self.assertFalse(np.array_equal(second.render(), first.render()))
+        for env in (2, -1, "x", None):
+            with self.subTest(env=env), self.assertRaisesRegex(Error, "render_env_id"):
+                make("gymnasium", num_envs=2, render_env_id=env)
+
+    def test_a_reset_without_infos_is_of_gym_alone(self):
+        for env_type in ("gymnasium", "dm"):
+            with self.assertRaisesRegex(ValueError, "gym_reset_return_info is False"):
+                make(env_type, gym_reset_return_info=False)
+        self.assertEqual(make("gym", gym_reset_return_info=False).reset().ndim, 4)
+
+    def test_rewards_and_discounts_of_dm(self):
+        try:
+            from dm_env import specs
+        except ImportError:
+            self.skipTest("there is no dm_env")
+        envs = make("dm")
+        self.assertEqual(envs.reward_spec(), specs.Array((), float, "reward"))
+        self.assertEqual(envs.discount_spec(), specs.BoundedArray((), float, 0.0, 1.0, "discount"))
+
+
+if __name__ == "__main__":
+    package.main()

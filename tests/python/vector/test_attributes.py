@@ -1,0 +1,108 @@
+"""AtariVectorEnv: its attributes, its options, and Gymnasium's own wrappers."""
+
+import dataclasses
+import inspect
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("numpy", "gymnasium")
+
+import gymnasium
+import numpy as np
+import racebeam
+from gymnasium.error import Error
+from gymnasium.vector import AutoresetMode
+from gymnasium.wrappers.vector import DictInfoToList, RecordEpisodeStatistics
+from racebeam import AtariVectorEnv
+from racebeam.vector_options import VectorOptions
+from vectors import SHORT, play, same
+
+GYMNASIUM = tuple(map(int, gymnasium.__version__.split(".")[:3]))
+
+
+class Attributes(unittest.TestCase):
+    def test_the_actions_of_each_environment(self):
+        envs = AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)
+        names = [action.name for action in racebeam.Action]
+        self.assertEqual(envs.get_action_meanings(1), names)
+        self.assertEqual(envs.call("get_action_meanings"), (names, names))
+        single = racebeam.AtariEnv("beamfall")
+        self.assertEqual(AtariVectorEnv("beamfall", 2).get_action_meanings(), single.get_action_meanings())
+        for env in (2, -1):
+            self.assertRaisesRegex(IndexError, f"environment {env}", envs.get_action_meanings, env)
+
+    def test_attributes_and_calls(self):
+        envs = AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)
+        self.assertEqual(envs.get_attr("game"), ("beamfall", "updraft"))
+        self.assertEqual(envs.get_attr("grayscale"), (True, True))
+        self.assertEqual(len(envs.call("save", include_rng=False)), 2)
+        self.assertRaises(AttributeError, envs.get_attr, "colour")
+        self.assertRaisesRegex(AttributeError, "get_action_meanings", envs.call, "step")
+
+    def test_the_text_names_the_game(self):
+        self.assertEqual(repr(AtariVectorEnv("beamfall", 2)), "AtariVectorEnv(game='beamfall', num_envs=2)")
+        self.assertEqual(
+            repr(AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)),
+            "AtariVectorEnv(game=['beamfall', 'updraft'], num_envs=2)",
+        )
+        self.assertEqual(
+            repr(racebeam.AtariEnv("beamfall", frameskip=(2, 5))),
+            "AtariEnv(game='beamfall', obs_type='rgb', frameskip=(2, 5))",
+        )
+        self.assertEqual(str(racebeam.AtariEnv("beamfall")), "<AtariEnv<beamfall>>")
+        self.assertEqual(str(gymnasium.make("racebeam/Beamfall-v5").unwrapped), "<AtariEnv<racebeam/Beamfall-v5>>")
+
+
+class Options(unittest.TestCase):
+    def test_they_are_checked_and_cannot_be_changed(self):
+        options = VectorOptions(num_envs=np.int64(4), autoreset_mode="SAME_STEP", seed=np.int64(3))
+        self.assertEqual(
+            (type(options.num_envs), options.batch_size, options.autoreset_mode), (int, 4, AutoresetMode.SAME_STEP)
+        )
+        with self.assertRaises(dataclasses.FrozenInstanceError):
+            options.seed = 4
+        self.assertRaisesRegex(Error, "batch_size is 5", dataclasses.replace, options, batch_size=5)
+
+    def test_the_constructor_takes_each_of_them(self):
+        taken = set(inspect.signature(AtariVectorEnv).parameters)
+        self.assertEqual({field.name for field in dataclasses.fields(VectorOptions)} - taken, {"rows"})
+
+    def test_the_core_has_what_they_say(self):
+        core = VectorOptions(
+            obs_type="ram", lives="end", max_num_frames_per_episode=7, reward_clipping=False
+        ).core_settings()
+        self.assertEqual(
+            (core.stack, core.lives.name, core.max_episode_frames, core.reward_max), (0, "END", 7, 2**31 - 1)
+        )
+
+
+class Gymnasium(unittest.TestCase):
+    def test_make_vec(self):
+        envs = gymnasium.make_vec("racebeam/Beamfall-v5", 3, img_height=50)
+        self.assertIsInstance(envs.unwrapped, AtariVectorEnv)
+        self.assertEqual(envs.reset(seed=1)[0].shape, (3, 4, 50, 84))
+        sticky = AtariVectorEnv("beamfall", 3, img_height=50, repeat_action_probability=0.25)
+        sticky.reset(seed=1)
+        self.assertTrue(same(play(envs.unwrapped, 20), play(sticky, 20)))
+
+    def test_wrappers(self):
+        envs = RecordEpisodeStatistics(AtariVectorEnv("beamfall", 2, frameskip=60, seed=1))
+        infos = [envs.step(np.ones(2, int))[4] for _ in range(60)]
+        self.assertTrue(any("episode" in info for info in infos))
+
+    @unittest.skipIf(GYMNASIUM < (1, 2, 3), "DictInfoToList needs a mask for each key")
+    def test_infos_as_lists(self):
+        envs = DictInfoToList(AtariVectorEnv("beamfall", 2, autoreset_mode="SameStep", **SHORT))
+        envs.reset(seed=1)
+        infos = [envs.step(np.ones(2, int))[4] for _ in range(3)]
+        self.assertEqual(infos[2][1]["final_obs"].shape, (4, 84, 84))
+        self.assertEqual(infos[2][1]["final_info"]["episode_frame_number"], 13)
+        self.assertNotIn("final_obs", infos[1][1])
+
+
+if __name__ == "__main__":
+    package.main()

@@ -1,0 +1,82 @@
+"""AtariVectorEnv: send and recv, the halves of a step."""
+
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("numpy", "gymnasium")
+
+import numpy as np
+from racebeam import AtariVectorEnv, InvalidInput
+from vectors import SHORT, play
+
+
+class Halves(unittest.TestCase):
+    def test_each_environment_shows_the_same_as_in_whole_steps(self):
+        together, envs = AtariVectorEnv("beamfall", 4), AtariVectorEnv("beamfall", 4, batch_size=2, num_threads=2)
+        expected = [[together.reset(seed=1)[0][env]] for env in range(4)]
+        for step in range(20):
+            seen = together.step(np.full(4, step % 3))[0]
+            for env in range(4):
+                expected[env].append(seen[env])
+        steps = [0] * 4
+
+        def check(observations, info):
+            for env, seen in zip(info["env_id"], observations):
+                if steps[env] <= 20:
+                    self.assertTrue(np.array_equal(seen, expected[env][steps[env]]))
+                steps[env] += 1
+
+        observations, info = envs.reset(seed=1)
+        self.assertEqual(envs.action_space.shape, (2,))
+        while min(steps) <= 20:
+            check(observations, info)
+            envs.send(np.array([(steps[env] - 1) % 3 for env in info["env_id"]]))
+            observations, *_, info = envs.recv()
+
+    def test_show_returns_all_environments(self):
+        for settings in ({"batch_size": 1}, {"autoreset_mode": "SameStep", **SHORT}):
+            envs = AtariVectorEnv("beamfall", 4, seed=1, **settings)
+            if "batch_size" not in settings:
+                self.assertIn("final_obs", play(envs, 3)[-1][4])
+            seen, info = envs.show()
+            self.assertEqual((seen.shape, info["env_id"].tolist()), ((4, 4, 84, 84), [0, 1, 2, 3]))
+            self.assertNotIn("final_obs", info)
+
+    def test_what_plays_is_not_touched(self):
+        envs = AtariVectorEnv("beamfall", 4, batch_size=2)
+        envs.reset(seed=1)
+        for call in (envs.show, lambda: [envs.save(env) for env in range(4)]):
+            with self.assertRaisesRegex(InvalidInput, "play"):
+                call()
+        envs.recv()
+        with self.assertRaisesRegex(InvalidInput, "0 machines play"):
+            envs.recv()
+        with self.assertRaisesRegex(InvalidInput, "reset_mask"):
+            envs.reset(options={"reset_mask": np.ones(4, bool)})
+
+    def test_a_reset_drops_what_was_not_received(self):
+        for settings in ({"batch_size": 2}, {}, {"autoreset_mode": "SameStep", **SHORT}):
+            envs, others = (
+                AtariVectorEnv("beamfall", 4, **settings),
+                AtariVectorEnv("beamfall", 4, **{**settings, "batch_size": 0}),
+            )
+            for seed in (1, 2):
+                (seen, info), (expected, _) = envs.reset(seed=seed), others.reset(seed=seed)
+                with self.subTest(seed=seed, **settings):
+                    self.assertTrue(np.array_equal(seen, expected[info["env_id"]]))
+                envs.send([0] * envs.batch_size)
+
+    def test_a_reset_of_some_drops_too(self):
+        envs = AtariVectorEnv("beamfall", 2, seed=1)
+        before = envs.reset()[1]["frame_number"]
+        envs.send([0, 0])
+        after = envs.reset(options={"reset_mask": np.array([True, False])})[1]["frame_number"]
+        self.assertEqual(after[1], before[1] + 4)  # it has made its step
+
+
+if __name__ == "__main__":
+    package.main()

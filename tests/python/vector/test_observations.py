@@ -1,0 +1,129 @@
+"""AtariVectorEnv: what it shows, and who owns it."""
+
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("numpy", "gymnasium")
+
+import numpy as np
+import racebeam
+from gymnasium.error import Error
+from racebeam import AtariVectorEnv, InvalidInput
+from vectors import play
+
+
+class Observations(unittest.TestCase):
+    def test_they_are_the_callers_own(self):
+        envs = AtariVectorEnv("beamfall", 2)
+        shown = [envs.reset(seed=1)[0], envs.step(np.zeros(2, int))[0]]
+        before = [one.copy() for one in shown]
+        play(envs, 20)
+        self.assertTrue(all(map(np.array_equal, shown, before)))
+
+    def test_infos_are_the_callers_own_too(self):
+        envs = AtariVectorEnv("beamfall", 4, batch_size=2, seed=1)
+        _, info = envs.reset()
+        info["env_id"][:] = 3
+        envs.step([0, 0])
+        self.assertEqual(sorted([*envs._received_ids, *envs.recv()[4]["env_id"]]), [0, 1, 2, 3])
+
+    def test_they_go_where_the_caller_wants_them(self):
+        envs, others = (AtariVectorEnv("beamfall", 2) for _ in range(2))
+        out = np.zeros(envs.observation_space.shape, np.uint8)
+        self.assertIs(envs.reset(seed=1, out=out)[0], out)
+        self.assertTrue(np.array_equal(out, others.reset(seed=1)[0]))
+        self.assertIs(envs.step(np.ones(2, int), out=out)[0], out)
+        self.assertTrue(np.array_equal(out, others.step(np.ones(2, int))[0]))
+        half = np.zeros((4, *out.shape[1:]), np.uint8)
+        frozen = out.copy()
+        frozen.setflags(write=False)
+        for wrong in (out[:1], out.astype(np.int32), half[::2], frozen, out.tolist()):
+            with self.assertRaisesRegex(InvalidInput, "^out "):
+                envs.step(np.ones(2, int), out=wrong)
+
+    def test_kinds(self):
+        for settings, shape in (
+            ({"obs_type": "grayscale"}, (4, 210, 160)),
+            ({"obs_type": "rgb", "stack_num": 1}, (1, 210, 160, 3)),
+            ({"obs_type": "ram"}, (128,)),
+            ({"img_height": 20, "img_width": 31}, (4, 20, 31)),
+            ({"img_height": 224, "img_width": 224}, (4, 224, 224)),
+            ({"img_height": 420, "img_width": 320}, (4, 420, 320)),
+            ({"grayscale": False}, (4, 84, 84, 3)),
+            ({"img_height": 0, "img_width": 0}, (4, 210, 160)),
+        ):
+            with self.subTest(**settings):
+                envs = AtariVectorEnv("beamfall", 2, **settings)
+                self.assertEqual(envs.reset(seed=1)[0].shape, (2, *shape))
+                self.assertIn(play(envs, 5)[-1][0], envs.observation_space)
+
+    def test_full_ones_are_those_of_AtariEnv(self):
+        for kind in ("rgb", "grayscale", "ram"):
+            envs = AtariVectorEnv(
+                "beamfall", 1, obs_type=kind, noop_max=0, use_fire_reset=False, maxpool=False, stack_num=1
+            )
+            env = racebeam.AtariEnv("beamfall", obs_type=kind, repeat_action_probability=0.0)
+            envs.reset(seed=3)
+            env.ale.setInt("random_seed", 3)
+            env.load_game()
+            env.ale.reset_game()
+            for action in (1, 3, 4, 0, 1):
+                seen = envs.step([action])[0].reshape(env.observation_space.shape)
+                self.assertTrue(np.array_equal(seen, env.step(action)[0]), kind)
+
+    def test_the_sound_is_that_of_AtariEnv(self):
+        settings = {"obs_type": "ram", "sound_obs": True}
+        envs = AtariVectorEnv("beamfall", 2, noop_max=0, use_fire_reset=False, frameskip=1, **settings)
+        self.assertEqual(list(envs.single_observation_space), ["image", "sound"])
+        env = racebeam.AtariEnv("beamfall", frameskip=1, repeat_action_probability=0.0, **settings)
+        seen, _ = envs.reset(seed=3)
+        env.ale.setInt("random_seed", 3)
+        env.load_game()
+        env.ale.reset_game()
+        heard = set()
+        for step in range(60):
+            self.assertIn(seen, envs.observation_space)
+            self.assertEqual({name: part.shape for name, part in seen.items()}, {"image": (2, 128), "sound": (2, 512)})
+            seen, single = envs.step([1, 0])[0], env.step(1)[0]
+            for name, part in single.items():
+                self.assertTrue(np.array_equal(seen[name][0], part), (name, step))
+            heard.add(seen["sound"][0].tobytes())
+        self.assertGreater(len(heard), 5)
+        self.assertTrue(np.array_equal(envs.show()[0]["sound"], seen["sound"]))
+
+    def test_the_sound_of_some_environments(self):
+        envs, others = (
+            AtariVectorEnv("beamfall", 3, sound_obs=True, **settings) for settings in ({"batch_size": 1}, {})
+        )
+        expected = others.reset(seed=1)[0]
+        seen, info = envs.reset(seed=1)
+        env = info["env_id"][0]
+        self.assertTrue(np.array_equal(seen["sound"][0], expected["sound"][env]))
+        out = np.zeros((1, 4, 84, 84), np.uint8)
+        self.assertIs(envs.step([0], out=out)[0]["image"], out)
+
+    def test_render_shows_each_environment(self):
+        for kind in ("ram", None):
+            envs = AtariVectorEnv("beamfall", 2, obs_type=kind, render_mode="rgb_array")
+            full = AtariVectorEnv("beamfall", 2, obs_type="rgb", stack_num=1, maxpool=False)
+            for one in (envs, full):
+                one.reset(seed=1)
+            shown = [play(one, 7)[-1][0] for one in (envs, full)]
+            pictures = envs.render()
+            self.assertEqual(len(pictures), 2)
+            self.assertTrue(all(np.array_equal(picture, seen[0]) for picture, seen in zip(pictures, shown[1])))
+        with self.assertRaisesRegex(Error, "render_mode"):
+            full.render()
+
+    def test_a_stack_may_begin_with_repeats(self):
+        envs = AtariVectorEnv("beamfall", 1, stack_start="repeats")
+        stack = envs.reset(seed=1)[0][0]
+        self.assertTrue(all(np.array_equal(stack[0], screen) for screen in stack) and stack.any())
+
+
+if __name__ == "__main__":
+    package.main()

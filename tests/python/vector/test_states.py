@@ -1,0 +1,170 @@
+"""AtariVectorEnv: states of its environments, saved and restored."""
+
+import copy
+import os
+import pickle
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("numpy", "gymnasium")
+
+import numpy as np
+from racebeam import AtariVectorEnv, InvalidInput
+from vectors import play, same
+
+
+class States(unittest.TestCase):
+    def test_an_image_is_given_as_bytes_of_any_kind(self):
+        image = (package.SOURCE / "games/homebrew/beamfall.bin").read_bytes()
+        shown = [
+            AtariVectorEnv("beamfall", 1, rom=rom).reset(seed=1)[0]
+            for rom in (image, bytearray(image), memoryview(image))
+        ]
+        self.assertTrue(np.array_equal(shown[0], shown[1]) and np.array_equal(shown[0], shown[2]))
+        self.assertRaisesRegex(TypeError, "^rom .* int", AtariVectorEnv, "beamfall", 1, rom=3)
+
+    def test_one_environment_goes_back(self):
+        envs = AtariVectorEnv("beamfall", 2, repeat_action_probability=0.25, seed=1)
+        before = play(envs, 10)[-1][0]
+        state = envs.save(1)
+        first = play(envs, 20)
+        envs.restore(1, state)
+        seen = envs.show()[0]
+        self.assertTrue(np.array_equal(seen[1], before[1]) and np.array_equal(seen[0], first[-1][0][0]))
+        second = play(envs, 20)
+        self.assertTrue(
+            all(
+                np.array_equal(one[0][1], other[0][1]) and one[1][1] == other[1][1] for one, other in zip(first, second)
+            )
+        )
+        self.assertFalse(np.array_equal(first[-1][0][0], second[-1][0][0]))
+
+    def test_a_state_goes_to_another_environment_but_not_to_another_game(self):
+        envs, others = AtariVectorEnv("beamfall", 2, seed=1), AtariVectorEnv("updraft", 1)
+        play(envs, 10)
+        envs.restore(0, envs.save(1))
+        first = envs.show()[0]
+        self.assertTrue(np.array_equal(first[0], first[1]))
+        with self.assertRaises(InvalidInput):
+            others.restore(0, envs.save(0))
+        with self.assertRaises(IndexError):
+            envs.save(2)
+        with self.assertRaises(IndexError):
+            envs.restore(-1, envs.save(0))
+        with self.assertRaises(TypeError):
+            envs.restore(0, None)
+
+    def test_later_episodes_are_the_same(self):
+        for mode in ("NextStep", "SameStep", "Disabled"):
+            for sticky in (0.0, 0.25):
+                envs = AtariVectorEnv(
+                    "beamfall",
+                    2,
+                    autoreset_mode=mode,
+                    repeat_action_probability=sticky,
+                    max_num_frames_per_episode=100,
+                    seed=1,
+                )
+                play(envs, 33)
+                states = [envs.save(env) for env in range(2)]
+
+                def on():
+                    shown = []
+                    for step in range(100):
+                        shown.append(envs.step([step % 4, 1]))
+                        ended = shown[-1][2] | shown[-1][3]
+                        if mode == "Disabled" and ended.any():
+                            observations, info = envs.reset(options={"reset_mask": ended})
+                            shown.append((observations, info))
+                    return shown
+
+                first = on()
+                for env in range(2):
+                    envs.restore(env, states[env])
+                second = on()
+                with self.subTest(mode=mode, sticky=sticky):
+                    lengths = {int(one[-1]["frame_number"][0]) for one in first}
+                    self.assertGreater(len(lengths), 50)
+                    self.assertTrue(
+                        all(
+                            np.array_equal(a[0], b[0]) and np.array_equal(a[-1]["frame_number"], b[-1]["frame_number"])
+                            for a, b in zip(first, second)
+                        )
+                    )
+
+    def test_a_state_of_other_screens_is_refused(self):
+        envs = AtariVectorEnv("beamfall", 1, seed=1)
+        before = play(envs, 5)[-1][0]
+        for settings, sentence in (
+            ({"stack_num": 2}, "stack of 2 .* stack of 4"),
+            ({"img_height": 50}, "84 x 50"),
+            ({"img_width": 42, "img_height": 168}, "42 x 168"),
+            ({"grayscale": False}, "4 colour screens"),
+            ({"obs_type": "ram"}, "no stack of screens"),
+        ):
+            with self.subTest(**settings), self.assertRaisesRegex(InvalidInput, sentence):
+                envs.restore(0, AtariVectorEnv("beamfall", 1, seed=9, **settings).save(0))
+        self.assertTrue(np.array_equal(envs.show()[0], before))
+
+    def test_a_state_is_pickled_and_copied(self):
+        for settings in (
+            {},
+            {"obs_type": "ram"},
+            {"lives": "end", "grayscale": False},
+            {"noop_max": 7, "rules": "fixed"},
+        ):
+            envs = AtariVectorEnv("beamfall", 1, seed=1, max_num_frames_per_episode=90, **settings)
+            play(envs, 10)
+            state = envs.save(0)
+            expected = play(envs, 60)
+            others = AtariVectorEnv("beamfall", 1, seed=2, max_num_frames_per_episode=90, **settings)
+            for copied in (
+                pickle.loads(pickle.dumps(state)),
+                copy.deepcopy(state),
+                pickle.loads(pickle.dumps(copy.copy(state))),
+            ):
+                others.restore(0, copied)
+                with self.subTest(**settings):
+                    self.assertTrue(same(play(others, 60), expected))
+            envs.close()
+            del envs
+            self.assertEqual(pickle.dumps(state), pickle.dumps(copied))
+
+    def test_pickled_bytes_that_were_altered_are_refused(self):
+        envs, others = AtariVectorEnv("beamfall", 1, seed=1), AtariVectorEnv("updraft", 1)
+        state = envs.save(0).__getstate__()
+        kind = type(envs.save(0))
+
+        def restored(data):
+            copied = kind.__new__(kind)
+            copied.__setstate__(data)
+            envs.restore(0, copied)
+
+        restored(state)
+        for wrong in (
+            b"",
+            b"x" * 100,
+            state[:-1],
+            state + b"x",
+            state[:500] + b"\0\1\2" + state[503:],
+            state[:8] + b"\7" + state[9:],
+        ):
+            with self.assertRaises(InvalidInput):
+                restored(wrong)
+        with self.assertRaises(TypeError):
+            restored(3)
+        with self.assertRaisesRegex(InvalidInput, "^the state "):
+            others.restore(0, pickle.loads(pickle.dumps(envs.save(0))))
+
+    def test_environments_say_how_they_are_carried(self):
+        envs = AtariVectorEnv("beamfall", 1)
+        for carry in (pickle.dumps, copy.copy, copy.deepcopy):
+            with self.assertRaisesRegex(TypeError, "^AtariVectorEnv "):
+                carry(envs)
+
+
+if __name__ == "__main__":
+    package.main()
