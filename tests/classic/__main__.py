@@ -78,7 +78,7 @@ def compare(reference, run):
 def main():
     options = parse_arguments()
     if not images():
-        print(f"skipped: there are no cartridge images in {folder()}")
+        print(f"skipped: no cartridge images are in {folder()}")
         return SKIPPED
     try:
         runs = chosen_runs(options)

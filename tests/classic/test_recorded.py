@@ -23,6 +23,6 @@ class Kept(unittest.TestCase):
 
 if __name__ == "__main__":
     if not RUNS:
-        print(f"skipped: there are no cartridge images in {folder()}")
+        print(f"skipped: no cartridge images are in {folder()}")
         sys.exit(SKIPPED)
     unittest.main(verbosity=2)

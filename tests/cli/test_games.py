@@ -183,7 +183,7 @@ class Roms(unittest.TestCase):
         self.assertEqual(found, {})
         self.assertEqual(missing, [game["name"] for game in games if not game["built_in"]])
 
-    @unittest.skipUnless(rom("pong"), "there is no image of pong")
+    @unittest.skipUnless(rom("pong"), "no image of pong was found")
     def test_an_image_is_known_by_its_bytes_whatever_it_is_called(self):
         shutil.copy(rom("pong"), os.path.join(self.folder, "breakout.bin"))
         found, missing = self.findings()

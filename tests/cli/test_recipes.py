@@ -19,7 +19,7 @@ UNPRIVILEGED = {"user": "nobody"} if os.geteuid() == 0 else {}  # makepkg refuse
 
 
 def needs(tool):
-    return unittest.skipUnless(shutil.which(tool), f"there is no {tool}")
+    return unittest.skipUnless(shutil.which(tool), f"{tool} is not installed")
 
 
 class Recipes(unittest.TestCase):

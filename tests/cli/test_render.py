@@ -120,7 +120,7 @@ class Render(unittest.TestCase):
                 self.assertEqual((process.wait(PATIENCE), process.stderr.read()), (-number, b""))
                 self.assertEqual(os.listdir(folder), [])
 
-    @unittest.skipUnless(shutil.which("ffmpeg"), "there is no ffmpeg")
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_a_film_of_the_real_ffmpeg_plays(self):
         self.assertEqual(self.render("real.webm")[0], 0)
         self.assertEqual((self.place / "real.webm").read_bytes()[:4], b"\x1aE\xdf\xa3")

@@ -76,7 +76,7 @@ class With(unittest.TestCase):
         self.assertEqual((status, errors), (0, ""))
         self.assertRegex(output, rf"^\d+ file:{self.place}/racebeam-\w{{6}}/announce$")
 
-    @unittest.skipUnless(shutil.which("bash"), "there is no bash")
+    @unittest.skipUnless(shutil.which("bash"), "bash is not installed")
     def test_a_client_without_Unix_sockets_gets_the_port_and_the_token(self):
         script = (
             f"source {SOURCE}/clients/shell/racebeam.bash; racebeam_connect && racebeam_ask load beamfall "

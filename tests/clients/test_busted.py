@@ -19,7 +19,7 @@ def main():
         or busted is None
         or subprocess.run([lua, "-e", "require 'socket'"], capture_output=True).returncode != 0
     ):
-        print(f"SKIPPED: there is no {sys.argv[1]}, no busted or no LuaSocket")
+        print(f"SKIPPED: {sys.argv[1]}, busted or LuaSocket is not installed")
         return SKIPPED
     done = subprocess.run(
         [busted, f"--lua={lua}", "--output=TAP"],

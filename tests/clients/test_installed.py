@@ -99,6 +99,6 @@ class Installed(unittest.TestCase):
 
 if __name__ == "__main__":
     if missing := [word for word in ("pkg-config", "c++") if shutil.which(word) is None]:
-        print(f"SKIPPED: there is no {missing[0]}")
+        print(f"SKIPPED: {missing[0]} is not installed")
         sys.exit(SKIPPED)
     unittest.main(verbosity=2)

@@ -61,6 +61,6 @@ class Maven(unittest.TestCase):
 
 if __name__ == "__main__":
     if missing := [word for word in ("mvn", "javac") if shutil.which(word) is None]:
-        print(f"SKIPPED: there is no {missing[0]}")
+        print(f"SKIPPED: {missing[0]} is not installed")
         sys.exit(SKIPPED)
     unittest.main(verbosity=2)

@@ -166,7 +166,7 @@ class Page(unittest.TestCase):
 if __name__ == "__main__":
     Page.client = next(client for client in CLIENTS if client.name == sys.argv[1])
     if missing := Page.client.missing():
-        print(f"SKIPPED: there is no {missing}")
+        print(f"SKIPPED: {missing} is not installed")
         sys.exit(SKIPPED)
     if Page.client.build:
         subprocess.run(Page.client.build, check=True)

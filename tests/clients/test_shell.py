@@ -84,7 +84,7 @@ class Agents(unittest.TestCase):
                     f"the address is 'file:{file}?wait={time}'; ?wait= takes seconds, from 0 to 999999999\n",
                 )
 
-    @unittest.skipUnless(shutil.which("mawk"), "there is no mawk")
+    @unittest.skipUnless(shutil.which("mawk"), "mawk is not installed")
     def test_awk_plays_over_pipes_as_bash_does_over_tcp(self):
         with Server(*TCP) as server:
             expected = run(os.path.join(SHELL, "agent.bash"), "127.0.0.1", str(server.port())).stdout
@@ -94,7 +94,7 @@ class Agents(unittest.TestCase):
                 done = run(os.path.join(SHELL, "agent.awk"), stdin=replies, stdout=requests, stderr=subprocess.PIPE)
         self.assertEqual((done.returncode, done.stderr), (0, expected))
 
-    @unittest.skipUnless(shutil.which("nc"), "there is no nc")
+    @unittest.skipUnless(shutil.which("nc"), "nc is not installed")
     def test_nc_asks(self):
         with Server(*TCP) as server:
             command = f"printf '%s\\n' 'load beamfall seed=1' 'act FIRE*60' | nc -N 127.0.0.1 {server.port()}"

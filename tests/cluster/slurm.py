@@ -26,7 +26,7 @@ def missing():
     if os.geteuid() != 0:
         return "the cluster needs root"
     absent = [name for name in NEEDED if shutil.which(name) is None]
-    return f"there is no {', no '.join(absent)}" if absent else None
+    return f"not installed: {', '.join(absent)}" if absent else None
 
 
 def free_ports(count):

@@ -94,7 +94,7 @@ def built(name):
 
 
 @unittest.skipUnless(
-    yaml and KUBECTL, "there is no kubectl, or no kubernetes-validate; scripts/cluster-test installs both"
+    yaml and KUBECTL, "kubectl or kubernetes-validate is not installed; scripts/cluster-test installs both"
 )
 class Manifests(unittest.TestCase):
     def objects(self, name):
@@ -206,7 +206,7 @@ class Monitoring(unittest.TestCase):
         self.assertEqual(len({panel["id"] for panel in panels}), len(panels))
         self.assertTrue(all(target["expr"] for panel in panels for target in panel["targets"]))
 
-    @unittest.skipUnless(shutil.which("promtool"), "there is no promtool")
+    @unittest.skipUnless(shutil.which("promtool"), "promtool is not installed")
     def test_promtool_accepts_the_rules_and_their_tests_pass(self):
         for words in (
             ("check", "config", "prometheus.yaml"),
@@ -218,7 +218,7 @@ class Monitoring(unittest.TestCase):
             )
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
-    @unittest.skipUnless(shutil.which("prometheus"), "there is no prometheus")
+    @unittest.skipUnless(shutil.which("prometheus"), "prometheus is not installed")
     def test_prometheus_scrapes_a_server_and_knows_the_panels(self):
         with Server() as server, tempfile.TemporaryDirectory() as folder:
             text = (

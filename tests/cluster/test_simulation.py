@@ -94,7 +94,7 @@ trials = 1
 """
 
 
-@unittest.skipUnless(os.path.exists(BINARY), f"there is no {BINARY}")
+@unittest.skipUnless(os.path.exists(BINARY), f"{BINARY} does not exist")
 class Units(unittest.TestCase):
     def setUp(self):
         place = tempfile.TemporaryDirectory()

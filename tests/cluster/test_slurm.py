@@ -112,7 +112,7 @@ class Slice(Slurm):
     def test_servers_for_an_agent_in_python(self):
         needed = ("-c", "import racebeam.vector_env, submitit")
         if not pathlib.Path(PYTHON).exists() or subprocess.run([PYTHON, *needed], capture_output=True).returncode != 0:
-            self.skipTest(f"there is no {PYTHON} with racebeam and submitit (scripts/wheel --venv)")
+            self.skipTest(f"{PYTHON} lacks racebeam or submitit (scripts/wheel --venv)")
         done = subprocess.run(
             [PYTHON, slurm.TOP / "tests/cluster/python_agent.py"],
             cwd=self.results,

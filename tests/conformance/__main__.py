@@ -111,7 +111,7 @@ def base_seed(text):
 def games_with_images():
     known = [game for game in images_of() if game in ours.catalogue()]
     if not known:
-        print(f"skipped: there are no cartridge images in {image_folder()}")
+        print(f"skipped: no cartridge images are in {image_folder()}")
         sys.exit(reference_python.SKIPPED)
     return known
 

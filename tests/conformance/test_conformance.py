@@ -296,6 +296,6 @@ def read_png(path):
 
 if __name__ == "__main__":
     if GAME not in images.games():
-        print(f"skipped: there is no image of {GAME}")
+        print(f"skipped: no image of {GAME} was found")
         sys.exit(reference_python.SKIPPED)
     unittest.main(verbosity=2)

@@ -45,7 +45,7 @@ names = sorted(spec.name for spec in gymnasium.registry.values() if spec.namespa
 if set(names) - {spec.name for spec in gymnasium.registry.values() if spec.namespace == "racebeam"}:
     sys.exit("FAILED: racebeam has fewer ids than ALE")
 if not package.roms():
-    print("SKIPPED: there are no cartridge images")
+    print("SKIPPED: no cartridge images were found")
     sys.exit(package.SKIPPED)
 runs = list(itertools.product(names, ("rgb", "grayscale", "ram"), range(options.seeds)))[
     options.part % options.parts :: options.parts

@@ -98,7 +98,7 @@ def settings_of(number, run):
 games = options.games.split(",") if options.games else [game for game in package.roms() if game not in WITHOUT_SCORE]
 played = range(len(games)) if options.games else range(options.first % options.parts, len(games), options.parts)
 if not games:
-    print("SKIPPED: there are no cartridge images")
+    print("SKIPPED: no cartridge images were found")
     sys.exit(package.SKIPPED)
 failures = runs = 0
 for number in played:

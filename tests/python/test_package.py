@@ -115,7 +115,7 @@ class Files(unittest.TestCase):
     def test_the_types_are_checked(self):
         self.assertTrue((FOLDER / "py.typed").exists() and (FOLDER / "_core.pyi").exists())
         if not has("mypy"):
-            self.skipTest("there is no mypy")
+            self.skipTest("mypy is not installed")
         for command in (
             ["mypy", "--strict", "--cache-dir", str(package.VENV.parent / "mypy"), "-p", "racebeam"],
             [
@@ -133,7 +133,7 @@ class Files(unittest.TestCase):
 
     def test_types_help_those_who_call(self):
         if not has("mypy") or not has("gymnasium"):
-            self.skipTest("there is no mypy, or no Gymnasium")
+            self.skipTest("mypy or Gymnasium is not installed")
         calls = (
             "import numpy as np, racebeam, racebeam.envpool\n"
             "envs = racebeam.AtariVectorEnv('beamfall', 2, seed=np.int64(3))\n"

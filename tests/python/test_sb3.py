@@ -136,7 +136,7 @@ class Interface(unittest.TestCase):
         )
         self.envs.close()
 
-    @unittest.skipIf(importlib.util.find_spec("pygame") is None, "there is no pygame")
+    @unittest.skipIf(importlib.util.find_spec("pygame") is None, "pygame is not installed")
     def test_a_person_sees_the_environments(self):
         os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
         envs = VecEnv("beamfall", 2, render_mode="human", frameskip=1)

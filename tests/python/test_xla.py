@@ -129,11 +129,11 @@ class Compiled(unittest.TestCase):
         second, _ = step(second, ACTIONS[0])
         self.check(step(second, ACTIONS[1])[1], shown)
 
-    @unittest.skipUnless("breakout" in package.roms(), "there is no image of breakout")
+    @unittest.skipUnless("breakout" in package.roms(), "no image of breakout was found")
     def test_ale_py_shows_the_same(self):
         for name in ("ale_py.vector_env", "chex"):
             if not package._is_there(name):
-                self.skipTest(f"there is no {name}")
+                self.skipTest(f"{name} is not installed")
         import ale_py.vector_env
 
         ours, theirs = (
@@ -257,7 +257,7 @@ CONSTANTS = {
 
 
 class Interface(unittest.TestCase):
-    @unittest.skipUnless(shutil.which("g++"), "there is no compiler")
+    @unittest.skipUnless(shutil.which("g++"), "compiler is not installed")
     def test_it_is_declared_as_in_the_header_of_jax(self):
         header = package.SOURCE / "clients/python/core/xla_ffi.hpp"
         declared = dict(re.findall(r"^struct (\w+) \{\n(.*?)^\};", header.read_text(), re.M | re.S))

@@ -20,7 +20,7 @@ def require(*modules):
     if OF_SCRIPTS_REFERENCE.exists() and "RACEBEAM_REFERENCE_PYTHON" not in os.environ:
         os.environ["RACEBEAM_REFERENCE_PYTHON"] = str(OF_SCRIPTS_REFERENCE)  # so that this is tried once
         os.execv(OF_SCRIPTS_REFERENCE, [str(OF_SCRIPTS_REFERENCE), "-B", *sys.argv])
-    print(f"SKIPPED: there is nothing to compare with: {' and '.join(missing)} not installed (scripts/reference)")
+    print(f"SKIPPED: the reference is missing: {' and '.join(missing)} not installed (scripts/reference)")
     sys.exit(SKIPPED)
 
 

@@ -59,9 +59,9 @@ def replay(game):
     """Returns (verdict, sentence). The verdict is reproduced, DIFFERENT or skipped."""
     path, image = os.path.join(TRACES, game + ".trace.gz"), rom(game)
     if not os.path.exists(path):
-        return "skipped", "there is no recording"
+        return "skipped", "the recording is missing"
     if image is None:
-        return "skipped", "there is no image"
+        return "skipped", "the image is missing"
     settings, expected = read_trace(path)
     run = subprocess.run(
         [BINARY, "trace", "--rom", image, "--actions", path, *options_of(settings)],
@@ -79,7 +79,7 @@ def replay(game):
 
 def main():
     if not os.path.isdir(TRACES):
-        print("skipped: there are no recordings of the reference here")
+        print("skipped: the recordings of the reference are not here")
         return SKIPPED
     games = sys.argv[1:] or sorted(
         name.removesuffix(".trace.gz") for name in os.listdir(TRACES) if name.endswith(".gz")

@@ -42,7 +42,7 @@ class SlurmServers:
         listen: Address on which each server listens.
         wait: Seconds that an address waits for its server.
         executor: An executor of submitit, whose logs stay. Default: submitit.AutoExecutor, which uses Slurm, or runs
-            the jobs on this computer if there is no Slurm.
+            the jobs on this computer if it lacks Slurm.
         **parameters: Parameters of the executor's update_parameters(), such as `slurm_partition` or `timeout_min`.
 
     Attributes:

@@ -55,7 +55,7 @@ def preset(name: str) -> Preset:
     """Looks up the preset of this name for `AtariEnv`.
 
     Raises:
-        InvalidInput: If there is no such preset.
+        InvalidInput: If the preset is unknown.
     """
     check_name(name)
     return PRESETS[name]
@@ -65,7 +65,7 @@ def vector_preset(name: str) -> VectorPreset:
     """Looks up the preset of this name for `AtariVectorEnv`.
 
     Raises:
-        InvalidInput: If there is no such preset.
+        InvalidInput: If the preset is unknown.
     """
     check_name(name)
     return VECTOR_PRESETS[name]
@@ -75,7 +75,7 @@ def check_name(name: str) -> None:
     """Checks the name of a preset.
 
     Raises:
-        InvalidInput: If there is no such preset.
+        InvalidInput: If the preset is unknown.
     """
     if not isinstance(name, str) or name not in PRESETS:
         raise InvalidInput(f"there is no preset {name!r}; there are {', '.join(PRESETS)}")

@@ -67,7 +67,7 @@ class Window:
 
         Raises:
             ImportError: If pygame is not installed.
-            InvalidInput: If there is no display.
+            InvalidInput: If the computer has no display.
         """
         try:
             import pygame
@@ -181,7 +181,7 @@ class Grid:
 
     Raises:
         ImportError: If pygame is not installed.
-        InvalidInput: If there is no display.
+        InvalidInput: If the computer has no display.
     """
 
     def __init__(self, title: str, count: int, width: int, height: int) -> None:

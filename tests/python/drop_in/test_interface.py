@@ -17,7 +17,7 @@ import numpy as np
 from both import PONG, pong
 
 
-@unittest.skipIf(PONG is None, "there is no image of pong")
+@unittest.skipIf(PONG is None, "no image of pong was found")
 class Interface(unittest.TestCase):
     def outcome(self, call, ale):
         """What a call returns, or exactly which type it raises."""

@@ -101,7 +101,7 @@ class Names(unittest.TestCase):
             "print(len(roms.get_all_rom_ids()))"
         )
         if PONG is None:
-            self.skipTest("there is no image of pong")
+            self.skipTest("no image of pong was found")
         done = in_process(script)
         self.assertEqual((done.returncode, done.stdout), (0, "108\n"), done.stderr)
 

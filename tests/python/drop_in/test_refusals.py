@@ -16,7 +16,7 @@ import racebeam.ale_py as drop_in
 from both import PONG
 
 
-@unittest.skipIf(PONG is None, "there is no image of pong")
+@unittest.skipIf(PONG is None, "no image of pong was found")
 class Refusals(unittest.TestCase):
     """Code that catches what ale_py raises catches what the drop-in raises."""
 

@@ -15,7 +15,7 @@ import racebeam.ale_py as drop_in
 from both import PONG, interfaces
 
 
-@unittest.skipIf(PONG is None, "there is no image of pong")
+@unittest.skipIf(PONG is None, "no image of pong was found")
 class Vectors(unittest.TestCase):
     def check(self, one, other):
         if isinstance(other, dict):

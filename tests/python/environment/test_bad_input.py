@@ -144,7 +144,7 @@ class BadInput(unittest.TestCase):
 
     def test_an_image_is_found_by_its_md5(self):
         if "pong" not in package.roms():
-            self.skipTest("there is no image of pong")
+            self.skipTest("no image of pong was found")
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "something.a26").write_bytes(pathlib.Path(racebeam.find_image("pong")).read_bytes())
             pathlib.Path(folder, "pong.bin").write_bytes(b"no image of pong")

@@ -86,7 +86,7 @@ class Playing(unittest.TestCase):
 
     def test_two_players_are_both_rewarded(self):
         if "pong" not in package.roms():
-            self.skipTest("there is no image of pong")
+            self.skipTest("no image of pong was found")
         env = racebeam.AtariEnv("pong", two_player=True, frameskip=8)
         env.reset(seed=1)
         self.assertEqual(env.action_space.nvec.tolist(), [6, 6])
@@ -101,7 +101,7 @@ class Playing(unittest.TestCase):
 
     def test_player_b_moves(self):
         if "pong" not in package.roms():
-            self.skipTest("there is no image of pong")
+            self.skipTest("no image of pong was found")
         screens = []
         for b in (2, 3):
             env = racebeam.AtariEnv("pong", two_player=True, repeat_action_probability=0.0)
@@ -113,7 +113,7 @@ class Playing(unittest.TestCase):
 
     def test_a_mode_for_two_needs_two_players(self):
         if "pong" not in package.roms():
-            self.skipTest("there is no image of pong")
+            self.skipTest("no image of pong was found")
         with self.assertRaisesRegex(racebeam.InvalidInput, "pong has mode 5 only for two.*for one it offers 0, 1$"):
             racebeam.AtariEnv("pong", mode=5)
         self.assertEqual(racebeam.AtariEnv("pong", mode=5, two_player=True).ale.getMode(), 5)

@@ -56,7 +56,7 @@ class Registration(unittest.TestCase):
             done = subprocess.run([sys.executable, file], capture_output=True, text=True)
         self.assertEqual(done.stdout.strip(), "(2, 210, 160, 3)", done.stderr)
 
-    @unittest.skipUnless(importlib.util.find_spec("ale_py"), "there is no ale_py")
+    @unittest.skipUnless(importlib.util.find_spec("ale_py"), "ale_py is not installed")
     def test_a_later_import_of_ale_py_does_not_take_the_ids_back(self):
         for ours in ("racebeam.register_ale_ids()", "import racebeam.ale_py"):
             script = (

@@ -16,7 +16,7 @@ if "DISPLAY" not in os.environ:
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 
-@unittest.skipIf(importlib.util.find_spec("pygame") is None, "there is no pygame")
+@unittest.skipIf(importlib.util.find_spec("pygame") is None, "pygame is not installed")
 class Window(unittest.TestCase):
     """By SDL's driver that shows nothing; under a display, set SDL_VIDEODRIVER."""
 

@@ -14,7 +14,7 @@ from pools import make
 from racebeam import InvalidInput
 
 
-@unittest.skipUnless(package._is_there("jax"), "there is no jax")
+@unittest.skipUnless(package._is_there("jax"), "jax is not installed")
 class Compiled(unittest.TestCase):
     """xla()."""
 

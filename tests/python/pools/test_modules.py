@@ -152,7 +152,7 @@ class Spec(unittest.TestCase):
                     name,
                 )
 
-    @unittest.skipUnless(package._is_there("dm_env"), "there is no dm_env")
+    @unittest.skipUnless(package._is_there("dm_env"), "dm_env is not installed")
     def test_specs_of_dm_env(self):
         from dm_env import specs
 

@@ -45,7 +45,7 @@ class Rendering(unittest.TestCase):
         self.assertEqual((envs.reset()[0].shape, envs.observation_space.shape), ((1, 210, 160, 3),) * 2)
         self.assertEqual(envs.unwrapped.render(env_ids=2, camera_id=-1).shape, (1, 210, 160, 3))
 
-    @unittest.skipUnless("air_raid" in package.roms(), "there is no image of air_raid")
+    @unittest.skipUnless("air_raid" in package.roms(), "no image of air_raid was found")
     def test_the_upper_210_rows_of_higher_screens_are_seen(self):
         envs = envpool.make_gymnasium(
             "AirRaid-v5", gray_scale=False, stack_num=1, img_height=210, img_width=160, use_inter_area_resize=False
@@ -77,7 +77,7 @@ class Rendering(unittest.TestCase):
         try:
             from dm_env import specs
         except ImportError:
-            self.skipTest("there is no dm_env")
+            self.skipTest("dm_env is not installed")
         envs = make("dm")
         self.assertEqual(envs.reward_spec(), specs.Array((), float, "reward"))
         self.assertEqual(envs.discount_spec(), specs.BoundedArray((), float, 0.0, 1.0, "discount"))

@@ -114,7 +114,7 @@ class Same(Compared):
 
     def test_an_image_that_only_the_client_has_is_sent(self):
         if "pong" not in package.roms():
-            self.skipTest("there is no image of pong")
+            self.skipTest("no image of pong was found")
         with server() as (address, _):
             here, there = both(address, "pong", mode=1, difficulty=2, seed=3)
             self.play(here, there, 30)

@@ -92,7 +92,7 @@ class Environment(unittest.TestCase):
 
     def test_an_image_that_only_the_client_has_is_sent(self):
         if "pong" not in package.roms():
-            self.skipTest("there is no image of pong")
+            self.skipTest("no image of pong was found")
         with server() as (addresses, _):
             for settings in ({}, {"continuous": True}, {"two_player": True}, {"mode": 1, "difficulty": 2}):
                 with self.subTest(settings=settings):

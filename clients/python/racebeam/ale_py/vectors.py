@@ -302,7 +302,7 @@ class ALEVectorInterface:
             Observations and info of all environments, or of the first `batch_size` that finish.
 
         Raises:
-            IndexError: If there is no such environment.
+            IndexError: If an index is out of range.
             ValueError: If an index occurs twice, or the numbers of indices and seeds differ.
         """
         count, ids = self._envs.num_envs, [operator.index(env) for env in env_ids]

@@ -31,7 +31,7 @@ def make_spec(task_id: str, **config: Any) -> EnvSpec:
         The settings and the spaces of the task.
 
     Raises:
-        InvalidSetting: If there is no such task, or a setting is wrong.
+        InvalidSetting: If the task is unknown, or a setting is wrong.
     """
     return EnvSpec.from_task(task_id, without_rendering(config))
 
@@ -47,7 +47,7 @@ def make_gymnasium(task_id: str, **config: Any) -> GymnasiumEnvPool:
         The environments.
 
     Raises:
-        InvalidSetting: If there is no such task, or a setting is wrong.
+        InvalidSetting: If the task is unknown, or a setting is wrong.
     """
     _check_info_wanted("gymnasium", config)
     return GymnasiumEnvPool(*_pool_arguments(task_id, config, True))
@@ -64,7 +64,7 @@ def make_gym(task_id: str, **config: Any) -> GymnasiumEnvPool:
         The environments.
 
     Raises:
-        InvalidSetting: If there is no such task, or a setting is wrong.
+        InvalidSetting: If the task is unknown, or a setting is wrong.
     """
     return make_gymnasium(task_id, **config)
 
@@ -80,7 +80,7 @@ def make_dm(task_id: str, **config: Any) -> DMEnvPool:
         The environments. They are a dm_env.Environment to a program that has imported dm_env.
 
     Raises:
-        InvalidSetting: If there is no such task, or a setting is wrong.
+        InvalidSetting: If the task is unknown, or a setting is wrong.
     """
     _check_info_wanted("dm", config)
     return DMEnvPool(*_pool_arguments(task_id, config, True))
@@ -134,7 +134,7 @@ def make(task_id: str, env_type: str, **config: Any) -> Any:
         The environments.
 
     Raises:
-        InvalidSetting: If there is no such task or type, or a setting is wrong.
+        InvalidSetting: If the task or the type is unknown, or a setting is wrong.
 
     Example:
         >>> import racebeam.envpool

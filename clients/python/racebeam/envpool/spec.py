@@ -252,7 +252,7 @@ class EnvSpec:
             All settings, with the values of `CONFIG` where none is given, as a named tuple.
 
         Raises:
-            InvalidSetting: If there is no such setting.
+            InvalidSetting: If the setting is unknown.
         """
         for name in settings:
             if name not in CONFIG:
@@ -271,7 +271,7 @@ class EnvSpec:
             The spec.
 
         Raises:
-            InvalidSetting: If there is no such task, or a setting is wrong.
+            InvalidSetting: If the task is unknown, or a setting is wrong.
         """
         if not isinstance(task_id, str) or task_id not in games():
             raise UnknownTask(f"there is no task {task_id!r}; list_all_envs() lists them")

@@ -19,7 +19,7 @@ def check_rules(rules: object) -> None:
     """Checks the name of the rules.
 
     Raises:
-        InvalidInput: If there are no such rules.
+        InvalidInput: If the rules are unknown.
     """
     if not isinstance(rules, str) or rules not in RULES:
         raise InvalidInput(f"rules is {rules!r}; it takes {' or '.join(RULES)}")

@@ -57,7 +57,7 @@ class VectorOfEach(VectorBase):
             The names in the order of their indices, such as ["NOOP", "FIRE"].
 
         Raises:
-            IndexError: If there is no such environment.
+            IndexError: If the index is out of range.
         """
         self._check_open()
         self._check_env(env)
@@ -94,7 +94,7 @@ class VectorOfEach(VectorBase):
             The values in the order of the environments.
 
         Raises:
-            AttributeError: If there is no such attribute.
+            AttributeError: If the environments lack the attribute.
         """
         if name == "game":
             return tuple(self._games)
@@ -124,7 +124,7 @@ class VectorOfEach(VectorBase):
             A state that can be pickled, copied and restored in another process.
 
         Raises:
-            IndexError: If there is no such environment.
+            IndexError: If the index is out of range.
         """
         self._check_open()
         return self.machines().save(operator.index(env), include_rng)
@@ -137,7 +137,7 @@ class VectorOfEach(VectorBase):
             state: A state that `save` returned, of any environment of the same game.
 
         Raises:
-            IndexError: If there is no such environment.
+            IndexError: If the index is out of range.
             TypeError: If `state` is not a state.
             InvalidInput: If the state belongs to another game, or its observations have another shape.
         """

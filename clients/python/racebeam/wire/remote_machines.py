@@ -348,7 +348,7 @@ class RemoteMachines(Halves):
             The state, which can also be restored in this process.
 
         Raises:
-            IndexError: If there is no such machine.
+            IndexError: If the index is out of range.
         """
         self._check_machine(machine)
         with self._exclusively():
@@ -367,7 +367,7 @@ class RemoteMachines(Halves):
             state: The state.
 
         Raises:
-            IndexError: If there is no such machine.
+            IndexError: If the index is out of range.
             TypeError: If `state` is not a state.
             InvalidInput: If the state belongs to another game, or its observations have another shape.
         """
