@@ -182,8 +182,10 @@ def rows_of(table: pathlib.Path) -> list[dict[str, str]]:
 
 
 def pilot_of(results: pathlib.Path) -> dict[str, list[tuple[float, float]]]:
-    """By agent, for each of its units in a folder of results: the mean length of an episode as a part of the longest,
-    and the seconds of a decision."""
+    """Returns two numbers for each unit in a folder of results, by agent.
+
+    They are the mean length of an episode, as a part of the longest, and the seconds of a decision.
+    """
     (longest,) = map(float, re.findall(r"max_episode_frames=(\d+)", (results / "plan.toml").read_text()))
     episodes: dict[str, list[dict[str, str]]] = {}
     for row in rows_of(results / "results.csv") + rows_of(results / "curves.csv"):
@@ -229,7 +231,10 @@ def percentile(runs: Sequence[Run], part: float) -> float:
 
 
 def fewest_nodes(units: Sequence[Sequence[float]], cluster: Cluster, shards: int, within: float) -> int | None:
-    """For which 95 % of the simulations take at most `within` seconds. None if no number is enough."""
+    """Returns the number with which 95 % of the simulations take at most `within` seconds.
+
+    Returns None if no number is enough.
+    """
 
     def is_enough(nodes: int) -> bool:
         return percentile(summary(units, replace(cluster, nodes=nodes), shards), 0.95) <= within

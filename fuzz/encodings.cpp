@@ -38,7 +38,7 @@ Buffer runs_of(Bytes pairs) {
   return bytes;
 }
 
-// As protocol/PROTOCOL.md describes it.
+// Applies records as protocol/PROTOCOL.md describes.
 void apply_delta(Bytes records, Buffer& array) {
   Reader reader(records);
   std::size_t place = 0;

@@ -34,9 +34,8 @@ struct CatalogueImage {
 std::span<const CatalogueEntry> catalogue();         // in order of names
 std::span<const CatalogueImage> catalogue_images();  // in order of MD5s
 
-std::shared_ptr<const Game> find_game(std::string_view name);  // null if there is none
-std::shared_ptr<const Game> find_game_by_md5(
-    std::string_view md5);  // only accepted images; null if there is none
+std::shared_ptr<const Game> find_game(std::string_view name);        // null if unknown
+std::shared_ptr<const Game> find_game_by_md5(std::string_view md5);  // only accepted images; null if unknown
 
 std::vector<std::string_view> game_names();  // of catalogue(), in its order
 

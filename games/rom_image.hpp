@@ -30,7 +30,7 @@ struct Image {
 // with a sentence.
 std::shared_ptr<const Image> load_image(const std::string& where);
 
-// Makes an image of bytes. `stem` is its name. Throws InvalidInput if there are no bytes, or too many.
+// Makes an image of bytes. `stem` is its name. Throws InvalidInput if `bytes` is empty or too long.
 std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const std::string& stem);
 
 // The files of a folder that look like images, sorted: .bin, .a26 or .rom, also with .gz after it, and

@@ -46,7 +46,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // Appends all bytes; if it throws, the file has none of them.
+  // Appends all bytes. If it throws, the file is as it was.
   void write(std::span<const std::uint8_t> bytes);
   void write(std::string_view text);
   void overwrite(std::size_t place, std::span<const std::uint8_t> bytes);  // bytes that were written before

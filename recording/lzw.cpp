@@ -56,7 +56,7 @@ void Lzw::clear() {
   width_ = 9;
 }
 
-// The place of a string's code in the hash table; 0 while it has none.
+// The place of a string's code in the hash table, which holds 0 until the string has a code.
 std::uint32_t& Lzw::slot(std::uint32_t key) {
   std::size_t at = key * 2654435761U >> 19;
   while (keys_[at] != 0 && keys_[at] != key + 1) at = (at + 1) % kSlots;

@@ -7,7 +7,7 @@ namespace racebeam {
 namespace {
 
 struct Form {
-  std::string_view name;  // as a recording's kind; empty: it is none
+  std::string_view name;  // as a recording's kind; empty if recordings lack it
   std::string_view ending;
   decltype(&make_png) make;
 };

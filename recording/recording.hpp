@@ -70,7 +70,7 @@ class Recording : public std::enable_shared_from_this<Recording> {
   // Does nothing after a cut.
   void add(const Environment& machine);
 
-  void finish();                                       // there are no more frames: commits the files
+  void finish();                                       // after the last frame: commits the files
   bool finished() const;                               // nothing happens any more; thread-safe
   std::optional<Cut> cut() const;                      // thread-safe
   const Result& result() const { return result_; }     // once it has finished

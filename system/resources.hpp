@@ -28,8 +28,8 @@ Allowance usable_memory(const std::string& root = "");
 // Raises the limit of open files as far as the system allows. Returns how many the process may have open.
 std::uint64_t usable_files();
 
-// Sets the size of the stacks of threads that begin from now on. That of the system may be too small (128 KiB
-// with musl), or anything (`ulimit -s`).
+// Sets the size of the stacks of threads that begin from now on. The system's own size may be too small (128
+// KiB with musl), or anything (`ulimit -s`).
 void set_thread_stacks();
 
 // How many of its first `most` files the process has open now.

@@ -70,8 +70,8 @@ bool is_own(const fs::path& file) {
   return name.ends_with(".lock") || name.ends_with(".checkpoint") || name.ends_with(".checkpoint.part");
 }
 
-// A file of the user's that has the name of one that an experiment writes; empty if there is none. The files
-// of games may be there before: they are checked, and read.
+// Finds a file of the user that has the name of one that an experiment writes; else returns an empty path.
+// The files of games may exist before: the experiment checks and reads them.
 fs::path foreign_file(const ResultsFolder& folder) {
   std::error_code none;
   for (const std::string& path :

@@ -29,7 +29,7 @@ struct Progress {
   int episodes = 0;            // of the unit: of evaluation if it is finished, else all that are over
   std::int64_t decisions = 0;  // of the episode that is played
   double mean_score = 0;       // of a unit that is finished
-  // By the time that the work so far took, where measured speeds say how much work a unit is.
+  // Both follow from the time that the work so far took. Measured speeds say how much work a unit is.
   std::chrono::duration<double> elapsed{}, left{};
 };
 using Report = std::function<void(const Progress& progress)>;  // from one thread at a time

@@ -17,6 +17,6 @@ struct GameSet {
 };
 
 std::span<const GameSet> game_sets();
-const GameSet* find_game_set(std::string_view name);  // null if there is none
+const GameSet* find_game_set(std::string_view name);  // null if the name is unknown
 
 }  // namespace racebeam

@@ -8,7 +8,7 @@ namespace racebeam {
 // Whether the folder has an agent.toml, and no plan.
 bool is_submission(const ResultsFolder& folder);
 
-// As verify() does: each row is compared with its log, and its log with what the machine gives. All logs must
+// Compares each row with its log, and its log with what the machine gives, as verify() does. All logs must
 // have the same settings, but for the seed. Throws InvalidInput if results.csv cannot be read, or the folder
 // of logs is a link.
 Verdict verify_submission(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,

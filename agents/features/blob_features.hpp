@@ -19,7 +19,7 @@ class BlobFeatures final : public FeatureSet {
     extract(screen_.of(machine), active);
   }
 
-  // RelativeOffsets says the order. On the first screen of an episode there are no offsets in time. The first
+  // RelativeOffsets says the order. The first screen of an episode has no offsets in time. The first
   // kMostTiles of a screen count: the number of pairs grows with their square.
   void extract(Screen screen, ActiveFeatures& active);
 

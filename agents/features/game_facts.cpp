@@ -88,7 +88,7 @@ ObjectClasses classes_of(const std::string& path, const Background& background, 
   return classes_of_text(path, behind(contents, source_of(cartridge, settings, background), path));
 }
 
-// Reads the fact's file; discovers the fact and writes the file if there is none.
+// Reads the fact's file. If the file is missing, discovers the fact and writes the file.
 template <typename Fact>
 const Fact& GameFacts::kept(std::optional<Fact>& fact, const std::string& ending, const auto& discover,
                             const auto& read, const auto& bytes) const {

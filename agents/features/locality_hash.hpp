@@ -26,7 +26,7 @@ class LocalityHash final : public FeatureSet {
  private:
   static constexpr std::size_t kBitsOfColour = 7;
 
-  // That a bit is in a vector, and the bit's hash there.
+  // A vector that has a certain bit, and the bit's hash in it.
   struct Entry {
     std::uint16_t vector;
     std::uint16_t hash;

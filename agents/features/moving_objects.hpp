@@ -47,7 +47,7 @@ class ObjectList {
   }
 
   // The nearest object that `object`, of this shape, can have been: within reach, of the same shape, or else
-  // of an area within a factor of 1.2 with at most 10 % of pixels different. Null: there is none.
+  // of an area within a factor of 1.2 with at most 10 % of pixels different. Null if no object is.
   const ScreenObject* nearest(const ScreenObject& object, ShapeView shape, int reach) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace racebeam {
 
-// That a tile of the screen has a colour.
+// A tile of the screen, and a colour that it has.
 struct ColouredTile {
   int row, column;
   std::uint8_t colour;

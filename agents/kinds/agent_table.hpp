@@ -77,13 +77,13 @@ struct AgentKind {
   // With the default settings. Of processor time, measured: the mean of the five training games.
   double decisions_per_second;
   double megabytes;  // the most memory that a trial takes, a checkpoint being written included; measured
-  // Of other settings, about. Null: they change it little.
+  // Estimates the effort with other settings. Null if they change it little.
   Effort (*effort)(const AgentValues& values) = nullptr;
   std::unique_ptr<Agent> (*make)(const AgentContext& context);
 };
 
 std::span<const AgentKind> agent_kinds();
-const AgentKind* find_agent_kind(std::string_view name);  // null if there is none
+const AgentKind* find_agent_kind(std::string_view name);  // null if the name is unknown
 
 // const_fire, or only the kind's name.
 std::string agent_name(const AgentKind& kind, int action);

@@ -29,7 +29,7 @@ class FeatureGroups {
 
   std::size_t count() const { return sizes_.size(); }  // of groups: their numbers are below it
   std::size_t seen() const { return seen_; }           // features
-  // Of memory: kLeastBytes; then at most kMostSlotBytes for each feature that was seen or was active in a
+  // The memory: kLeastBytes; then at most kMostSlotBytes for each feature that was seen or was active in a
   // call, and kGroupBytes for each group.
   std::size_t bytes() const;
 

@@ -109,7 +109,7 @@ void Sarsa::compute_all_values(const ActiveFeatures& features) {
   std::memcpy(values_.data(), sums.data(), sizeof sums);
 }
 
-// Of actions with equal values, each is as likely.
+// Chooses each of the best actions with equal probability.
 int Sarsa::choose() {
   if (!std::isfinite(std::accumulate(values_.begin(), values_.end(), 0.0))) diverged_ = true;
   if (random_.uniform() < (learning_ ? settings_.exploration : settings_.evaluation_exploration))
@@ -128,7 +128,7 @@ double Sarsa::trace(std::size_t feature, int action) const {
   return found == traces_.end() || found->place != place(feature, action) ? 0 : double{found->size};
 }
 
-// By how much a step of 1 moves the value of these features.
+// Returns how far a step of 1 moves the value of these features.
 double Sarsa::gain(const ActiveFeatures& features) {
   if (features.counts.empty()) return static_cast<double>(features.indices.size());
   double sum = 0;

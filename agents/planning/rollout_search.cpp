@@ -117,7 +117,7 @@ void RolloutSearch::back_up(Node* node) const {
   }
 }
 
-// Of actions with equal values, one that does not end the episode, by lot.
+// Draws one of the best actions, if possible one that does not end the episode.
 int RolloutSearch::best_action() {
   std::vector<int> best;
   std::pair<double, bool> highest;

@@ -36,7 +36,7 @@ class RolloutSearch {
   void forget() { root_.reset(); }
 
   std::size_t nodes() const;                        // of the tree
-  double value(int action) const;                   // of the root's child; 0: it has none
+  double value(int action) const;                   // of the root's child; 0 without a child
   bool exhausted() const { return root_->solved; }  // the last search left nothing that is new
   std::int64_t frames() const { return frames_; }   // of the last search
 

@@ -160,7 +160,7 @@ void TreeSearch::back_up() {
   }
 }
 
-// Of actions with equal values, one that does not end the episode, by lot.
+// Draws one of the best actions, if possible one that does not end the episode.
 int TreeSearch::best_action() {
   const Number first = nodes_[0].first_child;
   if (first == 0) return order_[random_.below(order_.size())];

@@ -39,7 +39,7 @@ class TreeSearch {
   void forget() { kept_ = false; }
 
   std::size_t nodes() const { return nodes_.size(); }  // of the tree
-  double value(int action) const;                      // of the root's child; 0: it has none
+  double value(int action) const;                      // of the root's child; 0 without a child
   std::int64_t frames() const { return frames_; }      // of the last search
 
   // What goes on from search to search, for checkpoints. read() throws InvalidInput for what write() cannot
@@ -74,7 +74,7 @@ class TreeSearch {
   double value(const Node& child) const { return child.reward + settings_.discount * child.best; }
   void back_up();
   int best_action();
-  Number child_of_root(int action) const;  // 0: there is none
+  Number child_of_root(int action) const;  // 0 if the root lacks it
   void move_root(Number to);
 
   Model& model_;

@@ -118,7 +118,7 @@ void Uct::update(Node* node, double value, double discount) {
   }
 }
 
-// Of equal numbers of visits, the better mean counts, then the draw that made the order.
+// Compares the means where the numbers of visits are equal, and then the order, which was drawn.
 const Uct::Node& Uct::most_visited() {
   return **std::ranges::max_element(root_->children, [](const auto& a, const auto& b) {
     return a->visits != b->visits ? a->visits < b->visits : a->mean < b->mean;

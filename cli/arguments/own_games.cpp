@@ -8,7 +8,7 @@
 namespace racebeam {
 namespace {
 
-// As recognise_among() finds the game of an image.
+// Whether recognise_among() finds this game for its image.
 bool is_here(const Game& game, const Images& images) {
   const Cartridge* const found = images.find(game.name);
   if (found == nullptr) return false;

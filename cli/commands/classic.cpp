@@ -62,7 +62,7 @@ MachineOptions machine_options(const ClassicSettings& settings) {
   return options;
 }
 
-// The game of the file's stem, whatever the image; if there is none, that of the image's MD5.
+// The game that has the file's stem as its name, whatever the image; else the game of the image's MD5.
 Cartridge open_by_name(const MachineOptions& machine) {
   const auto image = load_image(machine.rom);
   auto game = find_game(image->stem);

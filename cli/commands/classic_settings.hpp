@@ -11,7 +11,7 @@ namespace racebeam {
 class ClassicSettings {
  public:
   // Reads ale.cfg, then the words, then the file of the key `config`; later values override earlier ones.
-  // Throws std::invalid_argument if there is no image.
+  // Throws std::invalid_argument if none of them names an image.
   explicit ClassicSettings(const std::vector<std::string>& words);
 
   // Whether `word`, -help or --help, is among the keys.

@@ -24,7 +24,7 @@ void add_discovery_options(Subcommand& command, DiscoveryOptions& options);
 // Adds an option for a number of screens.
 void add_screens_option(Subcommand& command, const std::string& name, int& screens, const std::string& help);
 
-// The image of the game. Throws InvalidInput if there is none.
+// The image of the game. Throws InvalidInput if it is missing.
 const Cartridge& cartridge_of(const Images& images, const DiscoveryOptions& options);
 
 // Reads --csv, whose digest the samples then have, or discovers the background. Throws InvalidInput.

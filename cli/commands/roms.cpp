@@ -42,7 +42,7 @@ struct RomFinding {
   std::string note;
 };
 
-// The game that lists this MD5 as another dump, which it is not recognised by; "" if there is none.
+// The game that lists this MD5 as another dump, which it is not recognised by; "" if no game does.
 std::string other_dump_of(const std::string& md5) {
   for (const CatalogueImage& image : catalogue_images()) {
     if (image.md5 == md5) return std::string{catalogue()[image.entry].name};

@@ -45,7 +45,7 @@ struct VerifyOptions {
 
 // The digests of the tables that others are made from.
 struct Digests {
-  std::string results, curves;  // curves: empty if there is no such file
+  std::string results, curves;  // curves: empty if the file is missing
 };
 
 Digests digests_of(const ResultsFolder& folder) {

@@ -7,7 +7,7 @@
 
 namespace racebeam {
 
-// The command that opens the address in a browser; nothing where there is no desktop.
+// The command that opens the address in a browser; nothing without a desktop.
 std::optional<std::vector<std::string>> browser_command(const std::string& address);
 
 }  // namespace racebeam

@@ -53,7 +53,7 @@ char** complete_word(const char* text, int begin, int) {
   return ::rl_completion_matches(text, next_word);
 }
 
-// Where the history is kept (XDG base directories); empty if there is no place.
+// The file of the history (XDG base directories); empty if the user has no home.
 std::filesystem::path history_file() {
   const char* state = std::getenv("XDG_STATE_HOME");
   const char* home = std::getenv("HOME");

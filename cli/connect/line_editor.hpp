@@ -15,7 +15,7 @@ class LineEditor {
   using Complete = std::function<std::vector<std::string>(std::string_view before, std::string_view word)>;
 
   // On a terminal, lines can be edited, earlier ones are recalled, also those of earlier sessions, and the
-  // Tab key completes words. Elsewhere, there is no prompt.
+  // Tab key completes words. Elsewhere, it shows no prompt.
   LineEditor(std::string prompt, Complete complete);
   ~LineEditor();  // writes the history
   LineEditor(const LineEditor&) = delete;

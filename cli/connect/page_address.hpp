@@ -5,12 +5,12 @@
 
 namespace racebeam {
 
-// As a browser takes it, without a path: http://HOST:PORT or https://HOST:PORT. Empty if `address` is not
+// The address for a browser, without a path: http://HOST:PORT or https://HOST:PORT. Empty if `address` is not
 // that of a WebSocket or a page.
 std::string page_address(const std::string& address);
 
-// The page of the first WebSocket in an announce file; empty if there is none. `token` gets the file's token.
-// Throws std::exception if the file cannot be read.
+// The page of the first WebSocket in an announce file; empty if the file has none. `token` gets the file's
+// token. Throws std::exception if the file cannot be read.
 std::string announced_page(const std::string& path, std::string& token);
 
 }  // namespace racebeam

@@ -36,7 +36,7 @@ std::optional<std::size_t> number(std::string_view text) {
   return client::detail::to_number<std::size_t>(text);
 }
 
-// Of fields such as grey84x4 and rgb40x30x2.
+// The form of fields such as grey84x4 and rgb40x30x2.
 std::optional<Form> resized_form(std::string_view field) {
   const bool colours = field.starts_with("rgb");
   if (!colours && !field.starts_with("grey")) return std::nullopt;

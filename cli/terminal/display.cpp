@@ -71,7 +71,7 @@ Display::Display(Graphics wanted)
 Display::~Display() {
   try {
     while (under_way_ > 0 && Clock::now() < shown_ + kPatience) wait(shown_ + kPatience);
-  } catch (const std::exception&) {  // there is no terminal any more
+  } catch (const std::exception&) {  // the terminal is gone
   }
 }
 

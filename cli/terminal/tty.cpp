@@ -22,7 +22,7 @@ constexpr int kMostWait = 500;  // milliseconds for the last bytes
 
 // What a signal handler needs. A handler has no argument of ours.
 struct Before {
-  int descriptor = -1;  // of the terminal; -1: there is nothing to restore
+  int descriptor = -1;  // of the terminal; -1 if nothing needs to be restored
   termios modes{};
   std::array<char, 128> undo{};  // ends at the end of the array
   std::size_t undo_size = 0;

@@ -15,7 +15,7 @@ class Tty {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  Tty();   // throws std::runtime_error if there is no terminal
+  Tty();   // throws std::runtime_error without a terminal
   ~Tty();  // what was not written yet is left out
   Tty(const Tty&) = delete;
   Tty& operator=(const Tty&) = delete;

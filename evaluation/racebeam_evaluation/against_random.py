@@ -40,7 +40,7 @@ def _row(scores: Scores, agent: str, bootstrap: Bootstrap) -> dict[str, object] 
 def _interval(
     samples: list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]], bootstrap: Bootstrap
 ) -> tuple[float, float]:
-    """Of the number of games above: each sample is drawn anew within its game."""
+    """Returns the interval of the number of games above random play. Each sample is drawn anew within its game."""
     generator = np.random.default_rng(bootstrap.seed)
     above = np.zeros(bootstrap.repetitions)
     for ours, theirs in samples:

@@ -33,7 +33,7 @@ def normalised_matrix(scores: Scores, ranges: Ranges, agent: str, games: list[st
 
 
 def ranged_sets(scores: Scores, ranges: Ranges, group: Group) -> dict[str, tuple[list[str], list[str]]]:
-    """For each set of the group's common games: those with a range, and those without one."""
+    """Divides each set of the group's common games into games with a range and games without one."""
     split = {}
     for name, games in sets(scores.common(group)).items():
         without = ranges.without(games)

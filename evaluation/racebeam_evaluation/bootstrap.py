@@ -87,7 +87,7 @@ def _is_ragged(scores: Matrix) -> bool:
 
 
 def _drawn(scores: Matrix, generator: np.random.Generator) -> Matrix:
-    """As many trials of each game, drawn anew."""
+    """Draws as many trials of each game anew."""
     rows = (generator.random(scores.shape) * trials_of(scores)).astype(int)
     return np.where(np.isnan(scores), np.nan, np.take_along_axis(scores, rows, axis=0))
 

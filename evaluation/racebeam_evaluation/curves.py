@@ -26,10 +26,10 @@ def checkpoint(trial: pd.DataFrame, point: int, fewest: int = WINDOW) -> float:
 
 
 def learning_curves(curves: pd.DataFrame) -> pd.DataFrame:
-    """For each game and agent, the mean score of training episodes in 50 equal stretches of frames.
+    """Returns the mean score of training episodes in 50 equal stretches of frames, for each game and agent.
 
-    The standard error is that of the trials' means, NaN of a single trial. A stretch in which no episode ends has no
-    row."""
+    The standard error is that of the trials' means, and NaN for a single trial. A stretch has no row if no episode
+    ends in it."""
     episodes = with_trained(curves)
     longest = episodes.groupby("game")["trained"].transform("max")
     stretch = np.ceil(episodes["trained"] / longest * _BINS).clip(lower=1).astype(int)

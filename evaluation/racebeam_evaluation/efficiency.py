@@ -15,10 +15,10 @@ _IQM = AGGREGATES.index("IQM")
 
 
 def rows(curves: pd.DataFrame, ranges: Ranges, bootstrap: Bootstrap) -> pd.DataFrame:
-    """For each axis, agent and point: the IQM of what the last 100 training episodes before the point scored.
+    """Returns the IQM of the last 100 training episodes before each point, for each axis and agent.
 
-    Only games that all agents were trained in, and that have a range. Points are 10, 50, 100 and 200 million frames
-    if each trial has reached two of them, else ten equal parts of the shortest training."""
+    The games are those that all agents were trained in, and that have a range. Points are 10, 50, 100 and 200 million
+    frames if each trial has reached two of them, else ten equal parts of the shortest training."""
     axes = [name for name in ("frames", "decisions") if name in curves and curves[name].notna().all()]
     parts = [_of_axis(curves, axis, ranges, bootstrap) for axis in axes]
     return pd.DataFrame(list(itertools.chain.from_iterable(parts)))

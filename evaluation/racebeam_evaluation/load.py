@@ -36,7 +36,7 @@ class Frames(NamedTuple):
 
 
 def load(*paths: str | pathlib.Path, mix: bool = False) -> Frames:
-    """Reads folders of results, and files of Dopamine, DQN Zoo and rliable. Raises BadInput for what is no such."""
+    """Reads folders of results, and files of Dopamine, DQN Zoo and rliable. Raises BadInput for others."""
     results = read_all([pathlib.Path(path) for path in paths], mix)
     scores: Scores = scores_of(results)
     counted = results.episodes.dropna(subset=["score"])

@@ -36,18 +36,18 @@ class Ranges:
 
 
 def all_ranges(scores: Scores, group: Group) -> list[Ranges]:
-    """The four normalisations of a group. Those that have no range at all are left out."""
+    """Returns the four normalisations of a group, except those without any range."""
     ranges = [_random(scores), _baseline(scores), _inter_algorithm(scores, group), _human(scores)]
     return [each for each in ranges if len(each.without(list(scores.means.index))) < len(scores.means.index)]
 
 
 def human_and_random(scores: Scores) -> list[Ranges]:
-    """The two normalisations that do not depend on a group. Those that have no range at all are left out."""
+    """Returns the two normalisations that do not depend on a group, except those without any range."""
     return [each for each in (_human(scores), _random(scores)) if len(each.span.dropna())]
 
 
 def _random(scores: Scores) -> Ranges:
-    """From 0 to the absolute value of the mean score of random play."""
+    """Ranges from 0 to the absolute value of the mean score of random play."""
     high = (
         scores.views["random"].abs() if "random" in scores.views else pd.Series(index=scores.means.index, dtype=float)
     )
@@ -55,7 +55,7 @@ def _random(scores: Scores) -> Ranges:
 
 
 def _baseline(scores: Scores) -> Ranges:
-    """From the lowest to the highest score of the references, which should be all 37 baselines."""
+    """Ranges from the lowest to the highest score of the references, which should be all 37 baselines."""
     known = scores.references.notna().sum(axis=1)
     fewer = sorted(set(known[(known > 0) & (known < BASELINES)]))
     notes = [
@@ -70,12 +70,12 @@ def _games(count: int) -> str:
 
 
 def _inter_algorithm(scores: Scores, group: Group) -> Ranges:
-    """From the lowest to the highest score of the group, in the games that all its agents have played."""
+    """Ranges from the lowest to the highest score of the group, in the games that all its agents have played."""
     played = scores.columns(group.agents).dropna()
     return Ranges("inter-algorithm", played.min(axis=1), played.max(axis=1), bounded=True)
 
 
 def _human(scores: Scores) -> Ranges:
-    """From published scores of random play to those of a human tester, in 57 games."""
+    """Ranges from published scores of random play to those of a human tester, in 57 games."""
     comparable = HUMAN.drop(index=list(scores.other_rewards))
     return Ranges("human", comparable["random"], comparable["human"])

@@ -90,13 +90,13 @@ class Plan:
 
 
 def plan_of(folder: pathlib.Path) -> Plan:
-    """The plan of a folder of results; an empty one if there is no plan.toml."""
+    """The plan of a folder of results; an empty one without plan.toml."""
     path = folder / "plan.toml"
     return Plan(read_toml(path) if path.is_file() else {})
 
 
 def preset_of(environment: str) -> str:
-    """The preset with these words of `load`; "other" if there is none such."""
+    """The preset with these words of `load`; "other" if no preset has them."""
     words = dict(word.split("=", 1) for word in environment.split() if "=" in word)
     if any(words.get(key, value) != value for key, value in _STARTS.items()):
         return "other"

@@ -117,7 +117,7 @@ def _curves(folder: pathlib.Path) -> tuple[pd.DataFrame, Source] | None:
 
 
 def _roles(folder: pathlib.Path) -> dict[str, str]:
-    """By agent. Raises BadInput for a role that there is not, and for an agent with two."""
+    """Returns the role of each agent. Raises BadInput for an unknown role, and for an agent with two."""
     roles: dict[str, str] = {}
     path = folder / "agents.csv"
     rows = read(path, _AGENTS, may_be_empty=True)[0].astype("str").itertuples() if path.exists() else ()

@@ -74,7 +74,7 @@ class Scores:
 def scores_of(results: Results) -> Scores:
     """The scores of evaluation episodes. A trial that diverged has no score, and is named in the notes.
 
-    Raises BadInput if there is no score at all."""
+    Raises BadInput if all scores are missing."""
     diverged = results.episodes["end"] == DIVERGED
     lost = results.episodes[diverged][["game", "agent", "trial"]].drop_duplicates()
     counted = results.episodes[~diverged]
@@ -110,7 +110,7 @@ def _untrained(episodes: pd.DataFrame, roles: dict[str, str]) -> pd.Series:
 
 
 def _usual_role(agent: str) -> str:
-    """That of an agent of racebeam; the role of another is said by agents.csv."""
+    """Returns the role of an agent of racebeam; agents.csv says the role of another."""
     if _BASELINE.fullmatch(agent):
         return "baseline"
     return "planner" if agent in _PLANNERS else "learner"
@@ -123,7 +123,7 @@ def _view_of(baseline: str) -> str:
 
 
 def _agents_in_order(roles: dict[str, str]) -> list[str]:
-    """Learners, then planners; the known ones of each first."""
+    """Returns the learners, then the planners, and of each the known ones first."""
     order: list[str] = []
     for role, known in (("learner", _LEARNERS), ("planner", _PLANNERS)):
         agents = sorted(name for name in roles if roles[name] == role)

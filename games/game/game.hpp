@@ -48,7 +48,7 @@ struct Game {
   RuleSource rule_source = RuleSource::kAle012;
   ModeProgram mode_program;
 
-  // The same game as in ALE 0.6, for classic sessions; null where it was no different.
+  // The same game as in ALE 0.6, for classic sessions; null if it was the same.
   std::shared_ptr<const Game> classic;
 
   // The same game with the corrected rule; null if no error is known. `correction` is set with it.

@@ -53,7 +53,7 @@ def processes(*marks):
 
 
 def parent(number):
-    """That of a process; 0 if it has ended."""
+    """Returns the parent of a process; 0 if the process has ended."""
     try:
         return int(pathlib.Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[1])
     except OSError:

@@ -27,7 +27,7 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = TOP / "cluster/kubernetes"
 BINARY = os.environ.get("RACEBEAM_BINARY", str(TOP / "build/release/racebeam"))
 PATIENCE = float(os.environ.get("RACEBEAM_PATIENCE", 20))
-# That of scripts/cluster-test, which is beside its Python, else one in the PATH.
+# The kubectl of scripts/cluster-test, which is beside its Python, else one in the PATH.
 KUBECTL = shutil.which(
     "kubectl", path=os.pathsep.join([str(pathlib.Path(sys.executable).parent), os.environ.get("PATH", "")])
 )

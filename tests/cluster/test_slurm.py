@@ -69,7 +69,7 @@ class Slurm(unittest.TestCase):
         }
 
     def nothing_is_left(self):
-        """No process of a job, no socket, no announce file, no folder of a job."""
+        """Checks that no process, socket, announce file or folder of a job is left."""
 
         def left():
             return [*self.job_processes().values(), *self.temporary.iterdir(), *self.jobs.glob("racebeam-*")]

@@ -67,7 +67,7 @@ class PublicNames(unittest.TestCase):
         for module, name in (("wire/commands", "Commands"), ("wire/session", "Session")):
             for method, listed in methods(module, name).items():
                 self.assertEqual(told.pop(method, None), listed, method)
-        self.assertEqual(told, {}, "these are no methods")
+        self.assertEqual(told, {}, "a session lacks these methods")
 
 
 if __name__ == "__main__":

@@ -123,7 +123,7 @@ class Board(Folder):
         index = self.page()
         self.assertIn("mine 1.0", index)
         self.assertNotIn("yours 1.0", index)
-        self.assertIn("2.episode is no episode log", index)
+        self.assertIn("2.episode is not an episode log", index)
         self.assertIn(">none/agent.toml cannot be read", index)
         self.assertNotIn(str(self.root), index)
 

@@ -1,6 +1,6 @@
-"""racebeam's AtariEnv beside ale_py's, for all of its games: what is seen, won and told is equal, step by step.
+"""racebeam's AtariEnv is equal to ale_py's in all games: observations, rewards and infos, step by step.
 
-At each step all kinds of observation are compared, and where an episode ends the next one begins without a seed, so
+The test compares all kinds of observation at each step. Where an episode ends, the next one begins without a seed, so
 that the generators have to agree, too. The settings take turns: the defaults, and those that change the most. The test
 plays a run of half the games, with others, and other settings and seeds, each day. scripts/check/python-exactness plays
 all.

@@ -1,4 +1,4 @@
-"""racebeam's AtariVectorEnv beside ale_py's, for all of its games: what is seen, won and told is equal, step by step.
+"""racebeam's AtariVectorEnv is equal to ale_py's in all games: observations, rewards and infos, step by step.
 
 The settings take turns: the defaults, and those that change the most. The test plays a run of a quarter of the games,
 with others, and other settings and seeds, each day. scripts/check/python-exactness plays all.

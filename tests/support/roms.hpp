@@ -11,10 +11,10 @@
 
 namespace racebeam::test {
 
-// The folder; empty if there is none.
+// The folder of images; empty if none was found.
 std::string rom_folder();
 
-// Finds an image by the beginning of its MD5. Returns null if the folder has none.
+// Finds an image by the beginning of its MD5. Returns null if the folder lacks it.
 std::shared_ptr<const Image> find_rom(std::string_view md5);
 
 // Finds the image of a game of the catalogue.

@@ -12,13 +12,13 @@ class Console;
 
 namespace racebeam::test {
 
-// The difference between two machines: state, cartridge RAM, pictures, sound. Empty if there is none. Makes a
-// block of sound on both.
+// The difference between two machines: state, cartridge RAM, pictures, sound. Empty if they are equal. Makes
+// a block of sound on both.
 std::string difference(Console& interpreted, Console& translated);
 
 // Runs the program of a seed on the interpreter and on `cpu` for `steps` steps, and saves and restores states
 // on the way. Compares state, cartridge RAM, pictures and sound after each step. Returns the first
-// difference; empty if there is none.
+// difference; empty if they are equal.
 std::string difference_in_program(std::uint32_t seed, int steps, CpuKind cpu = CpuKind::kTranslator);
 
 }  // namespace racebeam::test

@@ -14,18 +14,18 @@ export type Action = string | number;
 export interface Branch extends Group {
   /** The reward of each act. */
   rewards: number[];
-  /** Those of player B, where the game's rules have one. */
+  /** The rewards of player B, if the game's rules have one. */
   rewards_b?: number[];
 }
 
 export interface Options {
-  /** For servers that require one. */
+  /** The token of servers that require one. */
   token?: string;
   /** Milliseconds to wait for a connection, and for each reply. Without it, for ever. */
   timeout?: number;
   /** Options of node:tls, such as { ca }. */
   tls?: import("node:tls").ConnectionOptions;
-  /** The class WebSocket for ws:// and wss:// addresses, where the platform has none (Node before 22). */
+  /** The class WebSocket for ws:// and wss:// addresses, if the platform lacks it (Node before 22). */
   WebSocket?: unknown;
   /** Bytes. A server that sends a longer line is taken for broken. */
   longestReply?: number;
@@ -196,7 +196,7 @@ export class Session {
   // end of commands
 }
 
-/** The last screens, oldest first, zeros where there was none. For observe("grey84:delta"). */
+/** A stack of the last screens, oldest first, with zeros before the first one. It is for observe("grey84:delta"). */
 export class ScreenStack {
   constructor(depth: number);
   /** Begins anew, as after a reset. */

@@ -22,7 +22,7 @@ local function burns(ram, cell)
   return bit(ram:byte(half + 2), place - 12) == 1
 end
 
--- Cells to the middle of the nearest wide gap, negative to the left; nil if there is none.
+-- Cells to the middle of the nearest wide gap, negative to the left; nil if no gap is wide.
 local function way(ram)
   local ship, gap, nearest = (ram:byte(SHIP_X) + 10) / 4, 0, nil
   for cell = 0, 40 do

@@ -329,8 +329,8 @@ function Session:stop_recording()
   return first(self, "record", "stop")
 end
 
--- A stack of screens that the client makes, as the server does for grey84xN: of the last `depth`, oldest first, zeros where
--- there was none. For observe("grey84:delta"), of which a reply has fewer bytes than of a stack.
+-- A stack of screens that the client makes, as the server does for grey84xN. It has the last `depth` screens, oldest first,
+-- and zeros before the first one. With observe("grey84:delta"), a reply has fewer bytes than with a stack of the server.
 local Stack = {}
 Stack.__index = Stack
 

@@ -156,7 +156,7 @@ std::size_t playing(VectorMachines& self) {
   return self.batch().playing();
 }
 
-// As many machines as the results have room for.
+// Receives as many machines as the results have room for.
 void receive(VectorMachines& self, const Results& results) {
   const std::size_t count = std::get<2>(results).shape(1);
   const Turn turn(self.lock());

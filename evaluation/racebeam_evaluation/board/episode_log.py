@@ -42,7 +42,7 @@ class EpisodeLog:
 
 
 def read_log(path: pathlib.Path) -> EpisodeLog:
-    """The log at `path`, which must be no link. Raises BadInput for a file that is no whole log."""
+    """Reads the log at `path`. Raises BadInput for a link, and for a file that is not a whole log."""
     if path.is_symlink():
         raise BadInput(f"{path} is a link; expected a file")
     content = content_of(path, _MOST_BYTES, "an episode log")
@@ -51,9 +51,9 @@ def read_log(path: pathlib.Path) -> EpisodeLog:
         head, rest = contents.split(b"\n\n", 1)
         lines = [line.split(" ") for line in head.decode().split("\n")]
     except ValueError as error:
-        raise BadInput(f"{path} is no episode log: its text does not end; expected a whole log") from error
+        raise BadInput(f"{path} is not an episode log: its text does not end; expected a whole log") from error
     if [line[0] for line in lines] != list(_LINES) or len(lines[0]) < 2 or len(lines[1]) != 2:
-        raise BadInput(f"{path} is no episode log: its text has other lines; expected {', '.join(_LINES)}")
+        raise BadInput(f"{path} is not an episode log: its text has other lines; expected {', '.join(_LINES)}")
     said = _pairs(lines[2]) | _pairs(lines[3])
     actions = _actions(path, said.get("decisions", ""), rest)
     columns = said | {
@@ -69,7 +69,7 @@ def read_log(path: pathlib.Path) -> EpisodeLog:
 def _opened(path: pathlib.Path, content: bytes) -> bytes:
     """The contents that the seal protects."""
     if len(content) < _HEAD.size or not content.startswith(_MAGIC):
-        raise BadInput(f"{path} is no episode log; expected a file that begins with {_MAGIC.decode()}")
+        raise BadInput(f"{path} is not an episode log; expected a file that begins with {_MAGIC.decode()}")
     _, version, size, checksum = _HEAD.unpack_from(content)
     if version != _VERSION:
         raise BadInput(f"{path} has version {version}; expected {_VERSION}")

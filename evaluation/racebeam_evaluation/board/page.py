@@ -28,7 +28,7 @@ def document(title: str, *parts: str) -> str:
 
 
 def text(words: str) -> str:
-    """Words that are no markup."""
+    """Returns words without markup."""
     return html.escape(words)
 
 

@@ -43,7 +43,7 @@ class About:
 
     @property
     def name(self) -> str:
-        """Of the agent with its version."""
+        """The name of the agent with its version."""
         return f"{self.agent} {self.version}"
 
 
@@ -133,7 +133,7 @@ def _episode(folder: pathlib.Path, line: int, row: dict[str, str], about: About)
 
 
 def _named(results: Results, about: About) -> Results:
-    """The same results of an agent that is called About.name."""
+    """Returns the results with About.name as the name of the agent."""
     whole = together([results])
 
     def renamed(frame: pd.DataFrame) -> pd.DataFrame:

@@ -15,7 +15,7 @@ _OURS = {_plain(name): name for name in CATALOGUE}
 
 
 def our_name(path: pathlib.Path, name: str) -> str:
-    """Our name of a game: "battle_zone" of "BattleZone" and "battlezone". Raises BadInput if there is no such game."""
+    """Returns our name of a game: "battle_zone" for "BattleZone" and "battlezone". Raises BadInput if it is unknown."""
     plain = _plain(name)
     if plain not in _OURS:
         close = difflib.get_close_matches(plain, _OURS, n=1)

@@ -1,4 +1,4 @@
-"""Results files of Dopamine, DQN Zoo and rliable, told apart by what is in them."""
+"""Reads results files of Dopamine, DQN Zoo and rliable, and tells them apart by their contents."""
 
 import hashlib
 import io

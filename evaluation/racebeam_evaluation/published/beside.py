@@ -28,7 +28,7 @@ class Beside:
 
 
 def beside_published(scores: Scores, results: Results, mix: bool = False) -> Beside:
-    """Our agents that have the name of a published one. Those that were made otherwise are left out, unless `mix`."""
+    """Our agents that have the name of a published one. Leaves out agents that were made otherwise, unless `mix`."""
     theirs, protocols = published_scores(), published_protocols()
     ours = pd.concat([scores.means, scores.views], axis=1)
     shared = [agent for agent in ours if agent in theirs and _games(ours[agent], theirs[agent])]

@@ -15,7 +15,7 @@ def _table(name: str) -> pd.DataFrame:
 
 
 def published_protocols() -> dict[str, Protocol]:
-    """By agent."""
+    """Returns the published protocol of each agent."""
     names = [field.name for field in dataclasses.fields(Protocol)]
     rows = _table("protocols").set_index("agent")[names]
     return {str(agent): Protocol(*row) for agent, row in zip(rows.index, rows.itertuples(index=False))}

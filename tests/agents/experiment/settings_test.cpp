@@ -29,7 +29,7 @@ struct Case {
 
 constexpr auto kLength = "training_episodes = 6\nevaluation_episodes = 2\n";
 
-// Settings of SARSA are the same for all learners. Those that rarely change a choice have extreme values.
+// Settings of SARSA are the same for all learners. Settings that rarely change a choice have extreme values.
 const std::vector<Case> kCases = {
     {"perturb", "evaluation_episodes = 1\n", {{"probability", "0.5"}}},
     {"basic",

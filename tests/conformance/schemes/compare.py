@@ -2,7 +2,7 @@
 
     compare.py PROBE [SCHEME...] [--seed N] [--frames N]
 
-Needs ale-py, from .venv if this Python has none. Status 0: no difference; 1: one; 77: ale-py is not there.
+Needs ale-py, from .venv if this Python lacks it. Status 0: all are equal; 1: one differs; 77: ale-py is missing.
 """
 
 import argparse

@@ -93,7 +93,7 @@ def arguments_of(method, states):
 
 
 def is_too_long(method, arguments):
-    """For a test: such a step ends when it is interrupted, as test_threads.py has it."""
+    """Whether a step is too long for a test. Only an interrupt ends such a step, which test_threads.py tests."""
     return method == "step" and len(arguments) > 2 and isinstance(arguments[2], int) and arguments[2] > LONGEST
 
 

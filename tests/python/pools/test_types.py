@@ -158,7 +158,7 @@ class Others(unittest.TestCase):
 
 
 class Found(unittest.TestCase):
-    """By fuzz.py."""
+    """Calls that fuzz.py found."""
 
     def test_counts_that_are_none(self):
         for config in (

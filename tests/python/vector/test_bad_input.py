@@ -228,7 +228,7 @@ class BadInput(unittest.TestCase):
 
 
 class Found(unittest.TestCase):
-    """By fuzz.py."""
+    """Calls that fuzz.py found."""
 
     def test_calls_after_close_extras(self):
         envs = AtariVectorEnv("beamfall", 2)

@@ -40,7 +40,7 @@ class Servers(Compared):
         return here, there
 
     def check(self, shown, expected, rows=None, lost=None):
-        """Of these rows; None: of all. `lost`: what the info must say; None: nothing is lost."""
+        """Checks these rows, or all if `rows` is None. `lost` is what the info must say; None if nothing is lost."""
         *arrays, info = shown
         self.assertTrue(np.array_equal(info.pop("lost"), np.zeros(len(arrays[0]), bool) if lost is None else lost))
         if rows is None:

@@ -1,6 +1,6 @@
 // Elements of the page.
 
-/** The element with an id. Throws if the page has none of this class. */
+/** The element with an id. Throws if the page lacks it, or its class is another. */
 export function byId<T extends HTMLElement>(id: string, kind: new () => T): T {
   const element = document.getElementById(id);
   if (!(element instanceof kind)) {

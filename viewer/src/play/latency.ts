@@ -23,7 +23,7 @@ export class LatencyMeter {
     this.#times.splice(0, this.#times.length - KEPT);
   }
 
-  /** Milliseconds: of the measurement in the middle, and of the worst that is kept. */
+  /** The median and the longest of the measured times that are kept, in milliseconds. */
   get figures(): { median: number; worst: number } | undefined {
     const times = [...this.#times].sort((a, b) => a - b);
     const median = times[times.length >> 1];

@@ -98,7 +98,7 @@ export class Deck {
     }
   }
 
-  /** Shows frames until the wanted one is shown. Meanwhile the element is busy, for readers of screens and for tests. */
+  /** Shows frames until it has shown the wanted one. Meanwhile the element is busy, for readers of screens and for tests. */
   async #follow(): Promise<void> {
     const track = this.#track!;
     this.#busy(true);

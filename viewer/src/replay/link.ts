@@ -39,7 +39,7 @@ function separate(words: unknown): string[] {
   return acts;
 }
 
-/** The episode and the frame of a link; undefined if the text is no link of this kind. Throws if it is damaged. */
+/** The episode and the frame of a link; undefined if the text is not such a link. Throws if it is damaged. */
 export async function readLink(hash: string): Promise<{ episode: Episode; frame: number } | undefined> {
   const found = /^#?replay=([\w-]+)(?:&frame=(\d{1,9}))?$/.exec(hash);
   if (!found?.[1] || hash.length > LONGEST) {

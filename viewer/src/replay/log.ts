@@ -4,11 +4,11 @@ export interface Episode {
   /** For people. */
   title: string;
   game: string;
-  /** Those of `load`, but for the game. */
+  /** The settings of `load`, without the game. */
   settings: Readonly<Record<string, string>>;
   /** Words of `act`, in order. */
   acts: readonly string[];
-  /** What the log says of its end. An episode of the page's own has none. */
+  /** What the log says of its end. An episode of this page lacks it. */
   ended?: { score: number; frames: number; decisions: number; end: string; lives: number };
   md5?: string;
 }
@@ -100,7 +100,7 @@ function endOfText(contents: Uint8Array): number {
   throw new Error("the log has no empty line after its text");
 }
 
-/** Reads a log. Throws an Error with a sentence if it is none. */
+/** Reads a log. Throws an Error with a sentence if the file is not a log. */
 export async function readLog(file: Uint8Array, name: string): Promise<Episode> {
   const contents = await opened(file);
   const start = endOfText(contents);

@@ -6,7 +6,7 @@ const SMOOTHING = 0.01; // of a call, when the mean of samples that wait is take
 /**
  * A ring buffer between a machine, which makes samples a frame at a time, and the sound card, which takes them by its own clock. It
  * plays slightly faster or slower, so that it neither overflows nor runs empty. If it does run empty, the sound fades out, and
- * begins again when the buffer has filled: there is no crackle.
+ * begins again when the buffer has filled, without a crackle.
  */
 export class Resampler {
   readonly #ring: Float32Array;

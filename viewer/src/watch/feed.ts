@@ -19,7 +19,7 @@ export class Feed {
     this.#screen = new Screen(canvas);
   }
 
-  /** Shows the newest picture. Returns what the server says of it, or undefined if there is no news. */
+  /** Shows the newest picture. Returns what the server says of it, or undefined if nothing is new. */
   async poll(): Promise<Group | undefined> {
     if (this.#asking) {
       return undefined;

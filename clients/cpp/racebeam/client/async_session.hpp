@@ -186,7 +186,7 @@ inline asio::awaitable<AsyncSession> opened(std::shared_ptr<Lines> lines) {
   co_return AsyncSession(std::move(lines));
 }
 
-/// As opened(). Lost says where the server is not.
+/// Opens a session as opened() does. Lost names the place where no server is.
 inline asio::awaitable<AsyncSession> opened_at(std::shared_ptr<Lines> lines, std::string place) {
   try {
     co_await lines->open();

@@ -209,7 +209,7 @@ class ProcessConnection final : public StreamConnection<asio::local::stream_prot
       std::packaged_task<void()> task([process] { end(process, kPatience); });
       ended_ = task.get_future();
       std::thread(std::move(task)).detach();
-    } catch (const std::exception&) {  // there is no room for a thread
+    } catch (const std::exception&) {  // a thread cannot be made
       end(process, {});
     }
   }

@@ -39,7 +39,7 @@ class Palette {
 };
 
 /// A stack of screens that the client makes, as the server does for the field `grey84xN`: the last screens,
-/// oldest first, and zeros where there was none. For `observe("grey84:delta")`, whose replies are shorter
+/// oldest first, and zeros before the first one. For `observe("grey84:delta")`, whose replies are shorter
 /// than those of a stack.
 class ScreenStack {
  public:

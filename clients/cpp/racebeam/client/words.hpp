@@ -31,7 +31,7 @@ class Setting {
   Setting(std::string_view key, const Value& value)
       : text_(std::string(key).append("=").append(detail::to_text(value))) {}
 
-  /// As it is sent.
+  /// The word as the client sends it.
   const std::string& text() const noexcept { return text_; }
 
  private:

@@ -68,7 +68,7 @@ function endpoint(address) {
   return url.href;
 }
 
-/** Opens a connection to ws://HOST:PORT or wss://HOST:PORT. `Socket`: the class WebSocket, where the platform has none. */
+/** Opens a connection to ws://HOST:PORT or wss://HOST:PORT. `Socket` is the class WebSocket, if the platform lacks it. */
 export function openWebSocket(address, { timeout, WebSocket: Socket = globalThis.WebSocket }) {
   if (!Socket) {
     throw new TypeError(`this version of Node has no WebSocket for ${address}; Node 22 has one, and the option WebSocket takes one`);

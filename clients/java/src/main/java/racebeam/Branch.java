@@ -6,7 +6,7 @@ import java.util.List;
  * What a list of actions of {@code branch} led to.
  *
  * @param rewards the reward of each act
- * @param rewardsB those of player B; empty where the game's rules have none
+ * @param rewardsB the rewards of player B; empty if the game's rules have only one player
  * @param group the whole group: reward, acts, terminated, truncated, lives, and state with {@code keep}
  */
 public record Branch(List<Long> rewards, List<Long> rewardsB, Group group) {

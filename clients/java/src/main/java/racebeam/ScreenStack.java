@@ -3,8 +3,9 @@ package racebeam;
 import java.util.Arrays;
 
 /**
- * A stack of screens that the client makes, as the server does for the field {@code grey84xN}: of the last, oldest first,
- * zeros where there was none. For {@code observe("grey84:delta")}, of which a reply has fewer bytes than of a stack.
+ * A stack of screens that the client makes, as the server does for the field {@code grey84xN}. It has the last screens,
+ * oldest first, and zeros before the first one. With {@code observe("grey84:delta")}, a reply has fewer bytes than with
+ * a stack of the server.
  */
 public final class ScreenStack {
   private final int depth;
