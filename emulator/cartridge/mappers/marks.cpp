@@ -11,17 +11,20 @@ namespace {
 // Tools that make images of these schemes write a text into them.
 struct Text {
   std::string_view text;
-  int hits;           // short texts must be there more than once
-  std::size_t least;  // bytes of the smallest image of the scheme
+  int hits;                 // short texts must be there more than once, close together
+  std::size_t least, most;  // bytes of an image of the scheme
   std::string_view scheme;
 };
 
+constexpr std::size_t kAnySize = ~std::size_t{0};
 constexpr Text kTexts[] = {
-    {"DPC+", 1, 8192, "DPC+"},   {"PLUSCDFJ", 1, 8192, "CDFJ+"}, {"CDF", 2, 8192, "CDF"},
-    {"BUS", 2, 32768, "BUS"},    {"EFEF", 1, 65536, "EF"},       {"EFSC", 1, 65536, "EFSC"},
-    {"DFDF", 1, 131072, "DF"},   {"DFSC", 1, 131072, "DFSC"},    {"BFBF", 1, 262144, "BF"},
-    {"BFSC", 1, 262144, "BFSC"}, {"TJ3E", 1, 2048, "3E+"},       {"3EX", 2, 8192, "3EX"},
-    {"MDMC", 1, 8192, "MDM"},    {"LENIN", 1, 32768, "CTY"},
+    {"DPC+", 1, 8192, kAnySize, "DPC+"}, {"PLUSCDFJ", 1, 8192, kAnySize, "CDFJ+"},
+    {"CDF", 2, 8192, kAnySize, "CDF"},   {"BUS", 2, 32768, kAnySize, "BUS"},
+    {"EFEF", 1, 65536, 65536, "EF"},     {"EFSC", 1, 65536, 65536, "EFSC"},
+    {"DFDF", 1, 131072, 131072, "DF"},   {"DFSC", 1, 131072, 131072, "DFSC"},
+    {"BFBF", 1, 262144, 262144, "BF"},   {"BFSC", 1, 262144, 262144, "BFSC"},
+    {"TJ3E", 1, 2048, kAnySize, "3E+"},  {"3EX", 2, 8192, kAnySize, "3EX"},
+    {"MDMC", 1, 8192, kAnySize, "MDM"},  {"LENIN", 1, 32768, kAnySize, "CTY"},
 };
 
 // Other images have only the code that accesses the hot spots: addresses from `first` on, `step` apart, or
@@ -44,11 +47,15 @@ constexpr std::size_t kMostHotSpots = 64, kBank = 4096;
 constexpr int kAlike = 4;  // banks with an access at one offset
 
 bool has(std::string_view image, const Text& wanted) {
-  if (image.size() < wanted.least) return false;
+  if (image.size() < wanted.least || image.size() > wanted.most) return false;
   int hits = 0;
-  for (auto at = image.find(wanted.text); at != image.npos && hits < wanted.hits; ++hits)
-    at = image.find(wanted.text, at + wanted.text.size());
-  return hits == wanted.hits;
+  std::size_t last = 0;
+  for (auto at = image.find(wanted.text); at != image.npos; at = image.find(wanted.text, at + 1)) {
+    hits = at - last < kBank ? hits + 1 : 1;
+    if (hits == wanted.hits) return true;
+    last = at;
+  }
+  return false;
 }
 
 // LDA, STA, BIT and NOP of an absolute address: the instructions that select a bank and change little else.

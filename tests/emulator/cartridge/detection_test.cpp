@@ -212,6 +212,7 @@ TEST_CASE("An image with the text of a scheme that is not implemented is refused
     CHECK(scheme_of(rom, "3F").name == "3F");  // who names a scheme knows better
   }
   CHECK(scheme_of(mixed(32768, {{700, {'C', 'D', 'F'}}})).name == "F4");
+  CHECK(scheme_of(mixed(32768, {{700, {'C', 'D', 'F'}}, {5700, {'C', 'D', 'F'}}})).name == "F4");
 }
 
 TEST_CASE("EF, DF and BF are found by the text that their tools write") {
@@ -220,7 +221,8 @@ TEST_CASE("EF, DF and BF are found by the text that their tools write") {
          {"DF", with_text(131072, "DFDF"), "DF"},
          {"DFSC", with_text(131072, "DFSC"), "DFSC"},
          {"BF", with_text(262144, "BFBF"), "BF"},
-         {"BFSC", with_text(262144, "BFSC"), "BFSC"}});
+         {"BFSC", with_text(262144, "BFSC"), "BFSC"},
+         {"EF's text in a larger image", with_text(131072, "EFEF"), "MC"}});
 }
 
 // `code` with an absolute address.
