@@ -20,6 +20,7 @@ constexpr std::uint64_t kSpecialRegisters = bit(VBLANK) | bit(HMCLR);
 
 std::size_t ram_beside_state(const Scheme& scheme) { return scheme.ram > kRamInState ? scheme.ram : 0; }
 
+constexpr unsigned kRiot = 0x80;  // the address bit that selects the RIOT
 constexpr int kLineLimit = 290, kLineLimitPal = 342;
 constexpr std::uint64_t kHash = 0x9E3779B97F4A7C15;
 constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::min() / 4;
@@ -32,7 +33,8 @@ Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
       slot{*rom, scheme_of(*rom, properties.scheme), state, {}, map},
       cartridge_ram(ram_beside_state(slot.scheme)),
       rom_(std::move(rom)),
-      ports_(properties) {
+      ports_(properties),
+      unwatched_(slot.scheme.watches_riot ? 0 : kRiot) {
   slot.ram = cartridge_ram.empty() ? std::span(state.cartridge.ram).first(slot.scheme.ram)
                                    : std::span(cartridge_ram);
   if (slot.scheme.power_on != nullptr) slot.scheme.power_on(slot);
@@ -225,9 +227,11 @@ Delivery Board::write_cartridge(std::uint16_t address, std::uint8_t value) {
 
 std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
   if (address & 0x1000) return read_cartridge(address, cycle);
-  if (address & 0x0080) return read_riot(address, cycle);
-  if (slot.scheme.watches_tia) [[unlikely]]
+  if (address & unwatched_) return read_riot(address, cycle);
+  if (slot.scheme.watches_tia) [[unlikely]] {
     read_cartridge(address, cycle);
+    if (address & kRiot) return read_riot(address, cycle);
+  }
   return read_tia(address, latch, cycle);
 }
 
@@ -241,12 +245,16 @@ std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std:
 std::int32_t Board::write_anywhere(std::uint16_t address, std::uint8_t value, std::int32_t cycle,
                                    bool after_read) {
   const bool to_cartridge = (address & 0x1000) != 0;
-  if (!to_cartridge && (address & 0x0080) != 0) {
+  if (!to_cartridge && (address & unwatched_) != 0) {
     write_riot(address, value, cycle);
     return cycle;
   }
   if (to_cartridge || slot.scheme.watches_tia) {
     if (write_cartridge(address, value) == Delivery::kTaken) return cycle;
+    if (!to_cartridge && (address & kRiot) != 0) {
+      write_riot(address, value, cycle);
+      return cycle;
+    }
   }
   return write_tia(address, value, cycle, after_read);
 }

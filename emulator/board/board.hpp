@@ -135,6 +135,7 @@ class Board {
   std::shared_ptr<const Rom> rom_;
   std::array<KnownWindow, 64> known_windows_{};
   Ports ports_;
+  const std::uint32_t unwatched_;  // the bit of addresses that only the RIOT sees; 0 if the cartridge watches
   std::uint64_t plain_registers_ = 0;
   // The first cycle, at a line's start, from which a TIA write closes the frame.
   std::int32_t overlong_cycle_ = 0;

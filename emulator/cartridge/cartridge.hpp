@@ -37,8 +37,8 @@ using PortReader = std::uint8_t (*)(CartridgeSlot&, std::uint16_t address, std::
 struct MapperOps {
   void (*reset)(CartridgeSlot&);  // sets the initial banks
   void (*map)(CartridgeSlot&);    // maps what the banks select
-  PortReader read;                // reads a hidden page, or watches a read of the TIA
-  // Any cartridge address, or a watched TIA address.
+  PortReader read;                // reads a hidden page, or watches a read of the TIA or the RIOT
+  // Any cartridge address, or a watched address of the TIA or the RIOT.
   Delivery (*write)(CartridgeSlot&, std::uint16_t address, std::uint8_t value);
 
   // Whether the cartridge can be in `state`, which comes from an untrusted source. It must check every value
@@ -60,6 +60,8 @@ struct Scheme : MapperOps {
   unsigned ram;      // bytes on the cartridge, or of its registers
   bool random_ram;   // filled with random bytes at every reset
   bool watches_tia;  // takes part in accesses to the TIA's addresses
+  // Sees accesses to the RIOT's ports and timer, too; then watches_tia must be set. RAM is never watched.
+  bool watches_riot = false;
 };
 
 // RAM up to this size is part of the state. Larger RAM has a block of its own, which keeps the state of most

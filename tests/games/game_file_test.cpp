@@ -94,7 +94,7 @@ TEST_CASE("an image's cartridge scheme can be asked for, and two dumps always ha
   CHECK_THAT(
       error_in("[[image]]\nscheme = 'F9'"),
       Contains("my.toml:3: image.scheme: the cartridge scheme F9 is not known") && Contains("F8 swapped"));
-  for (const std::string name : {"0840", "4A50", "DPC+", "CTY"})
+  for (const std::string name : {"WD", "4A50", "DPC+", "CTY"})
     CHECK_THAT(error_in("[[image]]\nscheme = '" + name + "'"),
                Contains("my.toml:3: image.scheme: the cartridge scheme " + name + " is not implemented"));
   for (const char* md5 : {"bc24440b59092559a1ec26055fd1270e", "75ee371ccfc4f43e7d9b8f24e1266b55"})

@@ -5,17 +5,41 @@
 // 16, 32 or 64 banks, selected from $1FE0, $1FC0 or $1F80 on.
 #pragma once
 
+#include <algorithm>
+#include <span>
+
 #include "emulator/cartridge/cartridge.hpp"
 
 namespace racebeam::atari {
 
 constexpr unsigned kBankSize = 4096;
 
+inline unsigned image_banks(const CartridgeSlot& slot) {
+  return static_cast<unsigned>(slot.rom.size()) / kBankSize;
+}
+
 inline const std::uint8_t* bank(const CartridgeSlot& slot) {
   return slot.rom.data() + kBankSize * slot.state.bank[0];
 }
 
-inline void reset(CartridgeSlot& slot) { slot.state.bank[0] = slot.scheme.initial; }
+// Whether a bank ends with vectors. Banks that never start often end with filling.
+inline bool has_vectors(const CartridgeSlot& slot, unsigned number) {
+  const std::span end = std::span(slot.rom).subspan(kBankSize * (number + 1) - 4, 4);
+  const auto filled = [&](std::uint8_t filling) { return std::ranges::count(end, filling) == 4; };
+  return !filled(0) && !filled(0xFF);
+}
+
+// The scheme's initial bank, unless only others have vectors.
+inline unsigned start_bank(const CartridgeSlot& slot) {
+  const unsigned banks = slot.scheme.banks, initial = slot.scheme.initial;
+  for (unsigned turn = 0; banks > 1 && turn < banks; ++turn) {
+    const unsigned number = (initial + turn) % banks;
+    if (has_vectors(slot, number)) return number;
+  }
+  return initial;
+}
+
+inline void reset(CartridgeSlot& slot) { slot.state.bank[0] = static_cast<std::uint8_t>(start_bank(slot)); }
 
 inline void map_plain(CartridgeSlot& slot) {
   const unsigned size = slot.scheme.image;  // 2K shows twice

@@ -147,6 +147,9 @@ std::string_view scheme_by_size(const Rom& rom) {
     case 12288: return "FASC";
     case 16384: return name_16k(rom);
     case 32768: return has_ports(rom) ? "F4SC" : name_large(rom, "F4");
+    case 24576:
+    case 28672:
+    case 29696: return name_large(rom, "FA2");
     case 65536: return name_large(rom, "MB");
     case 131072: return name_large(rom, "MC");
     default: return rom.size() < tigervision::kBankSize ? "" : name_large(rom, "");
@@ -157,7 +160,7 @@ std::string_view scheme_by_size(const Rom& rom) {
 
 std::string_view scheme_name(const Rom& rom) {
   if (const std::string_view text = scheme_by_text(rom); !text.empty()) return text;
-  const std::string_view accessed = scheme_by_accesses(rom);
+  const std::string_view accessed = halves_equal(rom) ? std::string_view() : scheme_by_accesses(rom);
   return accessed.empty() ? scheme_by_size(rom) : with_ports(accessed, has_ports(rom));
 }
 

@@ -7,14 +7,19 @@
 
 #include "emulator/cartridge/cartridge.hpp"
 #include "emulator/cartridge/mappers/activision.hpp"
+#include "emulator/cartridge/mappers/amiga.hpp"
 #include "emulator/cartridge/mappers/atari.hpp"
+#include "emulator/cartridge/mappers/coleco.hpp"
 #include "emulator/cartridge/mappers/commavid.hpp"
 #include "emulator/cartridge/mappers/dpc.hpp"
 #include "emulator/cartridge/mappers/dynacom.hpp"
+#include "emulator/cartridge/mappers/jentzsch.hpp"
 #include "emulator/cartridge/mappers/megacart.hpp"
 #include "emulator/cartridge/mappers/mnetwork.hpp"
 #include "emulator/cartridge/mappers/parker.hpp"
+#include "emulator/cartridge/mappers/starcastle.hpp"
 #include "emulator/cartridge/mappers/starpath.hpp"
+#include "emulator/cartridge/mappers/superbank.hpp"
 #include "emulator/cartridge/mappers/tigervision.hpp"
 #include "emulator/cartridge/mappers/ua.hpp"
 #include "emulator/cartridge/mappers/unsupported.hpp"
@@ -41,7 +46,17 @@ constexpr MapperOps kFe       = {activision::reset,      activision::map,     no
 constexpr MapperOps kDpc      = {dpc::reset,             dpc::map,            dpc::read,      dpc::write,            dpc::admits, dpc::power_on, dpc::port_reader};
 constexpr MapperOps k3f       = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write,    tigervision::admits};
 constexpr MapperOps k3e       = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e, tigervision::admits_3e};
-constexpr MapperOps kUa       = {atari::reset,           ua::map,             ua::read,       ua::write,             atari::admits};
+constexpr MapperOps kJane     = {atari::reset,           atari::map,          coleco::read,   coleco::write,         atari::admits};
+constexpr MapperOps k3ePlus   = {jentzsch::reset,        jentzsch::map,       no_hidden_page, jentzsch::write,       jentzsch::admits};
+constexpr MapperOps kFa2      = {starcastle::reset,      starcastle::map,     starcastle::read, starcastle::write,   starcastle::admits};
+constexpr MapperOps kFc       = {amiga::reset,           amiga::map,          amiga::read,    amiga::write,          amiga::admits};
+constexpr MapperOps kSb       = {superbank::reset,       ua::map,             superbank::read, superbank::write,     superbank::admits};
+constexpr MapperOps k03e0     = {parker::reset,          parker::map_03e0,    parker::read_03e0, parker::write_03e0, parker::admits};
+constexpr MapperOps kUa       = ua::kOps<ua::kUa>;
+constexpr MapperOps kUaClone  = ua::kOps<ua::kClone>;
+constexpr MapperOps kUasw     = ua::kOps<ua::kSwapped>;
+constexpr MapperOps k0fa0     = ua::kOps<ua::k0fa0>;
+constexpr MapperOps k0840     = ua::kOps<ua::k0840>;
 constexpr MapperOps kCv       = {commavid::reset_empty,  commavid::map,       no_hidden_page, commavid::write,       no_banks};
 constexpr MapperOps kCvFilled = {commavid::reset_filled, commavid::map,       no_hidden_page, commavid::write,       no_banks};
 constexpr MapperOps kAr       = {starpath::reset,        starpath::map,       starpath::read, starpath::write,       starpath::admits};
@@ -63,13 +78,23 @@ constexpr Scheme kSchemes[] = {
     {kAtari,    "F4",          32768, 0xFF4,    8, 0,     0, false, false},
     {kF4sc,     "F4SC",        32768, 0xFF4,    8, 0,   128, true,  false},
     {kAtari,    "FASC",        12288, 0xFF8,    3, 2,   256, true,  false},
+    {kFa2,      "FA2",         24576, 0xFF5,    7, 0,   256, true,  false},
+    {kJane,     "JANE",        16384, 0xFF0,    4, 0,     0, false, false},
+    {kFc,       "FC",           8192, 0,        0, 0,     0, false, false},
     {kE0,       "E0",           8192, 0,        0, 0,     0, false, false},
     {kE7,       "E7",          16384, 0,        0, 0,  2048, true,  false},
     {kFe,       "FE",           8192, 0,        0, 0,     0, false, false},
     {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false, false},
     {k3f,       "3F",           2048, 0,        0, 0,     0, false, true},
     {k3e,       "3E",           2048, 0,        0, 0, 32768, true,  true},
+    {k3e,       "3EX",          2048, 0,        0, 0, 262144, false, true},
+    {k3ePlus,   "3E+",          2048, 0,        0, 0, 32768, true,  true},
     {kUa,       "UA",           8192, 0,        2, 0,     0, false, true},
+    {kUaClone,  "UA clone",     8192, 0,        2, 0,     0, false, true, true},
+    {kUasw,     "UASW",         8192, 0,        2, 0,     0, false, true, true},
+    {k0fa0,     "0FA0",         8192, 0,        2, 0,     0, false, true, true},
+    {k0840,     "0840",         8192, 0,        2, 0,     0, false, true},
+    {k03e0,     "03E0",         8192, 0,        0, 0,     0, false, true, true},
     {kCv,       "CV",           2048, 0,        0, 0,  1024, true,  false},
     {kCvFilled, "CV 4K",        4096, 0,        0, 0,  1024, false, false},
     {kAr,       "AR",           8448, 0,        0, 0,  6144, true,  false},
@@ -79,6 +104,7 @@ constexpr Scheme kSchemes[] = {
     {kAtari,    "DFSC",       131072, 0xFC0,   32, 15,  128, true,  false},
     {kAtari,    "BF",         262144, 0xF80,   64, 1,     0, false, false},
     {kAtari,    "BFSC",       262144, 0xF80,   64, 15,  128, true,  false},
+    {kSb,       "SB",         131072, 0,        0, 0,     0, false, true},
     {kMb,       "MB",          65536, 0xFF0,   16, 1,     0, false, false},
     {kMc,       "MC",         131072, 0,        0, 0, 32768, true,  true},
 };

@@ -4,7 +4,7 @@
 //
 // 3E, of Boulder Dash, also has 32 banks of 1K of RAM. Writes to $3F select ROM, to $3E RAM, and no other
 // address selects. RAM is read at $1000 and again at $1400, where it is also written; such a write does not
-// reach the TIA.
+// reach the TIA. 3EX has 256 banks of RAM.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"
@@ -12,11 +12,13 @@
 namespace racebeam::tigervision {
 
 constexpr unsigned kBankSize = 2048;
-constexpr unsigned kRamBankSize = 1024, kRamBanks = 32;
+constexpr unsigned kRamBankSize = 1024;
 
 inline unsigned banks(const CartridgeSlot& slot) {
   return static_cast<unsigned>(slot.rom.size()) / kBankSize;
 }
+
+inline unsigned ram_banks(const CartridgeSlot& slot) { return slot.scheme.ram / kRamBankSize; }
 
 inline void reset(CartridgeSlot& slot) { slot.state.bank[0] = 0; }
 
@@ -59,14 +61,14 @@ inline void map_3e(CartridgeSlot& slot) {
 }
 
 inline void select_3e(CartridgeSlot& slot, bool ram, std::uint8_t value) {
-  slot.state.bank[ram ? 1 : 0] = static_cast<std::uint8_t>(value % (ram ? kRamBanks : banks(slot)));
+  slot.state.bank[ram ? 1 : 0] = static_cast<std::uint8_t>(value % (ram ? ram_banks(slot) : banks(slot)));
   slot.state.bank[2] = ram;
   map_3e(slot);
 }
 
 inline bool admits_3e(const CartridgeSlot& slot, const CartridgeState& state) {
   const auto& bank = state.bank;
-  return bank[0] < banks(slot) && bank[1] < kRamBanks && bank[2] <= 1 && banks_unused(state, 3);
+  return bank[0] < banks(slot) && bank[1] < ram_banks(slot) && bank[2] <= 1 && banks_unused(state, 3);
 }
 
 inline Delivery write_3e(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {

@@ -6,9 +6,9 @@ namespace racebeam {
 namespace {
 
 constexpr std::string_view kNames[] = {
-    "03E0", "0840", "0FA0", "2IN1", "4IN1",  "8IN1", "16IN1", "32IN1", "64IN1", "128IN1", "3E+", "3EX",
-    "4A50", "BUS",  "CDF",  "CDFJ", "CDFJ+", "CM",   "CTY",   "DEVC",  "DPC+",  "EFF",    "ELF", "FA2",
-    "FC",   "GL",   "JANE", "MDM",  "MVC",   "SB",   "TVBOY", "UASW",  "WD",    "WDSW",   "WF8", "X07",
+    "2IN1", "4IN1", "8IN1",  "16IN1", "32IN1", "64IN1", "128IN1", "4A50", "BUS",
+    "CDF",  "CDFJ", "CDFJ+", "CM",    "CTY",   "DEVC",  "DPC+",   "EFF",  "ELF",
+    "GL",   "MDM",  "MVC",   "TVBOY", "WD",    "WDSW",  "WF8",    "X07",
 };
 
 }  // namespace

@@ -76,11 +76,13 @@ Rom banked_image(const BankScheme& scheme) {
   return rom;
 }
 
-Bench bench_of(const BankScheme& scheme) {
+Bench bench_of(const BankScheme& scheme, Rom rom) {
   Properties properties = ntsc();
   properties.scheme = scheme.name;
-  return Bench(banked_image(scheme), properties);
+  return Bench(std::move(rom), properties);
 }
+
+Bench bench_of(const BankScheme& scheme) { return bench_of(scheme, banked_image(scheme)); }
 
 void check_bank(Bench& bench, const Rom& rom, unsigned bank) {
   for (unsigned offset = 0x100; offset < 0xF80; offset += 61)
@@ -147,6 +149,23 @@ TEST_CASE("A reset selects the first bank and fills the RAM anew from the genera
     CHECK(unsigned{console.peek(0x1F10)} == scheme.initial);
     CHECK((before.cartridge.ram != console.state().cartridge.ram) == scheme.ram);
   }
+}
+
+TEST_CASE("A reset passes over banks that end with filling, unless all do") {
+  for (const BankScheme& scheme : kBankSchemes)
+    for (const int filling : {0x00, 0xFF}) {
+      INFO(scheme.name << " " << filling);
+      const auto banks = static_cast<unsigned>(scheme.size / 4096);
+      Rom rom = banked_image(scheme);
+      for (unsigned turn = 0; turn < banks; ++turn) {
+        Bench bench = bench_of(scheme, rom);
+        CHECK(unsigned{bench.see(0x1F10)} == (scheme.initial + turn) % banks);
+        const unsigned end = ((scheme.initial + turn) % banks + 1) * 4096;
+        std::fill_n(rom.begin() + end - 4, 4, filling);
+      }
+      Bench bench = bench_of(scheme, rom);
+      CHECK(unsigned{bench.see(0x1F10)} == scheme.initial);
+    }
 }
 
 TEST_CASE("Case 3: F8SC") {

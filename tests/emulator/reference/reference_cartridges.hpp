@@ -1,4 +1,4 @@
-// Models of the cartridge schemes, written only from docs/spec/cartridges.md, 5 to 10. Each decodes every
+// Models of the cartridge schemes, written only from docs/spec/cartridges.md, 5 to 11. Each decodes every
 // address anew. They use no memory map, and nothing of emulator/.
 #pragma once
 
@@ -12,7 +12,9 @@ namespace racebeam::test {
 
 using Image = std::vector<std::uint8_t>;
 
-// `a` has 13 bits: a cartridge address, or below $40. Time is in cycles.
+constexpr unsigned kNotOurs = 0x100;  // above all bytes: what the cartridge does not say
+
+// `a` has 13 bits. Time is in cycles.
 struct CartridgeModel {
   explicit CartridgeModel(Image bytes) : image(std::move(bytes)) {}
   virtual ~CartridgeModel() = default;
@@ -80,11 +82,13 @@ struct ModelE7 : Copyable<ModelE7> {
   }
 };
 
-struct Model3e : Copyable<Model3e> {
-  using Copyable::Copyable;
+template <unsigned kRamBanks>
+struct Model3eLike : Copyable<Model3eLike<kRamBanks>> {
+  using Copyable<Model3eLike>::Copyable;
+  using CartridgeModel::image;
   unsigned rom_bank = 0, ram_bank = 0;
   bool ram_shows = false;
-  std::vector<unsigned> ram = std::vector<unsigned>(32768);
+  std::vector<unsigned> ram = std::vector<unsigned>(kRamBanks * 1024);
   unsigned read(unsigned a, int) override {
     const bool fixed = a >= 0x1800;
     if (fixed) return image[image.size() - 2048 + (a & 0x7FF)];
@@ -95,12 +99,30 @@ struct Model3e : Copyable<Model3e> {
       rom_bank = v % static_cast<unsigned>(image.size() / 2048);
       ram_shows = false;
     } else if ((a & 0xFFF) == 0x3E) {
-      ram_bank = v % 32;
+      ram_bank = v % kRamBanks;
       ram_shows = true;
     } else if (ram_shows && a >= 0x1400 && a <= 0x17FF) {
       ram[ram_bank * 1024 + (a & 0x3FF)] = v;
     }
   }
+};
+
+using Model3e = Model3eLike<32>;
+
+struct ModelJane : Copyable<ModelJane> {
+  using Copyable::Copyable;
+  unsigned bank = 0;
+  void access(unsigned a) {
+    if (a == 0x1FF0) bank = 0;
+    if (a == 0x1FF1) bank = 1;
+    if (a == 0x1FF8) bank = 2;
+    if (a == 0x1FF9) bank = 3;
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    return image[bank * 4096 + (a & 0xFFF)];
+  }
+  void write(unsigned a, unsigned) override { access(a); }
 };
 
 struct ModelCv : Copyable<ModelCv> {
@@ -134,6 +156,108 @@ struct ModelLarge : Copyable<ModelLarge<kFirst, kBanks, kInitial, kRam>> {
   void write(unsigned a, unsigned v) override {
     access(a);
     if (a < 0x1000 + kRam) ram[a - 0x1000] = v;
+  }
+};
+
+// UA, its clones, 0FA0 and 0840.
+template <unsigned kMask, unsigned kBank0, unsigned kBank1>
+struct ModelTwo : Copyable<ModelTwo<kMask, kBank0, kBank1>> {
+  using Copyable<ModelTwo>::Copyable;
+  unsigned bank = 0;
+  void access(unsigned a) {
+    if ((a & kMask) == kBank0) bank = 0;
+    if ((a & kMask) == kBank1) bank = 1;
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    return a < 0x1000 ? kNotOurs : this->image[bank * 4096 + (a & 0xFFF)];
+  }
+  void write(unsigned a, unsigned) override { access(a); }
+};
+
+struct Model03e0 : Copyable<Model03e0> {
+  using Copyable::Copyable;
+  std::array<unsigned, 4> slice = {4, 5, 6, 7};
+  void access(unsigned a) {
+    if (a < 0x380 || a > 0x3FF) return;
+    if ((a & 0x10) == 0) slice[0] = a & 7;
+    if ((a & 0x20) == 0) slice[1] = a & 7;
+    if ((a & 0x40) == 0) slice[2] = a & 7;
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    return a < 0x1000 ? kNotOurs : image[slice[a >> 10 & 3] * 1024 + (a & 0x3FF)];
+  }
+  void write(unsigned a, unsigned) override { access(a); }
+};
+
+struct ModelSb : Copyable<ModelSb> {
+  using Copyable::Copyable;
+  unsigned bank = static_cast<unsigned>(image.size() / 4096 - 1);
+  void access(unsigned a) {
+    if (a >= 0x800 && a <= 0x83F) bank = (a & 0x3F) % static_cast<unsigned>(image.size() / 4096);
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    return a < 0x1000 ? kNotOurs : image[bank * 4096 + (a & 0xFFF)];
+  }
+  void write(unsigned a, unsigned) override { access(a); }
+};
+
+struct ModelFa2 : Copyable<ModelFa2> {
+  using Copyable::Copyable;
+  unsigned bank = 0;
+  std::array<unsigned, 256> ram{};
+  void access(unsigned a) {
+    const bool exists = a >= 0x1FF5 && a <= 0x1FFB && (a - 0x1FF5 + 1) * 4096 <= image.size();
+    if (exists) bank = a - 0x1FF5;
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    if (a >= 0x1100 && a <= 0x11FF) return ram[a - 0x1100];
+    const unsigned byte = image[image.size() % 4096 + bank * 4096 + (a & 0xFFF)];
+    return a == 0x1FF4 ? byte & 0xBF : byte;
+  }
+  void write(unsigned a, unsigned v) override {
+    access(a);
+    if (a <= 0x10FF) ram[a - 0x1000] = v;
+  }
+};
+
+struct Model3ePlus : Copyable<Model3ePlus> {
+  using Copyable::Copyable;
+  struct Window {
+    bool ram = false;
+    unsigned bank = 0;
+  };
+  std::array<Window, 4> windows{};
+  std::vector<unsigned> ram = std::vector<unsigned>(32768);
+  unsigned read(unsigned a, int) override {
+    if (a < 0x1000) return kNotOurs;
+    const Window& window = windows[a >> 10 & 3];
+    return window.ram ? ram[window.bank * 512 + (a & 0x1FF)] : image[window.bank * 1024 + (a & 0x3FF)];
+  }
+  void write(unsigned a, unsigned v) override {
+    if (a == 0x3F) windows[v >> 6] = {false, v % 64 % static_cast<unsigned>(image.size() / 1024)};
+    if (a == 0x3E) windows[v >> 6] = {true, v % 64};
+    if (a < 0x1000) return;
+    const Window& window = windows[a >> 10 & 3];
+    if (window.ram && (a & 0x200) != 0) ram[window.bank * 512 + (a & 0x1FF)] = v;
+  }
+};
+
+struct ModelFc : Copyable<ModelFc> {
+  using Copyable::Copyable;
+  unsigned bank = 0, next = 0;
+  unsigned read(unsigned a, int) override {
+    if (a == 0x1FFC) bank = next;
+    return image[bank * 4096 + (a & 0xFFF)];
+  }
+  void write(unsigned a, unsigned v) override {
+    const auto banks = static_cast<unsigned>(image.size() / 4096);
+    if (a == 0x1FF8) next = v % 4 % banks;
+    if (a == 0x1FF9) next = (4 * v < banks ? 4 * v + next % 4 : v) % banks;
+    if (a == 0x1FFC) bank = next;
   }
 };
 
@@ -195,12 +319,11 @@ struct ModelAr : Copyable<ModelAr> {
       configuration = hold;
     }
   }
-  static constexpr unsigned kBios = 0x100;  // above all bytes: the specification does not give the contents
   unsigned read(unsigned a, int) override {
     static constexpr unsigned kBanks[8][2] = {{2, 3}, {0, 3}, {2, 0}, {0, 2}, {2, 3}, {1, 3}, {2, 1}, {1, 2}};
     access(a);
     const unsigned bank = kBanks[configuration >> 2 & 7][a >> 11 & 1];
-    return bank == 3 ? kBios : ram[bank * 2048 + (a & 0x7FF)];
+    return bank == 3 ? kNotOurs : ram[bank * 2048 + (a & 0x7FF)];
   }
   void write(unsigned a, unsigned) override { access(a); }
 };

@@ -77,7 +77,7 @@ TEST_CASE("The console of an image can be told, is shown, and is refused where i
   CHECK(value(known, "left") == "joystick");
   for (const auto& [words, sentence] :
        {std::pair("scheme=F8", "the cartridge scheme F8 needs an image of at least 8192 bytes"),
-        {"scheme=0840", "the cartridge scheme 0840 is not implemented"},
+        {"scheme=4A50", "the cartridge scheme 4A50 is not implemented"},
         {"scheme=F9", "the cartridge scheme F9 is not known"},
         {"left=keyboard", "left is 'keyboard'; it takes joystick, paddles"},
         {"format=hd", "format is 'hd'; it takes auto, ntsc, pal, pal60, secam"},
