@@ -18,7 +18,8 @@ void add_image_options(Subcommand& command, ImageOptions& options) {
       .one_a_time()
       .variable("RACEBEAM_ROMS");
   command.option("--game-file", options.game_file,
-                 "A game file, or a folder of them, with the rules of images in these folders that it lists");
+                 "A game file, or a folder of them, with the rules of images that it lists, in these folders "
+                 "or built in");
   command.option("--threads", options.threads, "Threads that play; 0: one for each processor")
       .check(whole_number(0, kMostThreads))
       .shows_default();
@@ -33,6 +34,7 @@ Images images_of(const ImageOptions& options) {
     images.add_folder(folder, own.games());
     places += ", --roms " + folder;
   }
+  images.add_built_in(own.games());
   own.check_use(images, places);
   return images;
 }

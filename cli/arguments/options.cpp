@@ -81,9 +81,8 @@ void add_machine_options(Subcommand& command, MachineOptions& options) {
       command.option("--game", options.game, "Use the rule of this game of the catalogue (racebeam games)");
   command
       .option("--game-file", options.game_file,
-              "Use the rule of this game file for the image, and for those of --roms that it lists; in a "
-              "folder, the "
-              "file that is for an image")
+              "Use the rule of this game file for the image, and for those of --roms and those that are "
+              "built in that it lists; in a folder, the file that is for an image")
       .excludes(game);
   add_console_options(command, options.console);
   const auto add_seed = [&command](const std::string& name, std::uint32_t& seed, const std::string& help) {

@@ -196,6 +196,7 @@ Images offered_images(const ServeOptions& options) {
                     options.machine.console);
   const OwnGames own(options.machine.game_file.value_or(""));
   if (!options.roms.empty()) images.add_folder(options.roms, own.games());
+  images.add_built_in(own.games());
   const bool is_given = !options.machine.rom.empty() && own.games().size() == 1;  // to the image of --rom
   if (!is_given) own.check_use(images, places_of_images(options));
   return images;

@@ -7,9 +7,28 @@
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
+namespace {
 
-Images::Images() {
-  for (const BuiltInImage& image : builtin_images()) add_file("builtin:" + std::string(image.name));
+// What the user says about an image goes before its MD5, and that before the name of its file.
+int certainty_of(RecognisedBy how) {
+  switch (how) {
+    case RecognisedBy::kGivenName:
+    case RecognisedBy::kGivenFile: return 2;
+    case RecognisedBy::kMd5: return 1;
+    default: return 0;
+  }
+}
+
+}  // namespace
+
+Images::Images() { add_built_in({}); }
+
+void Images::add_built_in(const std::vector<std::shared_ptr<const Game>>& own) {
+  for (const BuiltInImage& one : builtin_images()) {
+    auto image = load_image("builtin:" + std::string(one.name));
+    const Recognition recognition = recognise_among(*image, own);
+    add(std::move(image), recognition, {});
+  }
 }
 
 void Images::add_file(const std::string& path, const std::optional<std::string>& game,
@@ -33,13 +52,12 @@ void Images::add_folder(const std::string& folder, const std::vector<std::shared
 
 void Images::add(std::shared_ptr<const Image> image, const Recognition& recognition,
                  const GivenProperties& console) {
-  const bool certain =
-      recognition.how != RecognisedBy::kFileName && recognition.how != RecognisedBy::kNothing;
+  const int certainty = certainty_of(recognition.how);
   const Cartridge cartridge{image, with_given(recognition.game, *image, console)};
   scheme_of(*image->bytes, cartridge.game->properties_for(image->md5).scheme);  // throws
   const auto put = [&](auto& map, const std::string& key) {
-    const auto [place, is_new] = map.try_emplace(key, Entry{cartridge, certain});
-    if (!is_new && certain && !place->second.certain) place->second = {cartridge, certain};
+    const auto [place, is_new] = map.try_emplace(key, Entry{cartridge, certainty});
+    if (!is_new && certainty > place->second.certainty) place->second = {cartridge, certainty};
   };
   put(by_name_, cartridge.game->name);
   put(by_md5_, image->md5);

@@ -22,6 +22,8 @@ class Images {
                 const std::optional<std::string>& game_file = std::nullopt,
                 const GivenProperties& console = {});
   void add_folder(const std::string& folder, const std::vector<std::shared_ptr<const Game>>& own = {});
+  // Gives the images that are part of the program to the user's games, as recognise_among() does.
+  void add_built_in(const std::vector<std::shared_ptr<const Game>>& own);
 
   // name: a game of the catalogue, the stem of an unknown image's file, or an MD5. Returns null if there is
   // no such image.
@@ -39,7 +41,7 @@ class Images {
 
   struct Entry {
     Cartridge cartridge;
-    bool certain;  // recognised by its MD5, or explicitly; preferred to an image that only has the name
+    int certainty;  // of the recognition; among images with one key, the most certain is offered
   };
   std::map<std::string, Entry, std::less<>> by_name_, by_md5_;
 };

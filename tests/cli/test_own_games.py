@@ -46,6 +46,18 @@ class OwnGames(unittest.TestCase):
             self.assertEqual(status, 0, errors)
             self.assertRegex(output.decode(), rf"(?s)^ok game=mine md5={self.md5} rule=1 .*\nok reward=[1-9]\d*\n")
 
+    def test_a_built_in_image_is_of_the_game_whose_file_lists_it(self):
+        image = pathlib.Path(SOURCE, "games/homebrew/beamfall.bin")
+        md5 = hashlib.md5(image.read_bytes()).hexdigest()
+        listed = self.game_file(md5, "listed")
+        lines = f"load listed\nload {md5}\nload beamfall\n".encode()
+        for options in ([], ["--rom", str(image)]):
+            with self.subTest(options=options):
+                status, output, errors = run("serve", "--stdio", "--game-file", listed, *options, data=lines)
+                self.assertEqual(status, 0, errors)
+                games = re.findall(r"^ok game=(\w+)", output.decode(), re.MULTILINE)
+                self.assertEqual(games, ["listed", "listed", "beamfall"])
+
     def test_a_file_for_no_image_is_refused(self):
         other = self.game_file("0" * 32, "other")
         for options in (["--roms", str(self.roms)], []):
