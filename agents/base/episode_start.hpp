@@ -4,6 +4,8 @@
 #include <cstdint>
 
 #include "environment/environment.hpp"
+#include "environment/input/noops.hpp"
+#include "environment/input/play_noops.hpp"
 #include "protocol/line/play_settings.hpp"
 
 namespace racebeam {
@@ -13,7 +15,8 @@ inline void begin_episode(Environment& machine, const PlaySettings& play, std::u
   machine.reload(seed);
   if (play.mode) machine.set_mode(*play.mode);
   if (play.difficulty) machine.set_difficulty(*play.difficulty);
-  if (play.mode || play.difficulty) machine.reset_game();
+  if (play.mode || play.difficulty || play.noop_max > 0) machine.reset_game();
+  play_noops(machine, Noops(seed, play.noop_max).draw());
 }
 
 }  // namespace racebeam

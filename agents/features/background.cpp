@@ -28,10 +28,12 @@ void sample_screens(const Cartridge& cartridge, const SampleSettings& settings, 
                     std::uint64_t seed, const LookAtScreen& look) {
   Random random(seed);
   Environment machine(cartridge.image, cartridge.game, machine_of_samples(settings.play.machine));
+  PlaySettings play = settings.play;
+  play.noop_max = 0;
   const auto any = [&] { return static_cast<int>(random.below(kActions)); };
   int seen = 0;
   while (seen < screens) {
-    begin_episode(machine, settings.play, static_cast<std::uint32_t>(random.next()) | 1U);
+    begin_episode(machine, play, static_cast<std::uint32_t>(random.next()) | 1U);
     machine.set_drawing(Drawing::kNone);
     const int fixed = any();
     for (std::size_t left = random.below(kMostDecisionsBefore); left > 0 && !machine.game_over(); --left)

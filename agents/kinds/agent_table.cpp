@@ -146,7 +146,8 @@ SarsaSettings sarsa_settings(const AgentValues& values) {
 }
 
 std::unique_ptr<Agent> learner(const AgentContext& context, std::unique_ptr<FeatureSet> features) {
-  return std::make_unique<Learner>(std::move(features), sarsa_settings(context.values), context.seed);
+  return std::make_unique<Learner>(std::move(features), sarsa_settings(context.values), context.seed,
+                                   context.actions());
 }
 
 std::unique_ptr<Agent> tile_learner(const AgentContext& context, int colours, bool pairs) {
@@ -187,19 +188,20 @@ std::unique_ptr<Agent> make_blob_prost(const AgentContext& context) {
   const AgentValues& values = context.values;
   return std::make_unique<Learner>(std::make_unique<BlobFeatures>(values.whole("blob_distance")),
                                    FeatureGroups(static_cast<std::size_t>(values["most_features"])),
-                                   sarsa_settings(values), context.seed);
+                                   sarsa_settings(values), context.seed, context.actions());
 }
 
 std::unique_ptr<Agent> make_random(const AgentContext& context) {
-  return std::make_unique<FixedPolicy>(0, 0.0, context.seed);
+  return std::make_unique<FixedPolicy>(0, 0.0, context.seed, context.actions());
 }
 
 std::unique_ptr<Agent> make_const(const AgentContext& context) {
-  return std::make_unique<FixedPolicy>(context.action, 1.0, context.seed);
+  return std::make_unique<FixedPolicy>(context.action, 1.0, context.seed, context.actions());
 }
 
 std::unique_ptr<Agent> make_perturb(const AgentContext& context) {
-  return std::make_unique<FixedPolicy>(context.action, context.values["probability"], context.seed);
+  return std::make_unique<FixedPolicy>(context.action, context.values["probability"], context.seed,
+                                       context.actions());
 }
 
 template <typename Search, typename Settings>

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "agents/base/agent.hpp"
+#include "environment/input/action_set.hpp"
 #include "games/catalogue.hpp"
 #include "protocol/line/play_settings.hpp"
 
@@ -57,6 +58,8 @@ struct AgentContext {
   Cartridge cartridge;
   PlaySettings play;
   GameFacts* facts = nullptr;  // what was discovered about the game before
+
+  const std::vector<int>& actions() const { return actions_of(play.action_set, *cartridge.game); }
 };
 
 // What an experiment does with an agent if the plan says nothing else.

@@ -7,11 +7,12 @@
 
 namespace racebeam {
 
-// Chooses its own action with a probability, else one of all 18. Random has probability 0, Const 1.
+// Chooses its own action with a probability, else one of `actions`. Random has probability 0, Const 1.
 class FixedPolicy final : public Agent {
  public:
-  FixedPolicy(int action, double probability, std::uint64_t seed)
-      : action_(action), probability_(probability), random_(seed) {}
+  FixedPolicy(int action, double probability, std::uint64_t seed,
+              const std::vector<int>& actions = all_actions())
+      : action_(action), probability_(probability), actions_(actions), random_(seed) {}
 
   int begin(const Environment&) override { return choose(); }
   int next(double, const Environment&) override { return choose(); }
@@ -22,11 +23,12 @@ class FixedPolicy final : public Agent {
  private:
   int choose() {
     if (random_.uniform() < probability_) return action_;
-    return static_cast<int>(random_.below(kActions));
+    return actions_[random_.below(actions_.size())];
   }
 
   const int action_;
   const double probability_;
+  const std::vector<int> actions_;
   Random random_;
 };
 

@@ -12,22 +12,29 @@ namespace racebeam {
 
 class Learner final : public Agent {
  public:
-  Learner(std::unique_ptr<FeatureSet> features, const SarsaSettings& settings, std::uint64_t seed)
-      : features_(std::move(features)), sarsa_(settings, features_->size(), seed) {}
+  // actions: those that it chooses from.
+  Learner(std::unique_ptr<FeatureSet> features, const SarsaSettings& settings, std::uint64_t seed,
+          const std::vector<int>& actions = all_actions())
+      : features_(std::move(features)),
+        actions_(actions),
+        sarsa_(settings, features_->size(), seed, static_cast<int>(actions.size())) {}
   Learner(std::unique_ptr<FeatureSet> features, FeatureGroups groups, const SarsaSettings& settings,
-          std::uint64_t seed)
-      : features_(std::move(features)), groups_(std::move(groups)), sarsa_(settings, 0, seed) {}
+          std::uint64_t seed, const std::vector<int>& actions)
+      : features_(std::move(features)),
+        groups_(std::move(groups)),
+        actions_(actions),
+        sarsa_(settings, 0, seed, static_cast<int>(actions.size())) {}
 
   Drawing drawing() const override { return features_->reads_screen() ? Drawing::kLast : Drawing::kNone; }
 
   int begin(const Environment& environment) override {
     features_->begin_episode();
     look(environment);
-    return sarsa_.begin(active_);
+    return action(sarsa_.begin(active_));
   }
   int next(double reward, const Environment& environment) override {
     look(environment);
-    return sarsa_.next(reward, active_);
+    return action(sarsa_.next(reward, active_));
   }
   void end(double reward) override { sarsa_.end(reward); }
 
@@ -43,6 +50,8 @@ class Learner final : public Agent {
   }
 
  private:
+  int action(int number) const { return actions_[static_cast<std::size_t>(number)]; }
+
   void look(const Environment& environment) {
     features_->extract(environment, active_);
     if (!groups_) return;
@@ -52,6 +61,7 @@ class Learner final : public Agent {
 
   const std::unique_ptr<FeatureSet> features_;
   std::optional<FeatureGroups> groups_;
+  const std::vector<int> actions_;
   Sarsa sarsa_;
   ActiveFeatures active_;
 };

@@ -12,17 +12,19 @@ template <typename Search, typename Settings>
 class Planner final : public Agent {
  public:
   Planner(const AgentContext& context, const Settings& settings)
-      : model_(context.cartridge, context.play.machine, static_cast<std::uint32_t>(context.seed) | 1U),
+      : actions_(context.actions()),
+        model_(context.cartridge, context.play.machine, static_cast<std::uint32_t>(context.seed) | 1U,
+               actions_),
         search_(model_, settings, context.seed) {}
 
   int begin(const Environment& environment) override {
     search_.forget();
-    return action_ = search_.choose(MachineModel::state_of(environment));
+    return choose(MachineModel::state_of(environment));
   }
   int next(double, const Environment& environment) override {
     const Model::State state = MachineModel::state_of(environment);
-    search_.keep(action_, state);
-    return action_ = search_.choose(state);
+    search_.keep(number_, state);
+    return choose(state);
   }
   void end(double) override { search_.forget(); }
   std::int64_t searched_frames() const override { return model_.frames(); }
@@ -36,9 +38,15 @@ class Planner final : public Agent {
   }
 
  private:
+  int choose(const Model::State& state) {
+    number_ = search_.choose(state);
+    return actions_[static_cast<std::size_t>(number_)];
+  }
+
+  const std::vector<int> actions_;
   MachineModel model_;
   Search search_;
-  int action_ = 0;
+  int number_ = 0;  // of the last action
 };
 
 }  // namespace racebeam

@@ -32,8 +32,11 @@ Settings with_seed(Settings settings, std::uint32_t seed) {
 
 }  // namespace
 
-MachineModel::MachineModel(const Cartridge& cartridge, Settings settings, std::uint32_t seed)
-    : sticky_(settings.sticky > 0), machine_(cartridge.image, cartridge.game, with_seed(settings, seed)) {
+MachineModel::MachineModel(const Cartridge& cartridge, Settings settings, std::uint32_t seed,
+                           const std::vector<int>& actions)
+    : sticky_(settings.sticky > 0),
+      actions_(actions),
+      machine_(cartridge.image, cartridge.game, with_seed(settings, seed)) {
   machine_.set_drawing(Drawing::kNone);
 }
 
@@ -41,7 +44,7 @@ void MachineModel::enter(const State& state) { machine_.restore(saved_of(state))
 
 double MachineModel::act(int action) {
   const int before = machine_.frame_number();
-  const int reward = machine_.act(action);
+  const int reward = machine_.act(actions_[static_cast<std::size_t>(action)]);
   frames_ += frames_between(before, machine_.frame_number());
   return reward;
 }

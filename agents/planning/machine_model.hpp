@@ -11,13 +11,15 @@ namespace racebeam {
 
 class MachineModel final : public Model {
  public:
-  MachineModel(const Cartridge& cartridge, Settings settings, std::uint32_t seed);
+  // actions: those that are tried, which the planner numbers from 0.
+  MachineModel(const Cartridge& cartridge, Settings settings, std::uint32_t seed,
+               const std::vector<int>& actions = all_actions());
 
   // The state of the game that is played, without its generator and its pictures. Pictures would take most of
   // the memory of a tree, and of the time to save.
   static State state_of(const Environment& game) { return game.save_without_pictures(); }
 
-  int actions() const override { return kActions; }
+  int actions() const override { return static_cast<int>(actions_.size()); }
   void enter(const State& state) override;
   double act(int action) override;
   bool over() const override { return machine_.game_over(); }
@@ -35,6 +37,7 @@ class MachineModel final : public Model {
 
  private:
   const bool sticky_;
+  const std::vector<int> actions_;
   Environment machine_;
   std::int64_t frames_ = 0;
 };

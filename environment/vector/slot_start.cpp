@@ -1,6 +1,7 @@
 // How a slot's episodes begin.
 #include <algorithm>
 
+#include "environment/input/play_noops.hpp"
 #include "environment/vector/slot.hpp"
 
 namespace racebeam {
@@ -138,10 +139,7 @@ bool Slot::has_fire() const {
 }
 
 void Slot::run_noops(int frames) {
-  for (; frames > 0; --frames) {
-    environment_.act_for(1, kNoop);
-    if (environment_.game_over()) environment_.reset_game();
-  }
+  play_noops(environment_, frames);
 }
 
 void Slot::run_noops_and_fire(bool fire) {
