@@ -50,7 +50,7 @@ def published(name: str) -> pd.DataFrame:
 
 PAPER = published("paper2013/games")  # the paper's 55 games in its order: set, title
 HUMAN = published("human")  # random, human: published mean scores of 57 games
-ATARI57 = tuple(HUMAN.index)  # the games of Atari 57: those with published scores of people
+ATARI57 = tuple(published("atari57").index)  # those with published scores of people, as `games = "atari57"` of a plan
 CATALOGUE = tuple(published("catalogue").index)  # the names of all games that racebeam has
 
 

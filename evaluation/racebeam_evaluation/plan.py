@@ -17,13 +17,15 @@ else:
 _MOST_BYTES = 2**24
 _UNKNOWN = "unknown"
 
-# The settings of `load` that make a preset (docs/experiments.md).
-_PRESETS = {
-    "paper2013": {"frame_skip": "5", "sticky": "0", "action_set": "full", "max_episode_frames": "18000"},
-    "machado2018": {"frame_skip": "5", "sticky": "0.25", "action_set": "full", "max_episode_frames": "18000"},
-    "atari100k": {"frame_skip": "4", "sticky": "0", "action_set": "full", "max_episode_frames": "108000"},
+_NAMES = ("frame_skip", "sticky", "action_set", "max_episode_frames", "noop_max")
+# The values of `load` that make a preset of evaluation (docs/experiments.md), in the order of _NAMES.
+PRESETS = {
+    "paper2013": ("5", "0", "full", "18000", "0"),
+    "machado2018": ("5", "0.25", "full", "18000", "0"),
+    "atari100k": ("4", "0", "minimal", "108000", "30"),
+    "dqn2015": ("4", "0", "minimal", "18000", "30"),
 }
-_STARTS = {"noop_max": "0", "life_loss_ends": "0"}  # of each preset; other values make it another one
+_USUAL = {"noop_max": "0", "life_loss_ends": "0"}  # of words that leave it out
 _BUDGETS = ("simulations", "frames")  # an agent's settings that bound its search for a decision
 
 
@@ -98,12 +100,12 @@ def plan_of(folder: pathlib.Path) -> Plan:
 def preset_of(environment: str) -> str:
     """The preset with these words of `load`; "other" if no preset has them."""
     words = dict(word.split("=", 1) for word in environment.split() if "=" in word)
-    if any(words.get(key, value) != value for key, value in _STARTS.items()):
-        return "other"
-    return next(
-        (name for name, wanted in _PRESETS.items() if all(words.get(key) == value for key, value in wanted.items())),
-        "other" if words else _UNKNOWN,
-    )
+    if not words:
+        return _UNKNOWN
+    words = _USUAL | words
+    values = tuple(words.get(name) for name in _NAMES)
+    named = next((name for name, wanted in PRESETS.items() if values == wanted), "other")
+    return named if words["life_loss_ends"] == "0" else "other"
 
 
 def _flat(above: str, tables: dict[str, Any]) -> list[tuple[str, str]]:

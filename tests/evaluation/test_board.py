@@ -18,6 +18,7 @@ package.require()
 from made_results import evaluate  # noqa: E402
 from made_submissions import ABOUT, log, log_path, row_of, seal, submission, write_rows  # noqa: E402
 from racebeam_evaluation import main  # noqa: E402, F401
+from racebeam_evaluation.board.submission import seed_of_phrase  # noqa: E402
 
 OWN_GAMES = package.SOURCE / "docs/results/own-games"
 
@@ -216,6 +217,12 @@ class BadInput(Folder):
         self.log.parent.rename(self.root / "unit")
         self.log.parent.symlink_to(self.root / "unit")
         self.refused("is a link; expected a folder")
+
+    def test_seeds_of_a_phrase(self):
+        path = self.folder / "agent.toml"
+        path.write_text(path.read_text() + 'phrase = "a phrase"\n')
+        self.refused("line 2: environment_seed is '7'; the phrase gives '")
+        self.assertEqual(seed_of_phrase("a phrase", {"game": "beamfall", "trial": "1", "episode": "2"}), 221384134)
 
     def test_agent_toml(self):
         path = self.folder / "agent.toml"

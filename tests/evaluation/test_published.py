@@ -128,6 +128,11 @@ class Data(unittest.TestCase):
         self.assertEqual(preset_of(WORDS.format(sticky=0.25)), "machado2018")
         self.assertEqual(preset_of(words.replace("18000", "3000")), "other")
         self.assertEqual(preset_of(words.replace("noop_max=0", "noop_max=30")), "other")
+        minimal = words.replace("frame_skip=5", "frame_skip=4").replace("full", "minimal").replace("max=0", "max=30")
+        self.assertEqual(preset_of(minimal), "dqn2015")
+        self.assertEqual(preset_of(minimal.replace("18000", "108000")), "atari100k")
+        self.assertEqual(preset_of(minimal.replace("life_loss_ends=0", "life_loss_ends=1")), "other")
+        self.assertEqual(preset_of(minimal.replace("max=30", "max=0")), "other")
         self.assertEqual(preset_of(""), "unknown")
 
     def test_every_published_agent_has_settings(self):

@@ -1,6 +1,7 @@
 """A submission: a folder with agent.toml, results.csv, logs, and curves.csv if the agent was trained."""
 
 import dataclasses
+import hashlib
 import pathlib
 import re
 from typing import Any
@@ -9,15 +10,15 @@ import pandas as pd
 
 from ..csv_file import Kind, read
 from ..errors import BadInput
-from ..plan import preset_of, read_toml
+from ..plan import PRESETS, preset_of, read_toml
 from ..results import DIVERGED, ROLES, Results, read_folder, together
 from .episode_log import EpisodeLog, read_log
 
 _MOST_BYTES = 2**16  # of agent.toml
 _MOST_LETTERS = 4000  # of a text in it
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,99}")
-_PRESETS = ("paper2013", "machado2018", "atari100k", "other")
-_TEXTS = ("agent", "version", "preset", "words", "link", "role")
+_PRESETS = (*PRESETS, "other")
+_TEXTS = ("agent", "version", "preset", "words", "link", "role", "phrase")
 _REQUIRED = ("agent", "version", "preset", "training_frames")
 # The columns of results.csv that the logs confirm.
 _ROW = {
@@ -40,6 +41,7 @@ class About:
     words: str = ""  # the authors'
     link: str = ""
     role: str = "learner"
+    phrase: str = ""  # the seeds follow from it
 
     @property
     def name(self) -> str:
@@ -129,7 +131,15 @@ def _episode(folder: pathlib.Path, line: int, row: dict[str, str], about: About)
             raise BadInput(f"{place}: {column} is '{value}'; its log has '{log.columns.get(column, '')}'")
     if about.preset != (found := preset_of(" ".join(f"{key}={value}" for key, value in log.settings.items()))):
         raise BadInput(f"{place}: the settings of its log are those of {found}; expected {about.preset}")
+    if about.phrase and row["environment_seed"] != (seed := str(seed_of_phrase(about.phrase, row))):
+        raise BadInput(f"{place}: environment_seed is '{row['environment_seed']}'; the phrase gives '{seed}'")
     return Episode(row, path, log)
+
+
+def seed_of_phrase(phrase: str, row: dict[str, str]) -> int:
+    """The seed of the row's episode (docs/episodes.md, "Seeds from a phrase")."""
+    text = "\n".join((phrase, row["game"], row["trial"], row["episode"]))
+    return max(int(hashlib.sha256(text.encode()).hexdigest()[:8], 16) & 0x7FFFFFFF, 1)
 
 
 def _named(results: Results, about: About) -> Results:
