@@ -9,8 +9,8 @@ lose what they did since their last checkpoint, and wait for --requeue before an
 and core-hours, the median and the 95th percentile over --runs simulations. --within HOURS searches for the fewest nodes
 for which 95 % of the simulations end in time.
 
-The lengths of units are those of `racebeam experiment PLAN --dry-run`, which takes all episodes to be as long as they
-may be. With --pilot, a folder of results, they come from its times.csv: seconds of a frame, and frames of an episode,
+The lengths of units are those of `racebeam experiment PLAN --dry-run --unmeasured`, which takes all episodes to be as
+long as they may be. With --pilot, a folder of results, they come from its times.csv: seconds of a frame, and frames of an episode,
 by agent. A unit gets those of a game of the pilot, drawn at random.
 """
 
@@ -150,7 +150,7 @@ class Agent:
 
 
 def agents_of(dry_run: str) -> list[Agent]:
-    """What `racebeam experiment PLAN --dry-run` printed. Raises ValueError for another text."""
+    """What `racebeam experiment PLAN --dry-run --unmeasured` printed. Raises ValueError for another text."""
     rows = [row for row in ROW.findall(dry_run) if row[0] != "all"]
     if not rows:
         raise ValueError("the text has no line such as 'basic 55 units 1000 decisions 0.1 core-hours'")
@@ -282,7 +282,7 @@ def main() -> None:
     options = parse_arguments()
     try:
         asked = subprocess.run(
-            [options.program, "experiment", options.plan, "--dry-run"], capture_output=True, text=True
+            [options.program, "experiment", options.plan, "--dry-run", "--unmeasured"], capture_output=True, text=True
         )
     except OSError as error:
         place = options.program if "/" in options.program else f"{options.program}, looked for in the PATH"

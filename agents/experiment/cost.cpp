@@ -23,11 +23,11 @@ double megabytes_of(const PlanAgent& agent) {
   return std::max(agent.kind->megabytes * effort_of(agent).memory, kMachineMegabytes);
 }
 
-double disk_bytes_of_trial(const Plan& plan, const PlanAgent& agent) {
-  const double frames = plan.play.machine.max_episode_frames;
-  const double log = std::ceil(frames / agent.frame_skip * kLogBytesPerDecision / kBlockBytes) * kBlockBytes;
+double disk_bytes_of_trial(const PlanAgent& agent, double episode_frames) {
+  const double bytes = episode_frames / agent.frame_skip * kLogBytesPerDecision;
+  const double log = std::ceil(bytes / kBlockBytes) * kBlockBytes;
   return kFilesOfUnit * kBlockBytes + agent.length.evaluation_episodes * (log + kResultBytes) +
-         frames_of_trial(agent.length, plan.play.machine.max_episode_frames).training / frames * kCurveBytes;
+         frames_of_trial(agent.length, episode_frames).training / episode_frames * kCurveBytes;
 }
 
 std::string whole_number(double number) {
@@ -38,38 +38,84 @@ std::string whole_number(double number) {
 
 }  // namespace
 
-TrialFrames frames_of_trial(const TrialLength& length, int episode_frames) {
-  const double frames = episode_frames;
-  return {.training = length.training_frames > 0 ? length.training_frames : length.training_episodes * frames,
-          .evaluation = length.evaluation_episodes * frames};
+void PlayRates::add(const PlanGame& game, const PlanAgent& agent, const PlayRate& rate) {
+  rates_[std::string(agent.kind->name)][game.name] = rate;
 }
 
-double seconds_of_trial(const Plan& plan, const PlanAgent& agent) {
-  const TrialFrames frames = frames_of_trial(agent.length, plan.play.machine.max_episode_frames);
-  return (frames.training + frames.evaluation) / agent.frame_skip / agent.kind->decisions_per_second *
-         effort_of(agent).time;
+std::size_t PlayRates::games() const {
+  std::size_t most = 0;
+  for (const auto& [agent, games] : rates_) most = std::max(most, games.size());
+  return most;
 }
 
-Cost cost_of(const Plan& plan) {
+PlayRate PlayRates::of(const Plan& plan, const PlanGame& game, const PlanAgent& agent) const {
+  const auto found = rates_.find(agent.kind->name);
+  if (found == rates_.end())
+    return {.episode_frames = static_cast<double>(plan.play.machine.max_episode_frames),
+            .decisions_per_second = agent.kind->decisions_per_second / effort_of(agent).time};
+  const std::map<std::string, PlayRate>& games = found->second;
+  if (const auto own = games.find(game.name); own != games.end()) return own->second;
+  const auto count = static_cast<double>(games.size());
+  PlayRate mean;
+  double seconds_per_decision = 0;
+  for (const auto& [name, rate] : games) {
+    mean.episode_frames += rate.episode_frames / count;
+    mean.discovery_seconds += rate.discovery_seconds / count;
+    seconds_per_decision += 1 / rate.decisions_per_second / count;
+  }
+  mean.decisions_per_second = 1 / seconds_per_decision;
+  return mean;
+}
+
+TrialFrames frames_of_trial(const TrialLength& length, double episode_frames) {
+  return {.training =
+              length.training_frames > 0 ? length.training_frames : length.training_episodes * episode_frames,
+          .evaluation = length.evaluation_episodes * episode_frames};
+}
+
+double seconds_of_trial(const PlanAgent& agent, const PlayRate& rate) {
+  const TrialFrames frames = frames_of_trial(agent.length, rate.episode_frames);
+  return (frames.training + frames.evaluation) / agent.frame_skip / rate.decisions_per_second;
+}
+
+namespace {
+
+// Adds the agent's units in one game.
+void add_game(Cost& cost, AgentCost& own, const Plan& plan, const PlanGame& game, const PlanAgent& agent,
+              const PlayRate& rate) {
+  const std::size_t count =
+      actions_of_agents(game, *agent.kind).size() * static_cast<std::size_t>(agent.length.trials);
+  const auto units = static_cast<double>(count);
+  const TrialFrames frames = frames_of_trial(agent.length, rate.episode_frames);
+  own.units += count;
+  own.decisions += units * (frames.training + frames.evaluation) / agent.frame_skip;
+  own.core_hours += units * seconds_of_trial(agent, rate) / 3600;
+  cost.verification_core_hours += units * frames.evaluation / kReplayFramesPerSecond / 3600;
+  // Logs are counted as the longest, since disks that are full end a run.
+  cost.disk_megabytes += units * disk_bytes_of_trial(agent, plan.play.machine.max_episode_frames) / 1e6;
+}
+
+}  // namespace
+
+Cost cost_of(const Plan& plan, const PlayRates& rates) {
   Cost cost;
   for (const PlanAgent& agent : plan.agents) {
-    const TrialLength& length = agent.length;
     AgentCost own{.agent = std::string(agent.kind->name)};
-    own.units = plan.games.size() * static_cast<std::size_t>(length.trials) *
-                (agent.kind->each_action ? kActions : 1);
-    const auto units = static_cast<double>(own.units);
-    const TrialFrames frames = frames_of_trial(length, plan.play.machine.max_episode_frames);
-    const double evaluation = units * frames.evaluation;
-    own.decisions = (evaluation + units * frames.training) / agent.frame_skip;
-    own.core_hours = units * seconds_of_trial(plan, agent) / 3600;
+    for (const PlanGame& game : plan.games)
+      add_game(cost, own, plan, game, agent, rates.of(plan, game, agent));
     cost.units += own.units;
     cost.decisions += own.decisions;
     cost.core_hours += own.core_hours;
-    cost.verification_core_hours += evaluation / kReplayFramesPerSecond / 3600;
     cost.megabytes = std::max(cost.megabytes, megabytes_of(agent));
-    cost.disk_megabytes += units * disk_bytes_of_trial(plan, agent) / 1e6;
     cost.agents.push_back(own);
   }
+  for (const PlanGame& game : plan.games) {
+    double seconds = 0;  // agents share what was discovered
+    for (const PlanAgent& agent : plan.agents)
+      seconds = std::max(seconds, rates.of(plan, game, agent).discovery_seconds);
+    cost.discovery_core_hours += seconds / 3600;
+  }
+  cost.core_hours += cost.discovery_core_hours;
   return cost;
 }
 

@@ -177,7 +177,9 @@ class Run {
     const std::vector<Unit> units = units_of(plan_);
     for (std::size_t i = settings_.shard - 1; i < units.size(); i += settings_.shards)
       if (!is_finished(folder_, units[i]))
-        mine_.push_back({.unit = &units[i], .seconds = seconds_of_trial(plan_, *units[i].agent)});
+        mine_.push_back({.unit = &units[i],
+                         .seconds = seconds_of_trial(
+                             *units[i].agent, PlayRates().of(plan_, *units[i].game, *units[i].agent))});
     run_on_all_threads();
     if (!failure_) run_on_all_threads();  // what another process ran may be finished, or free, by now
     finish(units);

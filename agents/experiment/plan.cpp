@@ -1,348 +1,17 @@
 #include "agents/experiment/plan.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <optional>
+#include <span>
 
-#include "agents/experiment/game_sets.hpp"
+#include "agents/experiment/phrase_seeds.hpp"
+#include "agents/experiment/plan_keys.hpp"
 #include "agents/experiment/play.hpp"
 #include "emulator/state/state_hash.hpp"
-#include "games/files/toml_section.hpp"
-#include "games/similar.hpp"
 #include "protocol/line/words.hpp"
-#include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
-
-constexpr int kMostPlanNumber = std::numeric_limits<int>::max();
-constexpr int kMostEpisodes = 1000000;
-constexpr int kMostEpisodeFrames = 1000000;  // a log holds this many decisions
-constexpr int kMostScreens = 10000000;
-constexpr int kMostFrameSkip = 1000;
-constexpr std::int64_t kMostUnits = 100000, kMostRows = 20000000;  // of results.csv: 4 GiB
-
-// Settings of the literature, which a plan then changes.
-struct PlanPreset {
-  std::string_view name;
-  std::string_view environment;  // words of `load`
-  TrialLength learners;
-};
-constexpr std::array kPresets = {
-    PlanPreset{"paper2013",
-               "frame_skip=5 sticky=0 action_set=full max_episode_frames=18000",
-               {.trials = 30, .training_episodes = 5000, .evaluation_episodes = 500}},
-    PlanPreset{"machado2018",
-               "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000",
-               {.trials = 24, .training_frames = 200000000, .evaluation_episodes = 100}},
-    PlanPreset{"atari100k",
-               "frame_skip=4 sticky=0 action_set=full max_episode_frames=108000",
-               {.trials = 5, .training_frames = 400000, .evaluation_episodes = 100}},
-};
-
-struct LengthKey {
-  std::string_view name;
-  int TrialLength::*member;
-  int least;
-  int most;
-};
-constexpr std::array kLengthKeys = {
-    LengthKey{"trials", &TrialLength::trials, 1, kMostEpisodes},
-    LengthKey{"training_episodes", &TrialLength::training_episodes, 0, kMostEpisodes},
-    LengthKey{"training_frames", &TrialLength::training_frames, 0, kMostPlanNumber},
-    LengthKey{"evaluation_episodes", &TrialLength::evaluation_episodes, 1, kMostEpisodes},
-};
-
-struct ScreensKey {
-  std::string_view name;
-  int Plan::*member;
-};
-constexpr std::array kScreensKeys = {ScreensKey{"background_screens", &Plan::background_screens},
-                                     ScreensKey{"class_screens", &Plan::class_screens}};
-
-std::string text_of_number(double value) {
-  std::string text;
-  append_number(text, value);
-  return text;
-}
-
-template <typename Rows>
-std::string list_of(const Rows& rows) {
-  std::string list;
-  for (const auto& row : rows) (list += list.empty() ? "" : ", ") += row.name;
-  return list;
-}
-
-// A request error of the line protocol, as an error of this input.
-void as_invalid_input(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const RequestError& error) {
-    throw InvalidInput(error.what());
-  }
-}
-
-class PlanReader {
- public:
-  PlanReader(std::string_view text, const std::string& file, const Images& images)
-      : source_{text, file}, table_(parse_toml(source_)), top_(source_, table_, ""), images_(images) {}
-
-  Plan read() {
-    top_.allow(kTopKeys);
-    plan_.name = top_.text("name").value_or("experiment");
-    if (top_.node("name"))
-      top_.guard(*top_.node("name"), "name",
-                 [&] { as_invalid_input([&] { checked_name(plan_.name, "plan"); }); });
-    if (top_.node("seed")) plan_.seed = static_cast<std::uint32_t>(*top_.number("seed", 0, kMostPlanNumber));
-    for (const ScreensKey& key : kScreensKeys)
-      if (top_.node(key.name)) plan_.*key.member = *top_.number(key.name, 1, kMostScreens);
-    plan_.version = top_.text("version").value_or("");
-    read_preset();
-    read_lengths(top_, learners_);
-    read_environment();
-    read_games();
-    read_images();
-    read_backgrounds();
-    read_agents();
-    check_size();
-    return std::move(plan_);
-  }
-
- private:
-  static constexpr std::array<std::string_view, 16> kTopKeys = {"name",
-                                                                "preset",
-                                                                "seed",
-                                                                "background_screens",
-                                                                "class_screens",
-                                                                "trials",
-                                                                "training_episodes",
-                                                                "training_frames",
-                                                                "evaluation_episodes",
-                                                                "environment",
-                                                                "games",
-                                                                "images",
-                                                                "backgrounds",
-                                                                "agents",
-                                                                "agent",
-                                                                "version"};
-
-  void read_preset() {
-    const std::string name = top_.text("preset").value_or("paper2013");
-    const auto found = std::ranges::find(kPresets, name, &PlanPreset::name);
-    if (found == kPresets.end())
-      top_.refuse(*top_.node("preset"), "preset",
-                  quote(name) + " is not known; accepted are " + list_of(kPresets));
-    read_words(std::string(found->environment));
-    learners_ = found->learners;
-  }
-
-  void read_words(const std::string& text) {
-    std::vector<std::string_view> words;
-    split(text, words);
-    as_invalid_input([&] { read_settings(words, plan_.play); });
-  }
-
-  void read_environment() {
-    const auto text = top_.text("environment");
-    if (!text) return;  // presets are accepted
-    const toml::node& node = *top_.node("environment");
-    plan_.environment_place =
-        source_.file + ":" + std::to_string(node.source().begin.line) + ": environment: ";
-    top_.guard(node, "environment", [&] {
-      read_words(*text);
-      check_episode_settings(plan_.play);
-    });
-    if (has_seed(*text))
-      top_.refuse(node, "environment",
-                  "seed is not accepted here; all seeds follow from the plan's key 'seed'");
-    const int limit = plan_.play.machine.max_episode_frames;
-    if (limit < 1 || limit > kMostEpisodeFrames)
-      top_.refuse(node, "environment",
-                  "max_episode_frames is " + std::to_string(limit) + "; an experiment accepts 1 to " +
-                      std::to_string(kMostEpisodeFrames));
-  }
-
-  static bool has_seed(const std::string& text) {
-    std::vector<std::string_view> words;
-    split(text, words);
-    return std::ranges::any_of(words, [](std::string_view word) { return word.starts_with("seed="); });
-  }
-
-  // What `section` says of the length of a trial. Training has one length, in episodes or in frames.
-  void read_lengths(const Section& section, TrialLength& length) const {
-    for (const LengthKey& key : kLengthKeys) {
-      if (!section.node(key.name)) continue;
-      length.*key.member = *section.number(key.name, key.least, key.most);
-    }
-    const bool episodes = section.node("training_episodes"), frames = section.node("training_frames");
-    if (frames && !episodes && length.training_frames > 0) length.training_episodes = 0;
-    if (episodes && !frames && length.training_episodes > 0) length.training_frames = 0;
-    if (length.training_episodes > 0 && length.training_frames > 0)
-      section.refuse(*section.node("training_frames"), "training_frames",
-                     "training is so many episodes or so many frames, not both; one of them must be 0");
-  }
-
-  std::vector<std::string> words(std::string_view key) const {
-    const toml::array* const list = top_.list(key);
-    if (!list || list->empty()) top_.refuse_missing(key, "a list in [ ] with at least one name is required");
-    std::vector<std::string> names;
-    for (const toml::node& item : *list) {
-      const auto name = item.value_exact<std::string>();
-      if (!name) top_.refuse(item, key, "must be a text in quotes");
-      if (std::ranges::find(names, *name) != names.end())
-        top_.refuse(item, key, quote(*name) + " stands twice");
-      check_(item, key, *name);
-      names.push_back(*name);
-    }
-    return names;
-  }
-
-  void read_games() {
-    if (top_.node("games") && top_.node("games")->is_string()) {
-      const std::string name = *top_.text("games");
-      const GameSet* const set = find_game_set(name);
-      if (!set)
-        top_.refuse(*top_.node("games"), "games",
-                    "there is no set " + quote(name) + "; accepted are " + list_of(game_sets()) +
-                        ", and a list of games");
-      for (const SetGame& game : set->games) plan_.games.push_back({.name = std::string(game.name)});
-      return;
-    }
-    check_ = [this](const toml::node& at, std::string_view key, const std::string& name) {
-      if (!images_.rules(name))
-        top_.refuse(at, key,
-                    "there is no game " + quote(name) + ";" + did_you_mean(name, game_names()) +
-                        " racebeam games lists them");
-    };
-    for (std::string& name : words("games")) plan_.games.push_back({.name = std::move(name)});
-  }
-
-  // A table whose keys are games of the plan, if there is one.
-  std::optional<Section> section_of_games(std::string_view key) const {
-    const toml::table* const table = top_.table(key);
-    if (!table) return std::nullopt;
-    Section section(source_, *table, std::string(key));
-    std::vector<std::string_view> names;
-    for (const PlanGame& game : plan_.games) names.push_back(game.name);
-    section.allow(names);
-    return section;
-  }
-
-  void read_images() {
-    const auto section = section_of_games("images");
-    if (!section) return;
-    for (PlanGame& game : plan_.games) game.image_md5 = section->text(game.name).value_or("");
-  }
-
-  // The SHA-256 of the CSV files that games have their backgrounds from.
-  void read_backgrounds() {
-    const auto section = section_of_games("backgrounds");
-    if (!section) return;
-    for (PlanGame& game : plan_.games) {
-      const auto digest = section->text(game.name);
-      if (!digest) continue;
-      if (digest->size() != 64 || digest->find_first_not_of("0123456789abcdef") != std::string::npos)
-        section->refuse(*section->node(game.name), game.name,
-                        quote(*digest) + " is not a SHA-256; it takes 64 digits of 0 to 9 and a to f");
-      game.background_csv = *digest;
-    }
-  }
-
-  void read_agents() {
-    check_ = [this](const toml::node& at, std::string_view key, const std::string& name) {
-      if (!find_agent_kind(name))
-        top_.refuse(at, key, "there is no agent " + quote(name) + "; accepted are " + list_of(agent_kinds()));
-    };
-    const std::vector<std::string> names = words("agents");
-    const toml::table* const tables = top_.table("agent");
-    const toml::table none;
-    const Section all(source_, tables ? *tables : none, "agent");
-    all.allow(std::vector<std::string_view>(names.begin(), names.end()));
-    for (const std::string& name : names) {
-      const toml::table* const own = all.table(name);
-      plan_.agents.push_back(
-          agent(*find_agent_kind(name), Section(source_, own ? *own : none, "agent." + name)));
-    }
-  }
-
-  // Units and rows are kept in memory, by experiments and by their verification.
-  void check_size() const {
-    std::int64_t units = 0, rows = 0;
-    for (const PlanAgent& agent : plan_.agents) {
-      const std::int64_t own = static_cast<std::int64_t>(plan_.games.size()) * agent.length.trials *
-                               (agent.kind->each_action ? kActions : 1);
-      units += own;
-      rows += own * agent.length.evaluation_episodes;
-    }
-    const auto check = [&](std::string_view key, std::int64_t count, const char* what, std::int64_t most) {
-      if (count <= most) return;
-      const std::string sentence =
-          "the plan has " + std::to_string(count) + what + "; accepted are at most " + std::to_string(most);
-      if (top_.node(key)) top_.refuse(*top_.node(key), key, sentence);
-      top_.refuse_missing(key, sentence);
-    };
-    check("trials", units, " units", kMostUnits);
-    check("evaluation_episodes", rows, " evaluation episodes", kMostRows);
-  }
-
-  // Baselines learn nothing, and a search has an episode a trial, so that episodes run side by side.
-  TrialLength length_for(const AgentKind& kind) const {
-    if (kind.role == Role::kLearner) return learners_;
-    if (kind.role == Role::kPlanner) return {.trials = 10};
-    return {.evaluation_episodes = learners_.evaluation_episodes};
-  }
-
-  PlanAgent agent(const AgentKind& kind, const Section& section) const {
-    std::vector<std::string_view> keys{"frame_skip"};
-    for (const LengthKey& key : kLengthKeys) keys.push_back(key.name);
-    for (const AgentSetting& setting : kind.settings) keys.push_back(setting.name);
-    section.allow(keys);
-    PlanAgent agent{&kind, AgentValues(kind.settings), length_for(kind),
-                    kind.frame_skip.value_or(plan_.play.machine.frame_skip)};
-    read_lengths(section, agent.length);
-    if (section.node("frame_skip")) agent.frame_skip = *section.number("frame_skip", 1, kMostFrameSkip);
-    for (std::size_t i = 0; i < kind.settings.size(); ++i)
-      if (section.node(kind.settings[i].name)) agent.values.set(i, value(section, kind.settings[i]));
-    return agent;
-  }
-
-  // A value as it stands in the plan.
-  static std::string source_text(const toml::node& node) {
-    if (const auto text = node.value_exact<std::string>()) return quote(*text);
-    const auto flag = node.value_exact<bool>();
-    return flag ? (*flag ? "true" : "false") : "this value";
-  }
-
-  static double value(const Section& section, const AgentSetting& setting) {
-    const toml::node& node = *section.node(setting.name);
-    if (!setting.choices.empty())
-      return *section.choice(setting.name, {setting.choices.begin(), setting.choices.end()});
-    const double number = node.is_number() ? node.value<double>().value() : NAN;
-    const bool accepted =
-        number >= setting.least && number <= setting.most && (!setting.whole || number == std::floor(number));
-    if (!accepted)
-      section.refuse(node, setting.name,
-                     (node.is_number() ? text_of_number(number) : source_text(node)) +
-                         " is not accepted; it takes a " + (setting.whole ? "whole number" : "number") +
-                         " from " + text_of_number(setting.least) + " to " + text_of_number(setting.most));
-    if (setting.divides != 0 && setting.divides % static_cast<int>(number) != 0)
-      section.refuse(node, setting.name,
-                     text_of_number(number) + " does not divide the screen's " +
-                         std::to_string(setting.divides) + " pixels");
-    return number;
-  }
-
-  TomlSource source_;
-  toml::table table_;
-  Section top_;
-  const Images& images_;
-  std::function<void(const toml::node& at, std::string_view key, const std::string& name)> check_;
-  TrialLength learners_;
-  Plan plan_;
-};
 
 void append_line(std::string& out, std::string_view key, const std::string& value) {
   ((out += key) += " = ").append(value) += '\n';
@@ -355,7 +24,11 @@ std::string quoted_list(const std::vector<std::string>& names) {
 }
 
 std::string value_text(const AgentSetting& setting, double value) {
-  if (setting.choices.empty()) return text_of_number(value);
+  std::string text;
+  if (setting.choices.empty()) {
+    append_number(text, value);
+    return text;
+  }
   return std::string("\"").append(setting.choices[static_cast<std::size_t>(value)]) + '"';
 }
 
@@ -369,9 +42,9 @@ void append_agent(std::string& out, const PlanAgent& agent) {
 }
 
 // The settings of the environment without a seed, as words of `load`. They do not depend on the game.
-std::string environment_words(const Plan& plan) {
+std::string environment_words(const PlaySettings& settings) {
   const Environment any(load_image("builtin:beamfall"), find_game("beamfall"), Settings{});
-  const std::string text = words_of(plan.play, any);
+  const std::string text = words_of(settings, any);
   std::vector<std::string_view> all;
   split(text, all);
   std::string words;
@@ -390,19 +63,6 @@ std::uint32_t seed_from(const Plan& plan, const Unit& unit, std::string_view pur
 }
 
 }  // namespace
-
-Plan parse_plan(std::string_view text, const std::string& file, const Images& images) {
-  return PlanReader(text, file, images).read();
-}
-
-Plan load_plan(const std::string& name_or_file, const Images& images) {
-  const auto shipped = std::ranges::find(shipped_plans(), name_or_file, &ShippedPlan::name);
-  if (shipped != shipped_plans().end()) return parse_plan(shipped->text, "plan " + name_or_file, images);
-  if (name_or_file.find_first_of("./") == std::string::npos)
-    throw InvalidInput("there is no plan " + quote(name_or_file) + "; shipped are " +
-                       list_of(shipped_plans()) + "; a file's name contains . or /");
-  return parse_plan(read_input_file("plan", name_or_file, kMostPlanBytes), name_or_file, images);
-}
 
 std::vector<std::string> games_without_image(const Plan& plan, const Images& images) {
   std::vector<std::string> missing;
@@ -451,8 +111,11 @@ std::string text_of(const Plan& plan) {
   append_line(out, "name", '"' + plan.name + '"');
   append_line(out, "version", '"' + plan.version + '"');
   append_line(out, "seed", std::to_string(plan.seed));
+  if (!plan.phrase.empty()) append_line(out, "phrase", '"' + plan.phrase + '"');
   for (const ScreensKey& key : kScreensKeys) append_line(out, key.name, std::to_string(plan.*key.member));
-  append_line(out, "environment", '"' + environment_words(plan) + '"');
+  const std::string evaluation = environment_words(plan.play), training = environment_words(plan.training);
+  append_line(out, "environment", '"' + evaluation + '"');
+  if (training != evaluation) append_line(out, "training_environment", '"' + training + '"');
   append_line(out, "games", quoted_list(games));
   append_line(out, "agents", quoted_list(agents));
   out += "\n[images]\n";
@@ -465,11 +128,15 @@ std::string text_of(const Plan& plan) {
   return out;
 }
 
+std::vector<int> actions_of_agents(const PlanGame& game, const AgentKind& kind) {
+  return kind.each_action ? game.actions : std::vector<int>{0};
+}
+
 std::vector<Unit> units_of(const Plan& plan) {
   std::vector<Unit> units;
   for (const PlanGame& game : plan.games) {
     for (const PlanAgent& agent : plan.agents) {
-      for (int action = 0; action < (agent.kind->each_action ? kActions : 1); ++action) {
+      for (const int action : actions_of_agents(game, *agent.kind)) {
         const std::string name = agent_name(*agent.kind, action);
         for (int trial = 1; trial <= agent.length.trials; ++trial)
           units.push_back(
@@ -491,9 +158,20 @@ PlaySettings play_settings(const Plan& plan, const PlanAgent& agent) {
   return play;
 }
 
+PlaySettings training_settings(const Plan& plan, const PlanAgent& agent) {
+  PlaySettings play = plan.training;
+  play.machine.frame_skip = agent.frame_skip;
+  play.machine.truncate_on_life_loss = false;
+  return play;
+}
+
+bool lives_end(const Plan& plan) { return plan.training.machine.truncate_on_life_loss; }
+
 std::uint32_t agent_seed(const Plan& plan, const Unit& unit) { return seed_from(plan, unit, "agent", 0); }
 
 std::uint32_t environment_seed(const Plan& plan, const Unit& unit, bool training, int episode) {
+  if (!training && !plan.phrase.empty())
+    return seed_of_phrase(plan.phrase, unit.game->name, unit.trial, episode);
   const auto number = static_cast<std::uint32_t>(episode);
   return std::max(seed_from(plan, unit, training ? "training" : "evaluation", number), 1U);
 }

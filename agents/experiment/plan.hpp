@@ -34,6 +34,7 @@ struct PlanAgent {
 
 struct PlanGame {
   std::string name;
+  std::vector<int> actions = {};    // of the plan's action set
   std::string image_md5 = {};       // empty: not known yet
   std::string background_csv = {};  // the SHA-256 of the CSV file of its background; empty: it is discovered
 };
@@ -41,8 +42,10 @@ struct PlanGame {
 struct Plan {
   std::string name;
   std::uint32_t seed = 1;
+  std::string phrase = {};  // seeds of evaluation follow from it; empty: from `seed`
   int background_screens = 18000, class_screens = 36000;
   PlaySettings play;
+  PlaySettings training;  // as `play`, but for what training has otherwise
   std::vector<PlanGame> games;
   std::vector<PlanAgent> agents;
   std::string version;            // of the program; empty: not known yet
@@ -76,9 +79,14 @@ std::vector<std::string> games_without_image(const Plan& plan, const Images& ima
 // The plan with every default written out. parse_plan() reads it back.
 std::string text_of(const Plan& plan);
 
+// The actions that there is an agent of this kind for: one of no meaning if the kind has only one agent.
+std::vector<int> actions_of_agents(const PlanGame& game, const AgentKind& kind);
 std::vector<Unit> units_of(const Plan& plan);  // in the plan's order: games, agents, trials
 
 PlaySettings play_settings(const Plan& plan, const PlanAgent& agent);
+// A lost life does not end these episodes: agents are told that one ended, and the game goes on (lives_end).
+PlaySettings training_settings(const Plan& plan, const PlanAgent& agent);
+bool lives_end(const Plan& plan);  // whether a lost life ends an episode of training for the agent
 SampleSettings sample_settings(const Plan& plan, const PlanGame& game);
 
 // Seeds follow from the plan's seed and the unit's name, so that no unit depends on another.

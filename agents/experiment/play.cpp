@@ -1,6 +1,9 @@
 #include "agents/experiment/play.hpp"
 
+#include <algorithm>
+
 #include "agents/base/episode_start.hpp"
+#include "games/game/actions.hpp"
 #include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
 
@@ -44,10 +47,8 @@ class Account {
 }  // namespace
 
 void check_episode_settings(const PlaySettings& settings) {
-  if (settings.noop_max != 0 || settings.autoreset || settings.action_set != ActionSet::kFull)
-    throw InvalidInput(
-        "an episode is played with noop_max=0, autoreset=0 and action_set=full; sticky actions and seeds "
-        "vary it");
+  if (settings.autoreset)
+    throw InvalidInput("autoreset is 1; an episode that is played ends, so that autoreset=0 is accepted");
   if (!settings.console.empty())
     throw InvalidInput(
         "an episode is played with the properties of its image; scheme, left, right, format, ystart and "
@@ -66,19 +67,20 @@ void Stage::begin(std::uint32_t seed) {
   begin_episode(machine_, settings_, seed);
 }
 
-Episode play(Agent& agent, Stage& stage, std::int64_t most_frames, const Watch& watch) {
+Episode play(Agent& agent, Stage& stage, const PlayOptions& options) {
   Environment& machine = stage.machine();
   Account account(machine);
   Episode episode;
   for (int action = agent.begin(machine);;) {
     episode.actions.push_back(static_cast<std::uint8_t>(action));
+    const int lives = machine.lives();
     const double reward = account.act(action);
-    if (watch) watch(account.decisions(), account.frames());
-    if (account.over() || account.frames() >= most_frames) {
-      agent.end(reward);
-      break;
-    }
-    action = agent.next(reward, machine);
+    if (options.watch) options.watch(account.decisions(), account.frames());
+    const bool over = account.over() || account.frames() >= options.most_frames;
+    const bool ends = over || (options.lives_end && machine.lives() < lives);
+    if (ends) agent.end(reward);
+    if (over) break;
+    action = ends ? agent.begin(machine) : agent.next(reward, machine);
     if (agent.diverged()) break;
   }
   episode.diverged = agent.diverged();
@@ -110,9 +112,13 @@ Replay Replayer::play(const EpisodeLog& log, const Cartridge& cartridge) {
   settings.machine.cpu = cpu_;
   auto stage = std::make_unique<Stage>(cartridge, settings, Drawing::kNone);
   stage->begin(settings.machine.random_seed);
+  const std::vector<int>& actions = actions_of(settings.action_set, *cartridge.game);
   Account account(stage->machine());
   for (const int action : log.actions) {
     if (account.over()) break;
+    if (std::ranges::find(actions, action) == actions.end())
+      throw InvalidInput("its log has the action " + std::string(action_name(action)) +
+                         ", which is not in the set " + std::string(name_of(settings.action_set)));
     account.act(action);
   }
   Replay result;

@@ -47,9 +47,14 @@ struct Episode {
 // After each decision, with the decisions and frames of the episode so far.
 using Watch = std::function<void(std::int64_t decisions, std::int64_t frames)>;
 
-// From where stage.begin() left it until the end, or for most_frames. `watch` may be empty.
-Episode play(Agent& agent, Stage& stage, std::int64_t most_frames = std::numeric_limits<std::int64_t>::max(),
-             const Watch& watch = {});
+struct PlayOptions {
+  std::int64_t most_frames = std::numeric_limits<std::int64_t>::max();
+  bool lives_end = false;  // a lost life ends an episode for the agent, and the game goes on
+  Watch watch = {};        // may be empty
+};
+
+// From where stage.begin() left it until the end.
+Episode play(Agent& agent, Stage& stage, const PlayOptions& options = {});
 
 // What a log's actions lead to.
 struct Replay {

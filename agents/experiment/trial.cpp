@@ -23,8 +23,7 @@ AgentContext context_of(const Plan& plan, const Unit& unit, const AgentValues& v
   return {values, unit.action, agent_seed(plan, unit), cartridge, play, facts};
 }
 
-PlaySettings settings_for(const Plan& plan, const Unit& unit, CpuKind cpu) {
-  PlaySettings play = play_settings(plan, *unit.agent);
+PlaySettings with_cpu(PlaySettings play, CpuKind cpu) {
   play.machine.cpu = cpu;
   return play;
 }
@@ -45,9 +44,12 @@ Trial::Trial(const Plan& plan, const Unit& unit, const ResultsFolder& folder, co
       folder_(folder),
       length_(unit.agent->length),
       values_(unit.agent->values),
-      agent_(unit.agent->kind->make(
-          context_of(plan, unit, values_, cartridge, facts, settings_for(plan, unit, cpu)))),
-      stage_(cartridge, settings_for(plan, unit, cpu), agent_->drawing()) {
+      agent_(unit.agent->kind->make(context_of(plan, unit, values_, cartridge, facts,
+                                               with_cpu(play_settings(plan, *unit.agent), cpu)))),
+      stage_(cartridge, with_cpu(play_settings(plan, *unit.agent), cpu), agent_->drawing()) {
+  if (length_.training_episodes > 0 || length_.training_frames > 0)
+    training_stage_.emplace(cartridge, with_cpu(training_settings(plan, *unit.agent), cpu),
+                            agent_->drawing());
   std::filesystem::create_directories(folder_.logs(unit_.name));
   resume();
 }
@@ -96,15 +98,14 @@ void Trial::run_episode() {
   account_.searched_frames += agent_->searched_frames() - searched;
 }
 
-Episode Trial::play_episode(std::int64_t most_frames) {
-  Watch watch;
+Episode Trial::play_episode(Stage& stage, PlayOptions options) {
   if (watch_)
-    watch = [this](std::int64_t decisions, std::int64_t frames) {
+    options.watch = [this](std::int64_t decisions, std::int64_t frames) {
       decisions_ = decisions;
       episode_frames_ = frames;
       watch_();
     };
-  Episode episode = play(*agent_, stage_, most_frames, watch);
+  Episode episode = play(*agent_, stage, options);
   decisions_ = episode_frames_ = 0;
   return episode;
 }
@@ -114,8 +115,9 @@ void Trial::train() {
   const std::int64_t left = length_.training_frames > 0 ? length_.training_frames - account_.training_frames
                                                         : std::numeric_limits<std::int64_t>::max();
   agent_->set_learning(true);
-  stage_.begin(environment_seed(plan_, unit_, true, number));
-  const Episode episode = play_episode(left);
+  training_stage_->begin(environment_seed(plan_, unit_, true, number));
+  const Episode episode =
+      play_episode(*training_stage_, {.most_frames = left, .lives_end = lives_end(plan_)});
   account_.trained = number;
   account_.training_frames += episode.end.frames;
   account_.frames += episode.end.frames;
@@ -134,7 +136,7 @@ void Trial::evaluate() {
   const int number = account_.evaluated + 1;
   agent_->set_learning(false);
   stage_.begin(environment_seed(plan_, unit_, false, number));
-  const Episode episode = play_episode(std::numeric_limits<std::int64_t>::max());
+  const Episode episode = play_episode(stage_, {});
   account_.evaluated = number;
   account_.frames += episode.end.frames;
   if (episode.diverged) return diverge();  // sums of finite weights can exceed the range, too

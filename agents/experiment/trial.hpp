@@ -50,7 +50,7 @@ class Trial {
   bool training_is_over() const;
   bool is_over() const;
   void run_episode();
-  Episode play_episode(std::int64_t most_frames);
+  Episode play_episode(Stage& stage, PlayOptions options);
   void train();
   void evaluate();
   void diverge();
@@ -66,6 +66,7 @@ class Trial {
   const AgentValues values_;
   std::unique_ptr<Agent> agent_;
   Stage stage_;
+  std::optional<Stage> training_stage_;  // of a trial that trains
   Account account_;
   std::function<void()> watch_;
   std::int64_t decisions_ = 0, episode_frames_ = 0;  // of the episode that is played

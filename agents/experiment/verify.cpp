@@ -6,7 +6,7 @@
 #include "agents/base/sealed_file.hpp"
 #include "agents/experiment/log_judge.hpp"
 #include "agents/experiment/plan_rows.hpp"
-#include "environment/vector/thread_pool.hpp"
+#include "agents/experiment/row_tally.hpp"
 #include "protocol/line/words.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
@@ -15,13 +15,6 @@ namespace racebeam {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Rows that are in memory at a time.
-constexpr std::size_t kRowsAtATime = 4096;
-
-std::string name_of_row(const ResultRow& row, std::size_t line) {
-  return "results.csv:" + std::to_string(line) + " (" + row[0] + ", episode " + field(row, "episode") + ")";
-}
 
 // The first setting of a log that is not the plan's.
 std::string first_difference_of_words(const std::string& ours, const std::string& theirs) {
@@ -51,14 +44,10 @@ class RowJudge {
       : plan_(plan), folder_(folder), logs_(images, threads, cpu) {}
 
   RowVerdict judge(const ResultRow& row, const PlanRows::Place& place) {
-    try {
-      if (place.episode == 0) return judge_divergence(row, *place.unit);
-      if (const std::string reason = against_plan(row, place); !reason.empty())
-        return {Judgement::kWrong, reason};
-      return judge_episode(row, place);
-    } catch (const std::exception& error) {
-      return {Judgement::kWrong, error.what()};
-    }
+    if (place.episode == 0) return judge_divergence(row, *place.unit);
+    if (const std::string reason = against_plan(row, place); !reason.empty())
+      return {Judgement::kWrong, reason};
+    return judge_episode(row, place);
   }
 
  private:
@@ -103,112 +92,54 @@ class RowJudge {
   const Environment any_machine_{load_image("builtin:beamfall"), find_game("beamfall"), Settings{}};
 };
 
-// The plan of results, which has the images and the version.
-Plan plan_of(const ResultsFolder& folder, const Images& images) {
-  const std::string text = read_input_file("plan", folder.plan(), kMostPlanBytes);
-  Plan plan = parse_plan(text, folder.plan(), images);
-  if (plan.version.empty()) throw InvalidInput(folder.plan() + ": it lacks the key 'version'");
-  for (const PlanGame& game : plan.games)
-    if (game.image_md5.empty())
-      throw InvalidInput(folder.plan() + ": images: the MD5 of the image of " + game.name + " is missing");
-  return plan;
-}
-
-// A link could lead to any folder of the system.
-void refuse_link(const std::string& path) {
-  if (fs::is_symlink(fs::symlink_status(path)))
-    throw InvalidInput(path + ": this is a link, which is not followed; accepted is a folder");
-}
-
 class Verification {
  public:
   Verification(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
                const Finding& finding)
       : folder_(folder),
-        plan_(plan_of(folder, images)),
+        plan_(plan_of_results(folder, images)),
         units_(units_of(plan_)),
         wanted_(units_),
-        pool_(threads),
-        judge_(plan_, folder_, images, pool_.threads(), cpu),
-        finding_(finding) {}
+        tally_(threads, finding),
+        judge_(plan_, folder_, images, tally_.threads(), cpu) {}
 
   // The table is read twice, so that a table that does not fit is refused before a log is played.
   Verdict all() {
     each_result(folder_.results(), [&](const ResultRow& row, std::size_t) { wanted_.note(row); });
     each_result(folder_.results(), [&](const ResultRow& row, std::size_t line) { take(row, line); });
-    judge_taken();
     wanted_.each_unmarked([&](const Unit& unit, int episode) {
-      wrong("results.csv: the row of " + unit.name + ", episode " + std::to_string(episode) + " is missing");
+      tally_.wrong("results.csv: the row of " + unit.name + ", episode " + std::to_string(episode) +
+                   " is missing");
     });
-    find_surplus_logs();
-    return verdict_;
+    tally_.find_surplus(folder_.logs(), [&](const std::string& path, bool is_folder) {
+      return is_folder ? is_wanted_folder(path) : is_wanted_log(path);
+    });
+    return tally_.verdict();
   }
 
  private:
-  struct Taken {
-    ResultRow row;
-    std::size_t line;
-    std::optional<PlanRows::Place> place;  // nothing: `found` has been told
-    RowVerdict found;
-  };
-
-  void wrong(const std::string& line) {
-    ++verdict_.wrong;
-    finding_(line);
-  }
-
   // A row that is not in the plan, or stands twice, is not judged.
   void take(const ResultRow& row, std::size_t line) {
+    const std::string name = name_of_row(row, line);
     const auto place = wanted_.find(row[0], field(row, "episode"));
-    Taken taken{row, line, place, {}};
     if (!place) {
       const std::string log = folder_.log(row[0], field(row, "episode"));
       std::error_code none;
       if (fs::exists(fs::symlink_status(log, none))) logs_of_strangers_.insert(log);
-      taken.found.reason = ": is not in the plan";
+      tally_.take_wrong(name + ": is not in the plan");
     } else if (!wanted_.mark(*place)) {
-      taken.place.reset();
-      taken.found.reason = ": stands twice";
+      tally_.take_wrong(name + ": stands twice");
+    } else {
+      tally_.take(name, [this, row, place] { return judge_.judge(row, *place); });
     }
-    taken_.push_back(std::move(taken));
-    if (taken_.size() == kRowsAtATime) judge_taken();
-  }
-
-  void judge_taken() {
-    pool_.run(taken_.size(), [&](std::size_t i) {
-      if (Taken& one = taken_[i]; one.place) one.found = judge_.judge(one.row, *one.place);
-    });
-    for (const Taken& one : taken_) count(one);
-    taken_.clear();
-  }
-
-  void count(const Taken& one) {
-    const std::string name = name_of_row(one.row, one.line);
-    verdict_.frames += one.found.frames;
-    if (!one.place) return wrong(name + one.found.reason);
-    switch (one.found.judgement) {
-      case Judgement::kConfirmed: ++verdict_.confirmed; return;
-      case Judgement::kWrong: return wrong(name + ": not confirmed: " + one.found.reason);
-      case Judgement::kUnchecked:
-        ++verdict_.unchecked;
-        return finding_(name + ": could not be checked: " + one.found.reason);
-    }
-  }
-
-  void find_surplus_logs() {
-    std::set<std::string> surplus;
-    std::error_code none;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_.logs(), none))
-      if (!is_wanted(entry)) surplus.insert(entry.path().string());
-    for (const std::string& path : surplus) wrong(path + ": no row of results.csv has this log");
   }
 
   // Folders are, but for links to them. The logs of a unit may lie elsewhere.
-  bool is_wanted(const fs::directory_entry& entry) const {
-    const fs::path& path = entry.path();
-    if (entry.is_directory())
-      return !entry.is_symlink() ||
-             (path.parent_path() == folder_.logs() && wanted_.has(path.filename().string()));
+  bool is_wanted_folder(const fs::path& path) const {
+    return !is_link(path) || (path.parent_path() == folder_.logs() && wanted_.has(path.filename().string()));
+  }
+
+  bool is_wanted_log(const fs::path& path) const {
     const std::string unit = path.parent_path().filename().string(), episode = path.stem().string();
     if (path == folder_.log(unit, episode))
       if (const auto place = wanted_.find(unit, episode); place && wanted_.is_marked(*place)) return true;
@@ -219,15 +150,22 @@ class Verification {
   const Plan plan_;
   const std::vector<Unit> units_;
   PlanRows wanted_;
-  ThreadPool pool_;
+  RowTally tally_;
   RowJudge judge_;
-  const Finding& finding_;
-  std::vector<Taken> taken_;
   std::set<std::string> logs_of_strangers_;  // of rows that are not in the plan
-  Verdict verdict_;
 };
 
 }  // namespace
+
+Plan plan_of_results(const ResultsFolder& folder, const Images& images) {
+  const std::string text = read_input_file("plan", folder.plan(), kMostPlanBytes);
+  Plan plan = parse_plan(text, folder.plan(), images);
+  if (plan.version.empty()) throw InvalidInput(folder.plan() + ": it lacks the key 'version'");
+  for (const PlanGame& game : plan.games)
+    if (game.image_md5.empty())
+      throw InvalidInput(folder.plan() + ": images: the MD5 of the image of " + game.name + " is missing");
+  return plan;
+}
 
 Verdict verify(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
                const Finding& finding) {

@@ -20,6 +20,9 @@ struct Verdict {
 // missing, and for each log that is too many. From one thread at a time.
 using Finding = std::function<void(const std::string& line)>;
 
+// The plan of results, which has the images and the version. Throws InvalidInput.
+Plan plan_of_results(const ResultsFolder& folder, const Images& images);
+
 // Needs little memory, however many rows there are. Throws InvalidInput if the folder's plan or results.csv
 // cannot be read, or its folder of logs is a link.
 Verdict verify(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,

@@ -6,8 +6,9 @@
 #include <set>
 
 #include "agents/base/sealed_file.hpp"
-#include "agents/experiment/log_judge.hpp"
-#include "environment/vector/thread_pool.hpp"
+#include "agents/experiment/phrase_seeds.hpp"
+#include "agents/experiment/row_tally.hpp"
+#include "games/files/toml_section.hpp"
 #include "protocol/line/words.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
@@ -17,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kRowsInMemory = 4096;
 constexpr std::size_t kLongestName = 100;
+constexpr std::size_t kMostAgentBytes = std::size_t{1} << 16;  // of agent.toml
 
 // Whether a name is that of a file, and leads nowhere else.
 bool is_plain(std::string_view name) {
@@ -29,9 +30,16 @@ bool is_plain(std::string_view name) {
          std::ranges::all_of(name, [&](char c) { return is_letter(c) || c == '_' || c == '.' || c == '-'; });
 }
 
-bool is_link(const std::string& path) {
-  std::error_code none;
-  return fs::is_symlink(fs::symlink_status(path, none));
+// The phrase that the seeds follow from, if agent.toml has one.
+std::optional<std::string> phrase_of(const ResultsFolder& folder) {
+  const std::string path = folder.root() + "/agent.toml";
+  const std::string text = read_input_file("description of the agent", path, kMostAgentBytes);
+  const TomlSource source{text, path};
+  const toml::table table = parse_toml(source);
+  const Section top(source, table, "");
+  const auto phrase = top.text("phrase");
+  if (phrase) top.guard(*top.node("phrase"), "phrase", [&] { check_phrase(*phrase); });
+  return phrase;
 }
 
 // The settings of a log without the seed.
@@ -45,19 +53,16 @@ std::string settings_without_seed(const EpisodeLog& log) {
   return text;
 }
 
+bool is_divergence(const ResultRow& row) { return field(row, "end") == "diverged"; }
+
 class SubmissionJudge {
  public:
   SubmissionJudge(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu)
       : folder_(folder), logs_(images, threads, cpu) {}
 
   RowVerdict judge(const ResultRow& row) {
-    if (field(row, "end") == "diverged")
-      return {Judgement::kUnchecked, "the trial diverged; there is no episode to play"};
-    try {
-      return judge_episode(row);
-    } catch (const std::exception& error) {
-      return {Judgement::kWrong, error.what()};
-    }
+    if (is_divergence(row)) return {Judgement::kUnchecked, "the trial diverged; there is no episode to play"};
+    return judge_episode(row);
   }
 
   // All logs must have the settings of the first row's. Called before judge().
@@ -97,77 +102,42 @@ class SubmissionVerification {
  public:
   SubmissionVerification(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
                          const Finding& finding)
-      : folder_(folder), pool_(threads), judge_(folder, images, pool_.threads(), cpu), finding_(finding) {}
+      : folder_(folder), tally_(threads, finding), judge_(folder, images, tally_.threads(), cpu) {
+    if (auto phrase = phrase_of(folder)) phrase_.emplace(*std::move(phrase));
+  }
 
   Verdict all() {
     each_result(folder_.results(), [&](const ResultRow& row, std::size_t line) { take(row, line); });
-    judge_taken();
-    find_surplus_logs();
-    return verdict_;
+    if (phrase_) phrase_->each_gap([&](const std::string& sentence) { tally_.wrong(sentence); });
+    tally_.find_surplus(folder_.logs(), [&](const std::string& path, bool is_folder) {
+      return is_folder || logs_.contains(path);
+    });
+    return tally_.verdict();
   }
 
  private:
-  struct Taken {
-    ResultRow row;
-    std::string name;  // for people
-    RowVerdict found;  // with a reason: it need not be judged
-  };
-
-  void wrong(const std::string& line) {
-    ++verdict_.wrong;
-    finding_(line);
-  }
-
   void take(const ResultRow& row, std::size_t line) {
+    const std::string name = name_of_row(row, line);
+    if (const std::string fault = fault_of(row); !fault.empty())
+      return tally_.take_wrong(name + ": not confirmed: " + fault);
+    if (!judge_.has_settings()) judge_.take_settings(row);
+    tally_.take(name, [this, row] { return judge_.judge(row); });
+  }
+
+  // What is wrong with a row without a look at its log; empty: nothing.
+  std::string fault_of(const ResultRow& row) {
     const std::string& episode = field(row, "episode");
-    const std::string name =
-        "results.csv:" + std::to_string(line) + " (" + row[0] + ", episode " + episode + ")";
-    taken_.push_back({row, name, {}});
-    std::string& reason = taken_.back().found.reason;
     if (!is_plain(row[0]) || !is_plain(episode))
-      reason = "unit and episode are accepted with letters, digits, '_', '.' and '-'";
-    else if (!logs_.insert(folder_.log(row[0], episode)).second)
-      reason = "it stands twice";
-    else if (!judge_.has_settings())
-      judge_.take_settings(row);
-    if (taken_.size() == kRowsInMemory) judge_taken();
-  }
-
-  void judge_taken() {
-    pool_.run(taken_.size(), [&](std::size_t i) {
-      if (Taken& one = taken_[i]; one.found.reason.empty()) one.found = judge_.judge(one.row);
-    });
-    for (const Taken& one : taken_) count(one);
-    taken_.clear();
-  }
-
-  void count(const Taken& one) {
-    verdict_.frames += one.found.frames;
-    switch (one.found.judgement) {
-      case Judgement::kConfirmed: ++verdict_.confirmed; return;
-      case Judgement::kWrong: return wrong(one.name + ": not confirmed: " + one.found.reason);
-      case Judgement::kUnchecked:
-        ++verdict_.unchecked;
-        return finding_(one.name + ": could not be checked: " + one.found.reason);
-    }
-  }
-
-  void find_surplus_logs() {
-    std::set<std::string> surplus;
-    std::error_code none;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_.logs(), none))
-      if (!entry.is_directory(none) && !logs_.contains(entry.path().string()))
-        surplus.insert(entry.path().string());
-    for (const std::string& path : surplus) wrong(path + ": no row of results.csv has this log");
+      return "unit and episode are accepted with letters, digits, '_', '.' and '-'";
+    if (!logs_.insert(folder_.log(row[0], episode)).second) return "it stands twice";
+    return phrase_ && !is_divergence(row) ? phrase_->fault(row) : "";
   }
 
   const ResultsFolder& folder_;
-  ThreadPool pool_;
+  RowTally tally_;
   SubmissionJudge judge_;
-  const Finding& finding_;
-  std::vector<Taken> taken_;
-  std::set<std::string> logs_;  // of the rows
-  Verdict verdict_;
+  std::optional<PhraseRows> phrase_;  // nothing: any seeds
+  std::set<std::string> logs_;        // of the rows
 };
 
 }  // namespace
@@ -178,8 +148,7 @@ bool is_submission(const ResultsFolder& folder) {
 
 Verdict verify_submission(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
                           const Finding& finding) {
-  if (is_link(folder.logs()))
-    throw InvalidInput(folder.logs() + ": this is a link, which is not followed; accepted is a folder");
+  refuse_link(folder.logs());
   return SubmissionVerification(folder, images, threads, cpu, finding).all();
 }
 

@@ -12,6 +12,7 @@
 #include "agents/experiment/cost.hpp"
 #include "agents/experiment/experiment.hpp"
 #include "agents/experiment/plan.hpp"
+#include "agents/experiment/probe.hpp"
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/options.hpp"
 #include "cli/commands/interruption.hpp"
@@ -44,11 +45,12 @@ std::string footer() {
   return text + kExperimentFooter;
 }
 
-constexpr std::chrono::seconds kReports{1};  // between two changes of the line on a terminal
+constexpr std::chrono::seconds kMeasurement{8};  // of a dry run
+constexpr std::chrono::seconds kReports{1};      // between two changes of the line on a terminal
 
 struct ExperimentOptions {
   std::string plan, into, shard;
-  bool dry_run = false;
+  bool dry_run = false, unmeasured = false;
   int checkpoint_seconds = 60;
   ImageOptions images;
 };
@@ -113,24 +115,38 @@ class ProgressLine {
   bool is_open_ = false;  // the line has not ended
 };
 
-void print_units(const Plan& plan, Shard shard) {
+void print_units(const Plan& plan, const PlayRates& rates, Shard shard) {
   const std::vector<Unit> units = units_of(plan);
   for (std::size_t i = shard.number - 1; i < units.size(); i += shard.count)
-    std::printf("unit %s  %.2f core-hours\n", units[i].name.c_str(),
-                seconds_of_trial(plan, *units[i].agent) / 3600);
+    std::printf("unit %s  %.4f core-hours\n", units[i].name.c_str(),
+                seconds_of_trial(*units[i].agent, rates.of(plan, *units[i].game, *units[i].agent)) / 3600);
 }
 
-void print_cost(const Plan& plan, const Images& images) {
-  const Cost cost = cost_of(plan);
+// Where the figures come from.
+void print_source(const Plan& plan, const PlayRates& rates) {
+  const int longest = plan.play.machine.max_episode_frames;
+  if (rates.empty())
+    std::printf("core-hours are the most: each episode is taken to last %d frames, as long as it may\n",
+                longest);
+  else
+    std::printf(
+        "core-hours are from a moment of play on this machine, in %zu of %zu games; an episode of a "
+        "search is taken to last %d frames, as long as it may\n",
+        rates.games(), plan.games.size(), longest);
+}
+
+void print_cost(const Plan& plan, const PlayRates& rates, const Images& images) {
+  const Cost cost = cost_of(plan, rates);
   for (const AgentCost& agent : cost.agents)
-    std::printf("%-12s %6zu units  %14.0f decisions  %10.1f core-hours\n", agent.agent.c_str(), agent.units,
+    std::printf("%-12s %6zu units  %14.0f decisions  %12.3f core-hours\n", agent.agent.c_str(), agent.units,
                 agent.decisions, agent.core_hours);
-  std::printf("%-12s %6zu units  %14.0f decisions  %10.1f core-hours\n", "all", cost.units, cost.decisions,
+  std::printf("%-12s %6zu units  %14.0f decisions  %12.3f core-hours\n", "all", cost.units, cost.decisions,
               cost.core_hours);
-  std::printf("core-hours are the most: each episode is taken to last %d frames, as long as it may\n",
-              plan.play.machine.max_episode_frames);
+  if (cost.discovery_core_hours > 0)
+    std::printf("of these, %.3f core-hours are for backgrounds and classes\n", cost.discovery_core_hours);
+  print_source(plan, rates);
   std::printf(
-      "memory: about %.0f MB, and %.0f MB a thread; disk: about %.0f MB; verification: %.1f core-hours\n",
+      "memory: about %.0f MB, and %.0f MB a thread; disk: about %.0f MB; verification: %.3f core-hours\n",
       kProgramMegabytes, cost.megabytes, cost.disk_megabytes, cost.verification_core_hours);
   for (const std::string& game : games_without_image(plan, images))
     std::printf("missing image: %s\n", game.c_str());
@@ -141,8 +157,9 @@ void run(const ExperimentOptions& options) {
   Plan plan = load_plan(options.plan, images);
   const Shard shard = shard_of(options.shard).value_or(Shard{1, 1});
   if (options.dry_run) {
-    print_units(plan, shard);
-    return print_cost(plan, images);
+    const PlayRates rates = options.unmeasured ? PlayRates() : measure_rates(plan, images, kMeasurement);
+    print_units(plan, rates, shard);
+    return print_cost(plan, rates, images);
   }
   if (options.into.empty()) throw UsageError("--into is required");
   ExperimentSettings settings;
@@ -175,7 +192,9 @@ void add_experiment(Subcommand& program) {
   command.option("PLAN", options->plan, "A plan's name, or a TOML file").required();
   command.option("--into", options->into, "The folder of the results; it may hold a part of them");
   command.flag("--dry-run", options->dry_run,
-               "Only list the units, their cost, and the images that are missing");
+               "Only list the units, their cost, and the images that are missing; measures for some seconds");
+  command.flag("--unmeasured", options->unmeasured,
+               "With --dry-run: measure nothing; every episode is as long as it may be");
   command
       .option("--shard", options->shard, "Run a part, such as 3/100: each hundredth unit from the third on")
       .value_name("K/N")

@@ -8,10 +8,13 @@
 
 #include "agents/base/sealed_file.hpp"
 #include "agents/experiment/log_judge.hpp"
+#include "agents/experiment/rerun.hpp"
 #include "agents/experiment/verify.hpp"
 #include "agents/experiment/verify_submission.hpp"
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/options.hpp"
+#include "cli/commands/interruption.hpp"
+#include "protocol/line/play_settings.hpp"
 #include "system/input_file.hpp"
 #include "system/printable.hpp"
 
@@ -28,11 +31,16 @@ RESULTS may be a submission, which has agent.toml and no plan: rows are compared
 the machine gives. That does not prove who chose the actions. RESULTS may be one log, whose name ends with .episode:
 what it says of itself is confirmed.
 
-Exit status: 0 all rows are confirmed; 1 rows, logs or tables are wrong, missing or too many; 2 nothing is wrong,
+With --rerun N, N units of the plan are played again, training and all. Results are deterministic, so that equal ones
+prove that the plan's agent made them. A seed chooses the units, and is printed; --rerun-seed repeats the choice. This
+takes as long as `racebeam experiment` took for these units.
+
+Exit status: 0 all rows are confirmed; 1 rows, logs, tables or units are wrong, missing or too many; 2 nothing is wrong,
 but some rows could not be checked, such as those of a game without an image.
 
 Examples:
   racebeam verify results --roms ~/atari
+  racebeam verify results --roms ~/atari --rerun 3
   racebeam verify results/logs/pong-uct-1/1.episode --roms ~/atari)";
 
 constexpr std::size_t kMostTableBytes = std::size_t{1} << 30;
@@ -40,6 +48,8 @@ constexpr std::size_t kMostTableBytes = std::size_t{1} << 30;
 struct VerifyOptions {
   std::string results;
   std::vector<std::string> tables;
+  int rerun = 0;  // units
+  std::string rerun_seed = "random";
   ImageOptions images;
 };
 
@@ -73,8 +83,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-int status_of(const Verdict& verdict, bool tables) {
-  if (verdict.wrong > 0 || !tables) return 1;
+int status_of(const Verdict& verdict, bool others) {
+  if (verdict.wrong > 0 || !others) return 1;
   return verdict.unchecked > 0 ? 2 : 0;
 }
 
@@ -83,8 +93,9 @@ bool is_log(const std::string& path) {
 }
 
 int verify_log(const VerifyOptions& options) {
-  if (!options.tables.empty())
-    throw UsageError("--table needs the folder of the results, and this is one log");
+  if (!options.tables.empty() || options.rerun > 0)
+    throw UsageError(std::string(options.rerun > 0 ? "--rerun" : "--table") +
+                     " needs the folder of the results, and this is one log");
   const std::string name = std::filesystem::path(options.results).filename().string();
   const std::string bytes = read_input_file("episode log", options.results, kMostLogBytes);
   const EpisodeLog log = log_of(name, bytes);
@@ -102,22 +113,54 @@ int verify_log(const VerifyOptions& options) {
   return status_of(verdict, true);
 }
 
+void print_finding(const std::string& line) {
+  std::printf("%s\n", printable(line).c_str());
+  std::fflush(stdout);
+}
+
+std::uint32_t rerun_seed(const VerifyOptions& options) {
+  try {
+    return parse_seed(options.rerun_seed);
+  } catch (const RequestError& error) {
+    throw UsageError(std::string("--rerun-seed: ") + error.what());
+  }
+}
+
+// Returns whether all units gave the same.
+bool run_again(const VerifyOptions& options, const ResultsFolder& folder, const Images& images) {
+  if (options.rerun == 0) return true;
+  const Interruption interruption;  // ends after the temporary folder is removed
+  RerunSettings settings{.units = options.rerun,
+                         .seed = rerun_seed(options),
+                         .threads = threads_of(options.images),
+                         .cpu = options.images.cpu,
+                         .version = RACEBEAM_VERSION};
+  settings.check = [&] { interruption.check(); };
+  std::printf("units are chosen by --rerun-seed %u\n", settings.seed);
+  std::fflush(stdout);
+  const RerunVerdict found = rerun(folder, images, settings, print_finding);
+  std::printf("%zu units played again: %zu the same, %zu not\n", found.same + found.different, found.same,
+              found.different);
+  return found.different == 0;
+}
+
 int run(const VerifyOptions& options) {
   if (is_log(options.results)) return verify_log(options);
   const ResultsFolder folder(options.results);
   const auto start = Clock::now();
+  const Images images = images_of(options.images);
   const auto check = is_submission(folder) ? verify_submission : verify;
   const Verdict verdict =
-      check(folder, images_of(options.images), threads_of(options.images), options.images.cpu,
-            [](const std::string& line) { std::printf("%s\n", printable(line).c_str()); });
+      check(folder, images, threads_of(options.images), options.images.cpu, print_finding);
   const double seconds = seconds_since(start);
-  bool tables = true;
+  bool others = true;
   const Digests digests = digests_of(folder);
-  for (const std::string& path : options.tables) tables = check_table(path, digests) && tables;
+  for (const std::string& path : options.tables) others = check_table(path, digests) && others;
+  others = run_again(options, folder, images) && others;
   std::printf("%zu rows confirmed, %zu wrong, %zu could not be checked; %lld frames in %.1f s\n",
               verdict.confirmed, verdict.wrong, verdict.unchecked, static_cast<long long>(verdict.frames),
               seconds);
-  return status_of(verdict, tables);
+  return status_of(verdict, others);
 }
 
 }  // namespace
@@ -130,6 +173,9 @@ void add_verify(Subcommand& program) {
       .required();
   command.option("--table", options->tables, "A table or report that was made from them; may be repeated")
       .one_a_time();
+  add_count(command, "--rerun", options->rerun, 0, "Play so many units of the plan again, with their agents");
+  command.option("--rerun-seed", options->rerun_seed, "What chooses these units: a number, or random")
+      .value_name("SEED");
   add_image_options(command, options->images);
   command.exits_with([options] { return run(*options); });
 }

@@ -281,7 +281,7 @@ class Experiment(unittest.TestCase):
             self.assertIn(" rows confirmed, 0 wrong, ", printed)
 
     def test_a_dry_run_lists_cost_and_missing_images(self):
-        status, printed, _ = run("experiment", "paper", "--dry-run")
+        status, printed, _ = run("experiment", "paper", "--dry-run")  # without images, nothing can be measured
         self.assertEqual(status, 0)
         self.assertIn("missing image: zaxxon\n", printed)
         self.assertRegex(printed, r"(?m)^basic +1650 units +\d+ decisions +[0-9.]+ core-hours$")
@@ -293,6 +293,59 @@ class Experiment(unittest.TestCase):
         self.assertEqual((len(units), units[0], units[-1]), (11385, "asterix-random-1", "zaxxon-uct-10"))
         _, part, _ = run("experiment", "paper", "--dry-run", "--shard", "3/1000")
         self.assertEqual(re.findall(r"(?m)^unit (\S+) ", part), units[2::1000])
+
+    def test_a_dry_run_says_how_long_a_plan_takes(self):
+        for agents, more in (
+            ('["random", "const", "perturb"]', "evaluation_episodes = 30\n"),
+            ('["basic", "lsh"]', "trials = 1\ntraining_episodes = 40\nevaluation_episodes = 10\n"),
+            ('["basic", "disco"]', "trials = 1\ntraining_frames = 400000\nevaluation_episodes = 5\n"),
+        ):
+            self.plan.write_text(f'games = ["beamfall", "updraft"]\nagents = {agents}\n{more}')
+            status, printed, errors = run("experiment", str(self.plan), "--dry-run")
+            self.assertEqual((status, errors), (0, ""))
+            self.assertIn("core-hours are from a moment of play on this machine, in 2 of 2 games; ", printed)
+            expected = 3600 * float(re.search(r"(?m)^all +\d+ units +\d+ decisions +([0-9.]+) core-hours$", printed)[1])
+            before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+            self.assertEqual(self.experiment(f"results{len(agents)}", "--threads", "1")[0], 0)
+            used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+            self.assertTrue(0.5 < expected / used < 2, (agents, expected, used))
+
+    def test_units_are_played_again(self):
+        self.plan.write_text('games = ["beamfall"]\nagents = ["random"]\nevaluation_episodes = 2\n')
+        self.assertEqual(self.experiment("results")[0], 0)
+        results = self.place / "results"
+        status, printed, errors = run("verify", str(results), "--rerun", "1", "--rerun-seed", "7")
+        self.assertEqual((status, errors), (0, ""))
+        self.assertIn("units are chosen by --rerun-seed 7\n", printed)
+        self.assertIn("beamfall-random-1: played again, and all rows are the same\n", printed)
+        self.assertIn("1 units played again: 1 the same, 0 not\n", printed)
+        table = (results / "results.csv").read_text()
+        score = table.splitlines()[1].split(",")[8]
+        (results / "results.csv").write_text(table.replace(f",{score},", f",{int(score) + 1},", 1))
+        status, printed, _ = run("verify", str(results), "--rerun", "1")
+        self.assertEqual(status, 1)
+        self.assertRegex(printed, r"(?m)^units are chosen by --rerun-seed \d+$")
+        self.assertIn(
+            f"beamfall-random-1: not the same: results.csv, episode 1: score is {int(score) + 1}; "
+            f"played again, the agent has {score}\n",
+            printed,
+        )
+        status, _, errors = run("verify", str(results), "--rerun", "1", "--rerun-seed", "x")
+        self.assertEqual(status, 2)
+        self.assertIn("--rerun-seed: seed is 'x'", errors)
+        log = results / "logs/beamfall-random-1/1.episode"
+        status, _, errors = run("verify", str(log), "--rerun", "1")
+        self.assertEqual(status, 2)
+        self.assertIn("--rerun needs the folder of the results, and this is one log", errors)
+
+    def test_the_set_of_57_games_is_that_of_the_evaluation(self):
+        self.plan.write_text('games = "atari57"\nagents = ["random"]\n')
+        status, printed, _ = run("experiment", str(self.plan), "--dry-run")
+        self.assertEqual(status, 0)
+        games = (ROOT / "evaluation/racebeam_evaluation/data/atari57.csv").read_text().splitlines()[1:]
+        self.assertEqual(
+            re.findall(r"(?m)^missing image: (\w+)$", printed), [line.split(",")[0] for line in games]
+        )
 
     def test_a_background_is_discovered_drawn_and_read_again(self):
         into = self.place / "pictures"

@@ -108,7 +108,7 @@ class Units(unittest.TestCase):
         ).stdout
 
     def test_they_are_as_many_and_as_long_as_the_program_says(self):
-        agents = simulate.agents_of(self.experiment("--dry-run"))
+        agents = simulate.agents_of(self.experiment("--dry-run", "--unmeasured"))
         self.assertEqual([(agent.name, agent.units) for agent in agents], [("random", 2), ("ram", 4)])
         lengths = simulate.lengths_of(agents, {}, random.Random(1))
         self.assertEqual(len(lengths), 6)
@@ -124,7 +124,7 @@ class Units(unittest.TestCase):
         for part, seconds in measured["ram"]:
             self.assertTrue(0 < part <= 1 and 0 < seconds < 1, (part, seconds))
         # The plan of the pilot takes as long as the pilot took, but for the draws.
-        agents = simulate.agents_of(self.experiment("--dry-run"))
+        agents = simulate.agents_of(self.experiment("--dry-run", "--unmeasured"))
         took = sum(
             float(row["training_seconds"]) + float(row["evaluation_seconds"])
             for row in simulate.rows_of(results / "times.csv")

@@ -1,7 +1,9 @@
 #include "agents/experiment/cost.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 
+#include "agents/experiment/probe.hpp"
 #include "system/invalid_input.hpp"
 
 using namespace racebeam;
@@ -58,4 +60,51 @@ TEST_CASE("A plan that takes more memory than there is is refused") {
       "210\n",
       "");
   CHECK_THROWS_WITH(check_memory(large, 8, gigabyte), Catch::Contains("for bass on each of 1 threads"));
+}
+
+TEST_CASE("What was measured decides, and games that were not measured get the mean of the others") {
+  const Plan plan = parse_plan(
+      "games = [\"beamfall\", \"updraft\", \"pong\"]\nagents = [\"basic\", \"uct\"]\n[agent.basic]\ntrials = "
+      "2\ntraining_episodes = 9\nevaluation_episodes = 1\n",
+      "");
+  PlayRates rates;
+  CHECK(rates.empty());
+  const PlanAgent &basic = plan.agents[0], &uct = plan.agents[1];
+  rates.add(plan.games[0], basic,
+            {.episode_frames = 1000, .decisions_per_second = 100, .discovery_seconds = 3600});
+  rates.add(plan.games[1], basic, {.episode_frames = 3000, .decisions_per_second = 50});
+  CHECK(rates.games() == 2);
+  CHECK(seconds_of_trial(basic, rates.of(plan, plan.games[0], basic)) == Approx(10 * 1000 / 5 / 100.0));
+  const PlayRate mean = rates.of(plan, plan.games[2], basic);
+  CHECK(mean.episode_frames == Approx(2000));
+  CHECK(1 / mean.decisions_per_second == Approx((0.01 + 0.02) / 2));
+  CHECK(rates.of(plan, plan.games[0], uct).episode_frames == 18000);
+  CHECK(rates.of(plan, plan.games[0], uct).decisions_per_second == uct.kind->decisions_per_second);
+  const Cost cost = cost_of(plan, rates);
+  CHECK(cost.discovery_core_hours == Approx(1 + 0 + 0.5));
+  CHECK(cost.agents[0].decisions == Approx(2 * 10 * (1000 + 3000 + 2000) / 5));
+  CHECK(cost.core_hours ==
+        Approx(cost.agents[0].core_hours + cost.agents[1].core_hours + cost.discovery_core_hours));
+}
+
+TEST_CASE("A moment of play measures every kind of agent") {
+  std::string names;
+  for (const AgentKind& kind : agent_kinds())
+    names += (names.empty() ? "\"" : ", \"") + std::string(kind.name) + '"';
+  Plan plan = parse_plan(
+      "games = [\"beamfall\"]\nbackground_screens = 2000\nclass_screens = 2000\nagents = [" + names +
+          "]\n[agent.full_tree]\nframes = 500\n[agent.iw1]\nframes = 500\n[agent.rollout_iw1]\nframes = "
+          "500\n[agent.uct]\nsimulations = 5\n",
+      "");
+  const PlayRates rates = measure_rates(plan, Images(), std::chrono::duration<double>(1));
+  for (const PlanAgent& agent : plan.agents) {
+    INFO(agent.kind->name);
+    const PlayRate rate = rates.of(plan, plan.games[0], agent);
+    CHECK(rate.decisions_per_second > 1);
+    CHECK(rate.decisions_per_second != agent.kind->decisions_per_second);
+    CHECK(rate.episode_frames >= agent.frame_skip);
+    CHECK(rate.episode_frames <= 18000);
+    if (agent.kind->role == Role::kPlanner) CHECK(rate.episode_frames == 18000);
+  }
+  CHECK(rates.of(plan, plan.games[0], plan.agents[0]).episode_frames < 9000);  // of random play
 }

@@ -304,7 +304,9 @@ TEST_CASE("Progress is reported within a unit, and weighs what is left by its co
   const auto last_baseline =
       std::ranges::find_if(reports, [](const Progress& at) { return at.unit_finished && at.finished == 19; });
   REQUIRE(last_baseline != reports.end());
-  const auto seconds = [&](std::size_t agent) { return seconds_of_trial(plan, plan.agents[agent]); };
+  const auto seconds = [&](std::size_t agent) {
+    return seconds_of_trial(plan.agents[agent], PlayRates().of(plan, plan.games[0], plan.agents[agent]));
+  };
   CHECK(last_baseline->left / last_baseline->elapsed ==
         Approx(seconds(2) / (seconds(0) + 18 * seconds(1))));  // Basic's one unit; Random, 18 of Perturb
   CHECK(reports.back().left.count() == 0);

@@ -47,9 +47,30 @@ TEST_CASE("Presets give the settings of their papers") {
   CHECK(machado.play.machine.sticky == 0.25F);
   CHECK(machado.agents[0].length.training_frames == 200000000);
   CHECK(machado.agents[0].length.training_episodes == 0);
+  CHECK(machado.play.noop_max == 0);
+  CHECK_FALSE(lives_end(machado));
   const Plan atari = parse_plan(std::string("preset = \"atari100k\"\n") + kStart, "");
   CHECK(atari.play.machine.frame_skip == 4);
+  CHECK(atari.play.machine.max_episode_frames == 108000);
   CHECK(atari.agents[0].length.training_frames == 400000);
+  const Plan dqn = parse_plan(std::string("preset = \"dqn2015\"\n") + kStart, "");
+  CHECK(dqn.play.machine.max_episode_frames == 18000);
+  CHECK(dqn.agents[0].length == TrialLength{1, 0, 200000000, 30});
+  for (const Plan* const plan : {&atari, &dqn}) {
+    CHECK(plan->play.noop_max == 30);
+    CHECK(plan->play.action_set == ActionSet::kMinimal);
+    CHECK(plan->play.machine.sticky == 0);
+    CHECK_FALSE(plan->play.machine.truncate_on_life_loss);
+    CHECK(plan->play.machine.reward_max == std::numeric_limits<int>::max());
+    CHECK(lives_end(*plan));
+    const PlaySettings training = training_settings(*plan, plan->agents[0]);
+    CHECK(training.machine.reward_min == -1);
+    CHECK(training.machine.reward_max == 1);
+    CHECK(training.machine.max_episode_frames == plan->play.machine.max_episode_frames);
+    CHECK(training.noop_max == 30);
+    CHECK(training.action_set == ActionSet::kMinimal);
+    CHECK_FALSE(training.machine.truncate_on_life_loss);
+  }
 }
 
 TEST_CASE("Mistakes in a plan are named with their line") {
@@ -60,17 +81,27 @@ TEST_CASE("Mistakes in a plan are named with their line") {
   check("name = \"../x\"\n", "test.toml:3: name: '../x' is not a name for a plan; it takes 1 to 64 letters");
   check("trials = 0\n", "test.toml:3: trials: 0 is out of range; accepted are 1 to 1000000");
   check("preset = \"dqn\"\n",
-        "test.toml:3: preset: 'dqn' is not known; accepted are paper2013, machado2018, atari100k");
+        "test.toml:3: preset: 'dqn' is not known; accepted are paper2013, machado2018, atari100k, dqn2015");
   check("environment = \"frame_skip=0\"\n", "test.toml:3: environment: frame_skip is '0'");
   check("environment = \"speed=9\"\n", "test.toml:3: environment: there is no setting 'speed'");
   check("environment = \"max_episode_frames=0\"\n", "test.toml:3: environment: max_episode_frames is 0");
-  check("environment = \"noop_max=30\"\n", "test.toml:3: environment: an episode is played with noop_max=0");
-  check("environment = \"autoreset=1\"\n", "test.toml:3: environment: an episode is played with noop_max=0");
+  check("environment = \"noop_max=1001\"\n", "test.toml:3: environment: noop_max is '1001'");
+  check("environment = \"autoreset=1\"\n",
+        "test.toml:3: environment: autoreset is 1; an episode that is played");
+  check("training_environment = \"autoreset=1\"\n", "test.toml:3: training_environment: autoreset is 1");
+  check("training_environment = \"seed=1\"\n", "test.toml:3: training_environment: seed is not accepted");
+  check("training_environment = \"max_episode_frames=0\"\n",
+        "test.toml:3: training_environment: max_episode_frames is 0");
+  for (const std::string word :
+       {"frame_skip=4", "frame_skip=5-6", "action_set=minimal", "mode=1", "difficulty=1"})
+    check("training_environment = \"" + word + "\"\n",
+          "test.toml:3: training_environment: frame_skip, action_set, mode and difficulty are those of "
+          "evaluation");
   check("environment = \"height=220\"\n",
         "test.toml:3: environment: an episode is played with the properties");
   check("environment = \"left=paddles\"\n",
         "test.toml:3: environment: an episode is played with the properties");
-  check("environment = \"action_set=minimal\"\n", "test.toml:3: environment: an episode is played with");
+  check("environment = \"action_set=small\"\n", "test.toml:3: environment: action_set is 'small'");
   check("environment = \"seed=7\"\n",
         "test.toml:3: environment: seed is not accepted here; all seeds follow from the plan's key 'seed'");
   check("seed = 4294967295\n", "test.toml:3: seed: 4294967295 is out of range; accepted are 0 to 2147483647");
@@ -152,11 +183,41 @@ TEST_CASE("Baselines are 37, in the plan's order, with their own seeds") {
   CHECK(seeds.size() == units.size() * 5);
 }
 
+TEST_CASE("There is a Const for each action of the plan's set") {
+  const auto names = [](const std::string& set) {
+    const Plan plan = parse_plan(
+        "games = [\"beamfall\"]\nagents = [\"const\"]\nenvironment = \"action_set=" + set + "\"\n", "");
+    std::vector<std::string> list;
+    for (const Unit& unit : units_of(plan)) list.push_back(unit.agent_name);
+    return list;
+  };
+  std::vector<std::string> minimal;
+  for (const int action : find_game("beamfall")->minimal_actions)
+    minimal.push_back(agent_name(*find_agent_kind("const"), action));
+  REQUIRE(minimal.size() < 18);
+  CHECK(names("minimal") == minimal);
+  CHECK(names("full").size() == 18);
+}
+
+TEST_CASE("A plan with other settings of training reads back the same") {
+  for (const std::string preset : {"atari100k", "dqn2015"}) {
+    const std::string text = text_of(parse_plan("preset = \"" + preset + "\"\n" + kStart, ""));
+    INFO(text);
+    CHECK(text.find("training_environment = \"") != std::string::npos);
+    CHECK(text_of(parse_plan(text, "again")) == text);
+  }
+  CHECK(text_of(parse_plan(kStart, "")).find("training_environment") == std::string::npos);
+  const Plan plan =
+      parse_plan("preset = \"dqn2015\"\ntraining_environment = \"\"\n" + std::string(kStart), "");
+  CHECK_FALSE(lives_end(plan));
+}
+
 TEST_CASE("The sets of games are the paper's") {
   CHECK(find_game_set("paper")->games.size() == 55);
   CHECK(find_game_set("training")->games.size() == 5);
   CHECK(find_game_set("testing")->games.size() == 50);
   CHECK(find_game_set("atari100k")->games.size() == 26);
+  CHECK(find_game_set("atari57")->games.size() == 57);
   for (const GameSet& set : game_sets())
     for (const SetGame& game : set.games) {
       INFO(game.name);

@@ -1,7 +1,9 @@
 #include "agents/experiment/play.hpp"
 
 #include <catch2/catch.hpp>
+#include <set>
 
+#include "protocol/line/loaded_machine.hpp"
 #include "system/invalid_input.hpp"
 #include "tests/agents/experiment/samples.hpp"
 
@@ -72,6 +74,77 @@ TEST_CASE("An episode begins as a machine that was constructed with its seed") {
 
 TEST_CASE("Settings that a log could not repeat are refused") {
   PlaySettings play = short_episodes();
-  play.noop_max = 30;
+  play.autoreset = true;
   CHECK_THROWS_AS(Stage(beamfall(), play, Drawing::kNone), InvalidInput);
+}
+
+TEST_CASE("An episode begins with the no-ops of load, drawn by its seed") {
+  PlaySettings play = short_episodes();
+  play.noop_max = 30;
+  play.machine.sticky = 0.25;
+  Stage stage(beamfall(), play, Drawing::kNone);
+  std::set<int> numbers;
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    play.machine.random_seed = seed;
+    Slot slot(beamfall(), slot_settings(play));
+    stage.begin(seed);
+    INFO(seed);
+    CHECK(stage.machine().state_hash() == slot.environment().state_hash());
+    CHECK(stage.machine().episode_frame_number() == slot.environment().episode_frame_number());
+    for (int i = 0; i < 50; ++i) CHECK(stage.machine().act(i % 18) == slot.environment().act(i % 18));
+    CHECK(stage.machine().state_hash() == slot.environment().state_hash());
+    numbers.insert(Noops(seed, 30).draw());
+  }
+  CHECK(numbers.size() > 5);
+}
+
+TEST_CASE("Logs with no-ops and minimal actions are played again, and other actions are refused") {
+  PlaySettings play = short_episodes();
+  play.noop_max = 30;
+  play.action_set = ActionSet::kMinimal;
+  const std::vector<int>& minimal = beamfall().game->minimal_actions;
+  FixedPolicy agent(minimal[0], 0, 7, minimal);
+  EpisodeLog log = log_of_episode(agent, play, 7);
+  for (const int action : log.actions) REQUIRE(std::ranges::find(minimal, action) != minimal.end());
+  const Replay played = Replayer(1, CpuKind::kAuto).play(log, beamfall());
+  CHECK(played.end == log.end);
+  CHECK(played.hashes == log.hashes);
+  int other = 0;
+  while (std::ranges::find(minimal, other) != minimal.end()) ++other;
+  log.actions[3] = static_cast<std::uint8_t>(other);
+  CHECK_THROWS_WITH(Replayer(1, CpuKind::kAuto).play(log, beamfall()),
+                    Catch::Contains("which is not in the set minimal"));
+}
+
+namespace {
+
+// Counts the episodes that it is told of.
+class Counting final : public Agent {
+ public:
+  int begin(const Environment&) override { return ++begun, 0; }
+  int next(double, const Environment&) override { return 0; }
+  void end(double) override { ++ended; }
+  void write(StateWriter&) const override {}
+  void read(StateReader&) override {}
+
+  int begun = 0, ended = 0;
+};
+
+}  // namespace
+
+TEST_CASE("A lost life ends an episode for the agent only where it is to") {
+  Counting whole, lives;
+  Stage stage(beamfall(), short_episodes(18000), Drawing::kNone);
+  stage.begin(1);
+  const int first = stage.machine().lives();
+  REQUIRE(first > 1);
+  const Episode usual = play(whole, stage);
+  REQUIRE(usual.end.over == EpisodeOver::kTerminated);
+  stage.begin(1);
+  const Episode same = play(lives, stage, {.lives_end = true});
+  CHECK(same.end == usual.end);  // the game goes on
+  CHECK(same.actions == usual.actions);
+  CHECK(whole.begun == 1);
+  CHECK(lives.begun == first - usual.end.lives);
+  CHECK(lives.ended == lives.begun);
 }

@@ -49,9 +49,7 @@ inline PlaySettings short_episodes(int frames = 3000) {
   return play;
 }
 
-// A log of random play.
-inline EpisodeLog random_log(const PlaySettings& play, std::uint32_t seed = 7) {
-  FixedPolicy agent(0, 0, seed);
+inline EpisodeLog log_of_episode(Agent& agent, const PlaySettings& play, std::uint32_t seed) {
   Stage stage(beamfall(), play, Drawing::kNone);
   stage.begin(seed);
   const Episode episode = racebeam::play(agent, stage);
@@ -64,6 +62,12 @@ inline EpisodeLog random_log(const PlaySettings& play, std::uint32_t seed = 7) {
   log.hashes = episode.hashes;
   log.actions = episode.actions;
   return log;
+}
+
+// A log of random play.
+inline EpisodeLog random_log(const PlaySettings& play, std::uint32_t seed = 7) {
+  FixedPolicy agent(0, 0, seed);
+  return log_of_episode(agent, play, seed);
 }
 
 inline Plan bound_plan(const std::string& text) {

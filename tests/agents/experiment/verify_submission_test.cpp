@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "agents/experiment/phrase_seeds.hpp"
 #include "system/invalid_input.hpp"
 #include "tests/agents/experiment/verified.hpp"
 
@@ -19,19 +20,26 @@ PlaySettings sticky_episodes(int frames = 3000) {
   return play;
 }
 
-// Three episodes of random play, without a plan.
-void make_submission(const ResultsFolder& folder) {
+constexpr auto kAgent = "agent = \"mine\"\n";
+constexpr auto kPhrase = "agent = \"mine\"\nphrase = \"the first headline of Sunday\"\n";
+
+// Three episodes of random play, without a plan. seed_of: by the number of the episode.
+void make_submission(
+    const ResultsFolder& folder, const std::string& agent = kAgent,
+    const std::function<std::uint32_t(int)>& seed_of = [](int episode) {
+      return static_cast<std::uint32_t>(episode);
+    }) {
   std::string table = line_of(kResultColumns);
   fs::create_directories(folder.logs("mine-1"));
   for (int episode = 1; episode <= 3; ++episode) {
-    EpisodeLog log = random_log(sticky_episodes(), static_cast<std::uint32_t>(episode));
+    EpisodeLog log = random_log(sticky_episodes(), seed_of(episode));
     log.origin = {"mine-1", "mine", 1, episode, 5, "2.0"};
     const std::string bytes = bytes_of(log);
     write(folder.log("mine-1", std::to_string(episode)), bytes);
     table += line_of(row_of(log, sha256_of(bytes)));
   }
   write(folder.results(), table);
-  write(folder.root() + "/agent.toml", "agent = \"mine\"\n");
+  write(folder.root() + "/agent.toml", agent);
 }
 
 Verified of_submission(const ResultsFolder& folder) {
@@ -123,5 +131,80 @@ TEST_CASE("A submission's rows are confirmed without a plan, and every alteratio
   SECTION("a folder with a plan is an experiment's") {
     write(folder.plan(), kPlan);
     CHECK_FALSE(is_submission(folder));
+  }
+}
+
+TEST_CASE("The seed of a phrase is the SHA-256 of phrase, game, trial and episode") {
+  // printf 'a phrase\nbeamfall\n1\n2' | sha256sum | cut -c1-8; then without the highest bit
+  CHECK(seed_of_phrase("a phrase", "beamfall", 1, 2) == 221384134);
+  CHECK_THROWS_AS(check_phrase(""), InvalidInput);
+  CHECK_THROWS_AS(check_phrase("two\nlines"), InvalidInput);
+  CHECK_THROWS_AS(check_phrase("a \"word\""), InvalidInput);
+  CHECK_THROWS_AS(check_phrase(std::string(1001, 'a')), InvalidInput);
+  CHECK_NOTHROW(check_phrase("größer"));
+}
+
+TEST_CASE("With a phrase, a submission's seeds follow from it, and no episode is left out") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("mine"));
+  make_submission(folder, kPhrase, [](int episode) {
+    return seed_of_phrase("the first headline of Sunday", "beamfall", 1, episode);
+  });
+  const Verified good = of_submission(folder);
+  INFO(good.findings);
+  REQUIRE(good.verdict.confirmed == 3);
+  REQUIRE(good.verdict.wrong == 0);
+  const auto refused = [&](const std::string& sentence) {
+    const Verified found = of_submission(folder);
+    CHECK(found.verdict.wrong >= 1);
+    CHECK_THAT(found.findings, Catch::Contains(sentence));
+  };
+  // Gives an episode of another seed to a row.
+  const auto replay_with = [&](std::size_t line, std::uint32_t seed) {
+    reseal(folder, line, [&](EpisodeLog& log) {
+      const EpisodeOrigin origin = log.origin;
+      log = random_log(sticky_episodes(), seed);
+      log.origin = origin;
+    });
+  };
+
+  SECTION("a seed that was picked, with an episode that fits it") {
+    replay_with(1, 12345);
+    refused(
+        "results.csv:3 (mine-1, episode 2): not confirmed: environment_seed is '12345'; the phrase gives '");
+  }
+  SECTION("the seed of another episode") {
+    replay_with(1, seed_of_phrase("the first headline of Sunday", "beamfall", 1, 3));
+    refused("(mine-1, episode 2): not confirmed: environment_seed is '");
+  }
+  SECTION("another phrase") {
+    write(folder.root() + "/agent.toml", "phrase = \"another\"\n");
+    CHECK(of_submission(folder).verdict.confirmed == 0);
+  }
+  SECTION("an episode that was left out") {
+    std::vector<ResultRow> rows = rows_of(contents(folder.results()));
+    write(folder.results(), line_of(kResultColumns) + line_of(rows[0]) + line_of(rows[2]));
+    fs::remove(folder.log("mine-1", "2"));
+    refused("results.csv: mine-1 has 2 episodes, and the last is 3; with a phrase, none is left out");
+  }
+  SECTION("a second unit with the same seeds") {
+    std::vector<ResultRow> rows = rows_of(contents(folder.results()));
+    fs::create_directories(folder.logs("mine-2"));
+    EpisodeLog log = log_of("1.episode", contents(folder.log("mine-1", "1")));
+    log.origin.unit = "mine-2";
+    write(folder.log("mine-2", "1"), bytes_of(log));
+    write(folder.results(), contents(folder.results()) + line_of(row_of(log, sha256_of(bytes_of(log)))));
+    refused("trial 1 of beamfall is the unit mine-1; with a phrase, no other unit has its seeds");
+  }
+  SECTION("numbers that do not count from 1") {
+    reseal(folder, 0, [](EpisodeLog& log) { log.origin.trial = 0; });
+    CHECK(of_submission(folder).verdict.wrong >= 1);
+    write(folder.results(), altered_field(contents(folder.results()), 1, 4, "01"));
+    refused("trial is '01' and episode is '2'; with a phrase, both count from 1");
+  }
+  SECTION("a phrase that cannot be one") {
+    write(folder.root() + "/agent.toml", "\nphrase = \"\"\n");
+    CHECK_THROWS_WITH(of_submission(folder),
+                      Catch::Contains("agent.toml:2: phrase: a phrase has 1 to 1000 bytes"));
   }
 }

@@ -1,0 +1,44 @@
+// Seeds of episodes that follow from a published phrase, so that nobody can pick them (docs/episodes.md,
+// "Seeds from a phrase").
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "agents/experiment/results.hpp"
+
+namespace racebeam {
+
+// Throws InvalidInput for a phrase that is empty, too long, or has a quotation mark, a backslash or a control
+// character.
+void check_phrase(std::string_view phrase);
+
+std::uint32_t seed_of_phrase(std::string_view phrase, std::string_view game, int trial,
+                             int episode);  // from 1 to 2^31 - 1
+
+// Judges the rows of results whose seeds must follow from a phrase.
+class PhraseRows {
+ public:
+  explicit PhraseRows(std::string phrase) : phrase_(std::move(phrase)) {}
+
+  // What is wrong with the seed of a row, or with its place; empty: nothing.
+  std::string fault(const ResultRow& row);
+
+  // After all rows: an episode that lacks may have been left out for its score.
+  void each_gap(const std::function<void(const std::string& sentence)>& visit) const;
+
+ private:
+  struct Episodes {
+    std::string unit;
+    int count = 0, last = 0;
+  };
+
+  std::string phrase_;
+  std::map<std::pair<std::string, int>, Episodes> trials_;  // by game and trial
+};
+
+}  // namespace racebeam

@@ -1,0 +1,34 @@
+// The keys of a plan that are numbers, for those that read and write plans.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "agents/experiment/plan.hpp"
+
+namespace racebeam {
+
+constexpr int kMostNumberOfPlan = std::numeric_limits<int>::max();
+constexpr int kMostEpisodesOfPlan = 1000000;
+
+struct LengthKey {
+  std::string_view name;
+  int TrialLength::*member;
+  int least;
+  int most;
+};
+constexpr std::array kLengthKeys = {
+    LengthKey{"trials", &TrialLength::trials, 1, kMostEpisodesOfPlan},
+    LengthKey{"training_episodes", &TrialLength::training_episodes, 0, kMostEpisodesOfPlan},
+    LengthKey{"training_frames", &TrialLength::training_frames, 0, kMostNumberOfPlan},
+    LengthKey{"evaluation_episodes", &TrialLength::evaluation_episodes, 1, kMostEpisodesOfPlan},
+};
+
+struct ScreensKey {
+  std::string_view name;
+  int Plan::*member;
+};
+constexpr std::array kScreensKeys = {ScreensKey{"background_screens", &Plan::background_screens},
+                                     ScreensKey{"class_screens", &Plan::class_screens}};
+
+}  // namespace racebeam

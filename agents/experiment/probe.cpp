@@ -1,0 +1,157 @@
+#include "agents/experiment/probe.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <new>
+
+#include "agents/experiment/play.hpp"
+#include "agents/features/game_facts.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+constexpr std::size_t kMostProbes = 60, kMostActions = 4;
+constexpr Seconds kLongestProbe{0.5};
+constexpr int kShare = 60;  // of the screens that facts are discovered from, one in so many is sampled
+
+struct Enough {};  // ends an episode
+
+// Processor time of this thread, which other programs do not change.
+Seconds processor_time() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+// What an agent did in a game.
+struct Sums {
+  double frames = 0, decisions = 0, episodes = 0, seconds = 0, discovery_seconds = 0;
+};
+
+// An agent, for as long as it is measured.
+class Probe {
+ public:
+  Probe(const Plan& plan, const PlanGame& game, const PlanAgent& agent, const Cartridge& cartridge)
+      : agent_(agent),
+        cartridge_(cartridge),
+        play_(play_settings(plan, agent)),
+        trains_(agent.length.training_episodes > 0 || agent.length.training_frames > 0),
+        facts_(cartridge, samples_of(plan, game), ""),
+        stage_(cartridge, trains_ ? training_settings(plan, agent) : play_, Drawing::kNone) {}
+
+  // Each of some of a kind's agents plays for a part of the time.
+  Sums play(const std::vector<int>& actions, Seconds time) {
+    const std::size_t count = std::min(actions.size(), kMostActions);
+    for (std::size_t i = 0; i < count; ++i) play(actions[i * actions.size() / count], time / count);
+    return sums_;
+  }
+
+ private:
+  static SampleSettings samples_of(const Plan& plan, const PlanGame& game) {
+    SampleSettings samples = sample_settings(plan, game);
+    samples.background_csv.clear();
+    samples.background_screens = std::max(samples.background_screens / kShare, 1);
+    samples.class_screens = std::max(samples.class_screens / kShare, 1);
+    return samples;
+  }
+
+  // The first of a kind's agents discovers what they all know.
+  std::unique_ptr<Agent> make(int action) {
+    const auto start = processor_time();
+    auto agent = agent_.kind->make({agent_.values, action, 1, cartridge_, play_, &facts_});
+    const Seconds took = processor_time() - start;
+    if (!agent_.kind->each_action) {
+      const auto again = processor_time();
+      agent = agent_.kind->make({agent_.values, action, 1, cartridge_, play_, &facts_});
+      sums_.discovery_seconds = std::max((took - (processor_time() - again)).count(), 0.0) * kShare;
+    }
+    return agent;
+  }
+
+  void play(int action, Seconds time) {
+    const std::unique_ptr<Agent> agent = make(action);
+    stage_.machine().set_drawing(agent->drawing());
+    agent->set_learning(trains_);
+    const auto start = processor_time();
+    const auto end = Clock::now() + time;
+    std::int64_t decisions = 0, frames = 0;
+    const PlayOptions options{.watch = [&](std::int64_t now, std::int64_t frames_now) {
+      decisions = now;
+      frames = frames_now;
+      if (Clock::now() >= end) throw Enough();
+    }};
+    try {
+      for (std::uint32_t seed = 1; Clock::now() < end && !agent->diverged(); ++seed) {
+        stage_.begin(seed);
+        racebeam::play(*agent, stage_, options);
+        add(std::exchange(decisions, 0), std::exchange(frames, 0), 1);
+      }
+    } catch (const Enough&) {
+      add(decisions, frames, 0);
+    }
+    sums_.seconds += (processor_time() - start).count();
+  }
+
+  void add(std::int64_t decisions, std::int64_t frames, double episodes) {
+    sums_.decisions += static_cast<double>(decisions);
+    sums_.frames += static_cast<double>(frames);
+    sums_.episodes += episodes;
+  }
+
+  const PlanAgent& agent_;
+  const Cartridge cartridge_;
+  const PlaySettings play_;
+  const bool trains_;
+  GameFacts facts_;
+  Stage stage_;
+  Sums sums_;
+};
+
+// An episode that was cut short counts its frames. A search plays better than what can be measured in a
+// moment, so that its episodes are taken to be as long as they may be.
+PlayRate rate_of(const Plan& plan, const PlanAgent& agent, const Sums& sums) {
+  const double longest = plan.play.machine.max_episode_frames;
+  const bool is_known = sums.episodes > 0 && agent.kind->role != Role::kPlanner;
+  return {.episode_frames = is_known ? std::min(sums.frames / sums.episodes, longest) : longest,
+          .decisions_per_second = sums.decisions / sums.seconds,
+          .discovery_seconds = sums.discovery_seconds};
+}
+
+// So many of the games that have an image, evenly spaced.
+std::vector<const PlanGame*> some_games(const Plan& plan, const Images& images, std::size_t most) {
+  std::vector<const PlanGame*> all, some;
+  for (const PlanGame& game : plan.games)
+    if (images.find(game.name)) all.push_back(&game);
+  const std::size_t count = std::min(all.size(), std::max<std::size_t>(most, 1));
+  for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
+  return some;
+}
+
+}  // namespace
+
+PlayRates measure_rates(const Plan& plan, const Images& images, std::chrono::duration<double> time) {
+  const std::vector<const PlanGame*> games = some_games(plan, images, kMostProbes / plan.agents.size());
+  const auto count = static_cast<double>(games.size() * plan.agents.size());
+  PlayRates rates;
+  for (const PlanAgent& agent : plan.agents) {
+    for (const PlanGame* const game : games) {
+      const Cartridge& cartridge = *images.find(game->name);
+      try {
+        const Sums sums =
+            Probe(plan, *game, agent, cartridge)
+                .play(actions_of_agents(*game, *agent.kind), std::min(time / count, kLongestProbe));
+        if (sums.decisions > 0 && sums.seconds > 0) rates.add(*game, agent, rate_of(plan, agent, sums));
+      } catch (const std::bad_alloc&) {  // too little memory to measure: the table's speed counts
+      } catch (const InvalidInput&) {    // a setting that the game lacks, which a run refuses
+      }
+    }
+  }
+  return rates;
+}
+
+}  // namespace racebeam

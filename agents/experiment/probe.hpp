@@ -1,0 +1,15 @@
+// Measures what the agents of a plan cost on this machine: each plays for a moment (docs/experiments.md).
+#pragma once
+
+#include <chrono>
+
+#include "agents/experiment/cost.hpp"
+#include "protocol/line/images.hpp"
+
+namespace racebeam {
+
+// Plays for about so long, not counting what agents need to begin. Games without an image, and those that
+// there is no time for, get the mean of the others; a kind that was not measured is left out.
+PlayRates measure_rates(const Plan& plan, const Images& images, std::chrono::duration<double> time);
+
+}  // namespace racebeam

@@ -1,0 +1,34 @@
+// Plays units of an experiment again, agent and all. Results are deterministic, so that equal ones prove that
+// the agent of the plan made them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "agents/experiment/verify.hpp"
+
+namespace racebeam {
+
+struct RerunSettings {
+  int units = 1;           // how many; all, if the plan has fewer
+  std::uint32_t seed = 1;  // chooses them
+  unsigned threads = 1;
+  CpuKind cpu = CpuKind::kAuto;
+  std::string version;  // of this program; the plan must have it, too
+  std::function<void()> check =
+      {};  // called after each decision, by all threads; what it throws ends the run
+};
+
+struct RerunVerdict {
+  std::size_t same = 0, different = 0;  // units
+};
+
+// A unit's rows of results.csv and of curves.csv must be what the agent gives now. Backgrounds and classes
+// are discovered anew, but for those that the plan has from a CSV file. One line for each unit, from one
+// thread at a time. Throws InvalidInput for a folder without a plan, a plan of another version, and games
+// without an image.
+RerunVerdict rerun(const ResultsFolder& folder, const Images& images, const RerunSettings& settings,
+                   const Finding& finding);
+
+}  // namespace racebeam

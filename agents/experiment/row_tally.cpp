@@ -1,0 +1,85 @@
+#include "agents/experiment/row_tally.hpp"
+
+#include <filesystem>
+#include <set>
+
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::size_t kRowsAtATime = 4096;  // in memory
+
+RowVerdict verdict_of(const RowTally::Judge& judge) {
+  try {
+    return judge();
+  } catch (const std::exception& error) {
+    return {Judgement::kWrong, error.what()};
+  }
+}
+
+}  // namespace
+
+std::string name_of_row(const ResultRow& row, std::size_t line) {
+  return "results.csv:" + std::to_string(line) + " (" + row[0] + ", episode " + field(row, "episode") + ")";
+}
+
+void RowTally::take(std::string name, Judge judge) {
+  taken_.push_back({std::move(name), std::move(judge), {}});
+  if (taken_.size() == kRowsAtATime) judge_taken();
+}
+
+void RowTally::take_wrong(std::string line) { take(std::move(line), nullptr); }
+
+void RowTally::wrong(const std::string& line) {
+  judge_taken();
+  ++verdict_.wrong;
+  finding_(line);
+}
+
+void RowTally::find_surplus(const std::string& logs,
+                            const std::function<bool(const std::string& path, bool is_folder)>& is_wanted) {
+  namespace fs = std::filesystem;
+  std::set<std::string> surplus;
+  std::error_code none;
+  for (const auto& entry : fs::recursive_directory_iterator(logs, none))
+    if (!is_wanted(entry.path().string(), entry.is_directory(none))) surplus.insert(entry.path().string());
+  for (const std::string& path : surplus) wrong(path + ": no row of results.csv has this log");
+}
+
+Verdict RowTally::verdict() {
+  judge_taken();
+  return verdict_;
+}
+
+void RowTally::judge_taken() {
+  pool_.run(taken_.size(), [&](std::size_t i) {
+    if (Taken& one = taken_[i]; one.judge) one.found = verdict_of(one.judge);
+  });
+  for (const Taken& one : taken_) count(one);
+  taken_.clear();
+}
+
+void RowTally::count(const Taken& one) {
+  verdict_.frames += one.found.frames;
+  if (one.judge && one.found.judgement == Judgement::kConfirmed) {
+    ++verdict_.confirmed;
+    return;
+  }
+  const bool is_wrong = !one.judge || one.found.judgement == Judgement::kWrong;
+  ++(is_wrong ? verdict_.wrong : verdict_.unchecked);
+  if (!one.judge) return finding_(one.name);
+  finding_(one.name + (is_wrong ? ": not confirmed: " : ": could not be checked: ") + one.found.reason);
+}
+
+bool is_link(const std::string& path) {
+  std::error_code none;
+  return std::filesystem::is_symlink(std::filesystem::symlink_status(path, none));
+}
+
+void refuse_link(const std::string& path) {
+  if (is_link(path))
+    throw InvalidInput(path + ": this is a link, which is not followed; accepted is a folder");
+}
+
+}  // namespace racebeam

@@ -1,0 +1,58 @@
+// What the two ways to verify results have in common: rows are judged on several threads, some thousands at a
+// time, and their verdicts are told and counted in the order of the table.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "agents/experiment/log_judge.hpp"
+#include "agents/experiment/verify.hpp"
+#include "environment/vector/thread_pool.hpp"
+
+namespace racebeam {
+
+// "results.csv:2 (pong-uct-1, episode 1)"
+std::string name_of_row(const ResultRow& row, std::size_t line);
+
+class RowTally {
+ public:
+  using Judge = std::function<RowVerdict()>;
+
+  RowTally(unsigned threads, const Finding& finding) : pool_(threads), finding_(finding) {}
+
+  unsigned threads() const { return pool_.threads(); }
+
+  // `judge` runs later, on any thread. What it throws is the reason why the row is wrong.
+  void take(std::string name, Judge judge);
+  // A row that need not be judged: `line` says what is wrong with it.
+  void take_wrong(std::string line);
+  // Counts something that is not a row. Those that were taken before are told first.
+  void wrong(const std::string& line);
+  // Each file below `logs` that is not wanted is wrong.
+  void find_surplus(const std::string& logs,
+                    const std::function<bool(const std::string& path, bool is_folder)>& is_wanted);
+
+  Verdict verdict();
+
+ private:
+  struct Taken {
+    std::string name;  // without a judge: what is wrong
+    Judge judge;
+    RowVerdict found;
+  };
+
+  void judge_taken();
+  void count(const Taken& one);
+
+  ThreadPool pool_;
+  const Finding& finding_;
+  std::vector<Taken> taken_;
+  Verdict verdict_;
+};
+
+// Throws InvalidInput: a link could lead to any folder of the system.
+void refuse_link(const std::string& path);
+bool is_link(const std::string& path);
+
+}  // namespace racebeam
