@@ -4,7 +4,8 @@
     paper_results.py [FOLDER] [--into FILE]
 
 FOLDER has PLAN.json for plans of PLANS, as scripts/measure/plan_figures.py gathers them; docs/results/figures unless it
-is named. A plan without figures is said to be not run yet. Published scores are those of evaluation/.
+is named. A plan without figures is said to be not run yet. Where only some games of `baselines` were run again,
+baselines-partial.json has these: its plan is that of `baselines` with fewer games. Published scores are those of evaluation/.
 """
 
 import argparse
@@ -51,6 +52,7 @@ CHANGED = (
         "built its tree anew for each decision, and opened nodes with a reward like others",
     ),
 )
+PARTIAL = "baselines-partial"
 MACHINE = ("processor", "version")  # of machine.txt: what the table of plans shows
 
 
@@ -105,7 +107,7 @@ class Document:
     def __init__(self, folder):
         self.figures = {
             name: json.loads((folder / f"{name}.json").read_text())
-            for name in PLANS
+            for name in (*PLANS, PARTIAL)
             if (folder / f"{name}.json").exists()
         }
         self.paper = paper()
@@ -123,6 +125,10 @@ class Document:
         for name in missing:
             self.say(f"Not run yet: `racebeam experiment {name}`.")
         return bool(missing)
+
+    def title(self, name):
+        """What a table calls a plan."""
+        return f"`baselines`, {len(self.figures[name]['games'])} games again" if name == PARTIAL else f"`{name}`"
 
     def text(self):
         self.introduction()
@@ -154,11 +160,11 @@ class Document:
             its rows, and gathers its figures. Times are
             seconds of processor time, so that other programs hardly change them.""")
         rows = []
-        for name in PLANS:
+        for name in (*PLANS, *({PARTIAL} & set(self.figures))):
             found = self.figures.get(name)
             rows.append(
                 [
-                    f"`{name}`",
+                    self.title(name),
                     *(
                         [
                             f"{found['units']:,}",
@@ -246,7 +252,7 @@ class Document:
         rows = [
             [f"`{plan}`", agent, then]
             for plan, agent, is_now, then in CHANGED
-            if (settings := self.figures.get(plan, {}).get("settings", {}).get(agent)) and not is_now(settings)
+            if (settings := self.shown(plan).get("settings", {}).get(agent)) and not is_now(settings)
         ]
         if not rows:
             return
@@ -257,12 +263,16 @@ class Document:
             new ones.""")
         self.add(rows_of(["plan", "agent", "what the agent did"], *rows))
 
+    def shown(self, plan):
+        """The figures whose changed agents the document shows."""
+        return self.figures.get(f"{plan}-partial", self.figures.get(plan, {}))
+
     def baselines(self):
         self.add("## Baselines")
         if self.lacks("baselines"):
             return
         found = self.figures["baselines"]
-        random, const, perturb = found["scores"]["random"], best(found, "const"), best(found, "perturb")
+        random, const, perturb = found["scores"]["random"], best(found, "const"), best(self.shown("baselines"), "perturb")
         rows = []
         for game in found["games"]:
             theirs = self.paper.get(game, {})
@@ -274,8 +284,8 @@ class Document:
                     number(const[game][0]),
                     const[game][1],
                     number(theirs.get("const")),
-                    number(perturb[game][0]),
-                    perturb[game][1],
+                    number(perturb[game][0]) if game in perturb else "-",
+                    perturb[game][1] if game in perturb else "-",
                     number(theirs.get("perturb")),
                 ]
             )
@@ -292,6 +302,7 @@ class Document:
             its action. In {len(near)} of {len(random)} games, the score of Random is within a fifth of the paper's.
             A constant action leaves nothing to chance without sticky actions, so that a difference of Const is one of
             the emulator or of the games' rules: in {len(same)} of {len(const)} games there is none.""")
+        self.perturb(perturb, len(found["games"]))
         self.add(
             rows_of(
                 [
@@ -308,6 +319,19 @@ class Document:
                 *rows,
             )
         )
+
+    def perturb(self, perturb, games):
+        """How near Perturb is to the paper's. It is within a fifth if the scores differ by at most a fifth of it."""
+        if PARTIAL in self.figures:
+            self.say(f"""Perturb, which chose an action for 5 frames before, has been run again in {len(perturb)} of
+                {games} games. The other games have a dash.""")
+        far = [
+            f"{game} ({number(score)} for {number(theirs)})"
+            for game, (score, _) in perturb.items()
+            if (theirs := self.paper.get(game, {}).get("perturb")) is not None and abs(score - theirs) > abs(theirs) / 5
+        ]
+        self.say(f"""Perturb's score is within a fifth of the paper's in {len(perturb) - len(far)} of {len(perturb)}
+            games{": not in " + ", ".join(far) if far else ""}.""")
 
     def learners(self):
         self.add("## Learners, in an hour")
@@ -481,7 +505,7 @@ class Document:
             if verified:
                 rows.append(
                     [
-                        f"`{name}`",
+                        self.title(name),
                         *(f"{verified[key]:,}" for key in ("confirmed", "wrong", "not_checked")),
                         number(verified["frames"] / verified["seconds"], 0),
                         share_of_bench(verified),

@@ -87,6 +87,24 @@ class PaperResults(unittest.TestCase):
         self.assertIn("In 1 of 1 games, the score of Random is within a fifth", " ".join(text.split()))
         self.assertIn("| `baselines` | random | largest | 4 | at most 12,288 |", text)
 
+    def test_baselines_of_some_games_that_were_run_again_are_shown_as_such(self):
+        agents = ["random", "const", "perturb"]
+        scores = {"random": [[100]], "const_noop": [[10]], "perturb_up": [[330]]}
+        results(self.folder / "baselines", agents, {**scores, "perturb_up": [[33]]})
+        results(self.folder / "baselines-partial", agents, scores)
+        for name in ("baselines-partial", "baselines"):
+            plan = self.folder / name / "plan.toml"
+            plan.write_text(plan.read_text().replace("[agent.perturb]\nframe_skip = 5", "[agent.perturb]\nframe_skip = 1"))
+        text = " ".join(self.text().split())
+        self.assertIn("has been run again in 1 of 1 games. The other games have a dash.", text)
+        self.assertIn("Perturb's score is within a fifth of the paper's in 1 of 1 games.", text)
+        self.assertIn("| asterix | 100.0 | 288.1 | 10.0 | noop | 650.0 | 330.0 | up | 337.8 |", text)
+        self.assertIn("| `baselines`, 1 games again | 3 |", text)
+        (self.folder / "figures/baselines-partial.json").unlink()
+        (self.folder / "baselines-partial/plan.toml").unlink()
+        text = " ".join(self.text().split())
+        self.assertIn("within a fifth of the paper's in 0 of 1 games: not in asterix (33.0 for 337.8).", text)
+
     def test_learners_have_scores_and_speeds(self):
         results(self.folder / "hour", ["random", "basic"], {"random": [[10]], "basic": [[20, 40], [60]]})
         text = self.text()
