@@ -103,6 +103,7 @@ void Board::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog&
   exact_mode_ = mode == RenderMode::kExact;
   fetched_latches_ = false;
   plain_registers_ = exact_mode_ ? 0 : plain_registers();
+  set_pins();
   tia.begin_step(picture, other, scratch, mode, sought);
 }
 
@@ -292,20 +293,12 @@ void Board::make_room(std::int32_t cycle) {
 
 std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
   const unsigned reg = address & 0x0F;
-  const FrameState& frame = state.frame;
   std::uint8_t driven = 0;
   if (reg < 8) {
     driven = collision_bits(reg, cycle);
   } else {
     touch_tia(cycle);
-    if (reg < 12) {
-      driven = ports_.pot(state.inputs, static_cast<int>(reg - 8), static_cast<std::uint32_t>(cycle),
-                          frame.dump_release, frame.dumping)
-                   ? 0x80
-                   : 0;
-    } else if (reg < 14) {
-      driven = ports_.fire_pin(state.inputs, static_cast<int>(reg - 12)) ? 0x80 : 0;
-    }
+    driven = static_cast<std::uint32_t>(cycle) >= pin_high_from_[reg - 8] ? 0x80 : 0;
   }
   return static_cast<std::uint8_t>(driven | (latch & 0x3F));
 }
@@ -369,8 +362,17 @@ void Board::close_frame() {
 
 void Board::write_dump(bool on, std::int32_t cycle) {
   FrameState& frame = state.frame;
-  if (frame.dumping && !on) frame.dump_release = static_cast<std::uint32_t>(cycle);
+  if (static_cast<bool>(frame.dumping) == on) return;
+  if (!on) frame.dump_release = static_cast<std::uint32_t>(cycle);
   frame.dumping = on;
+  set_pins();
+}
+
+// The inputs are the same in the whole step.
+void Board::set_pins() {
+  pin_high_from_.fill(Ports::kNever);
+  for (unsigned pin = 0; pin < Ports::kPins; ++pin)
+    pin_high_from_[pin] = ports_.high_from(pin, state.inputs, state.frame);
 }
 
 }  // namespace racebeam

@@ -115,6 +115,7 @@ class Board {
   void close_frame();
   void write_vsync(std::uint8_t value, std::int32_t cycle);
   void write_dump(bool on, std::int32_t cycle);
+  void set_pins();
   [[gnu::noinline]] std::int32_t write_anywhere(std::uint16_t address, std::uint8_t value, std::int32_t cycle,
                                                 bool after_read);
   std::int32_t write_wsync(std::int32_t cycle, bool after_read);
@@ -136,6 +137,8 @@ class Board {
   std::array<KnownWindow, 64> known_windows_{};
   Ports ports_;
   const std::uint32_t unwatched_;  // the bit of addresses that only the RIOT sees; 0 if the cartridge watches
+  // From which cycle on each of INPT0-5 reads high, and the two addresses after them, which never do.
+  std::array<std::uint32_t, 8> pin_high_from_{};
   std::uint64_t plain_registers_ = 0;
   // The first cycle, at a line's start, from which a TIA write closes the frame.
   std::int32_t overlong_cycle_ = 0;

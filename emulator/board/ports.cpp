@@ -5,6 +5,7 @@
 namespace racebeam {
 namespace {
 
+constexpr unsigned kPots = 4;  // INPT0-3; INPT4 and INPT5 are the buttons of joysticks
 constexpr std::uint8_t kDirections = kStickUp | kStickDown | kStickLeft | kStickRight;
 
 // Cycles until the capacitor behind a paddle of `ohms` is charged.
@@ -35,21 +36,22 @@ std::uint8_t Ports::nibble(const Inputs& inputs, const Port& port) const {
   return static_cast<std::uint8_t>(~(first << 3 | second << 2) & 0x0F);
 }
 
-bool Ports::fire_pin(const Inputs& inputs, int side) const {
-  const Port& port = side_[static_cast<std::size_t>(side)];
+bool Ports::button_released(const Inputs& inputs, const Port& port) const {
   if (port.controller != Controller::kJoystick) return true;
   return (inputs.joystick[static_cast<std::size_t>(port.player)] & kStickFire) == 0;
 }
 
-bool Ports::pot(const Inputs& inputs, int number, std::uint32_t cycle, std::uint32_t release,
-                bool dumping) const {
-  const Port& port = side_[static_cast<std::size_t>(number / 2)];
-  if (port.controller == Controller::kJoystick) return false;
-  const std::int32_t ohms = inputs.paddle[static_cast<std::size_t>(paddle(port, number % 2))];
-  if (ohms == 0) return true;
+std::uint32_t Ports::high_from(unsigned pin, const Inputs& inputs, const FrameState& frame) const {
+  if (pin >= kPots) return button_released(inputs, side_[pin - kPots]) ? kAlways : kNever;
+  const Port& port = side_[pin / 2];
+  if (port.controller == Controller::kJoystick) return kNever;
+  const std::int32_t ohms = inputs.paddle[static_cast<std::size_t>(paddle(port, pin % 2))];
+  if (ohms == 0) return kAlways;
+  if (frame.dumping) return kNever;
   // Unsigned on purpose: a release in an earlier frame becomes a huge number, which is never reached
   // (docs/spec/tia.md, 11).
-  return !dumping && cycle > release + charge_cycles(ohms);
+  const std::uint32_t charged = frame.dump_release + charge_cycles(ohms);
+  return charged == kNever ? kNever : charged + 1;
 }
 
 }  // namespace racebeam

@@ -7,6 +7,7 @@
 
 #include "emulator/state/inputs.hpp"
 #include "emulator/state/properties.hpp"
+#include "emulator/state/state.hpp"
 
 namespace racebeam {
 
@@ -15,10 +16,11 @@ class Ports {
   explicit Ports(const Properties& properties);
 
   std::uint8_t swcha(const Inputs& inputs) const;
-  bool fire_pin(const Inputs& inputs, int side) const;  // INPT4, INPT5: true is released
 
-  // INPT0-3: whether the capacitor is charged at `cycle`, if it was released at `release`.
-  bool pot(const Inputs& inputs, int number, std::uint32_t cycle, std::uint32_t release, bool dumping) const;
+  // The first cycle in which INPT0-5 read high: as soon as a capacitor is charged, or a button released.
+  static constexpr unsigned kPins = 6;
+  static constexpr std::uint32_t kAlways = 0, kNever = ~0U;
+  std::uint32_t high_from(unsigned pin, const Inputs& inputs, const FrameState& frame) const;
 
  private:
   struct Port {
@@ -27,6 +29,7 @@ class Ports {
   };
 
   std::uint8_t nibble(const Inputs& inputs, const Port& port) const;
+  bool button_released(const Inputs& inputs, const Port& port) const;
   int paddle(const Port& port, int which) const { return 2 * port.player + (which ^ swap_paddles_); }
 
   std::array<Port, 2> side_;  // left, right

@@ -22,6 +22,8 @@ Layout::Layout(Board& board) {
   last_access = at(board.last_access_);
   slot = at(board.slot);
   sound = at(board.sound.registers);
+  pins = at(board.pin_high_from_);
+  cartridge_ram = at(state.cartridge.ram);
   limit = at(board.translated.limit);
   first_line = at(board.translated.first_line);
   waited = at(board.translated.waited);

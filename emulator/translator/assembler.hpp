@@ -20,7 +20,7 @@ namespace racebeam::translator {
 struct Layout {
   explicit Layout(Board& board);
 
-  std::int32_t ram, a, x, y, sp, cycle, pages, stop, code_span, last_access, slot, sound;
+  std::int32_t ram, a, x, y, sp, cycle, pages, stop, code_span, last_access, slot, sound, pins, cartridge_ram;
   std::int32_t limit, first_line, waited, nz, carry, overflow, decimal, interrupt;
 };
 

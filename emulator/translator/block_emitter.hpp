@@ -87,6 +87,11 @@ class BlockEmitter {
   void made_nz(NzHome home, bool host_flags) { nz_ = home, host_nz_ = host_flags; }
   void clobbered_flags() { host_nz_ = false, host_carry_ = HostCarry::kUnknown; }
 
+  // block_ports.cpp: reads of the TIA's pins, and of ports of the cartridge
+  Value read_pin(const Instruction& instruction, unsigned latch);
+  Value read_port(const Instruction& instruction, PortReader reader);
+  void fetch(std::uint16_t address);
+
   // block_reads.cpp and block_writes.cpp: memory accesses
   Value read(const Instruction& instruction);
   Value read_fixed(const Instruction& instruction);

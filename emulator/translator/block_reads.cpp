@@ -29,17 +29,13 @@ BlockEmitter::Value BlockEmitter::read(const Instruction& instruction) {
 BlockEmitter::Value BlockEmitter::read_fixed(const Instruction& instruction) {
   const std::uint16_t address = instruction.operand;
   if (is_ram(address)) return {Value::Kind::kMemory, 0, as_.rbx + (as_.layout.ram + (address & 0x7F))};
-  if (const PortReader reader = as_.window.port_reader(address)) {
-    as_.lea(as_.edx, as_.ptr[as_.rbp + (elapsed_ + instruction.cycles)]);
-    call_port(as_, reader, address);
-    if (rom_loaded_) load_rom_again();
-    clobbered_flags();
-    return {Value::Kind::kEax};
-  }
+  if (const PortReader reader = as_.window.port_reader(address)) return read_port(instruction, reader);
   if (!is_cartridge(address)) {
+    // the last byte on the data bus was the operand's
+    const unsigned latch = instruction.length == 3 ? high_byte(address) : address;
+    if (is_pin(address) && !as_.window.cartridge_watches()) return read_pin(instruction, latch);
     as_.mov(as_.eax, address);
-    as_.mov(as_.ecx, instruction.length == 3 ? high_byte(address)
-                                             : address);  // the last byte on the data bus was the operand's
+    as_.mov(as_.ecx, latch);
     read_device(instruction, exit_state());
     return {Value::Kind::kEax};
   }

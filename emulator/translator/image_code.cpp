@@ -146,7 +146,7 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
   if (memory_.left() < kBatchCapacity) full_ = true;
   if (full_ || !has_room(kBatchCapacity)) return nullptr;
   if (enter_ == nullptr) emit_stubs(layout);
-  const Window window{wiring_, view.code, view.entries.data()};
+  const Window window{wiring_, rom_.data(), view.code, view.entries.data()};
   Assembler assembler(memory_.writable(), memory_.left(), layout, window, exit_stub_);
   const std::vector<Block> blocks = discover(view.code, pc, view.known);
   try {

@@ -24,7 +24,8 @@ struct Wiring {
 
 // What a window's code is translated for. It is constant while the window's code is valid.
 struct Window : Wiring {
-  CodeWindow code;             // in the translator's own copy of the image
+  const std::uint8_t* image;   // the translator's own copy
+  CodeWindow code;             // in it
   const void* const* entries;  // by offset in the window: the start of a block, or null
 };
 

@@ -43,7 +43,7 @@ void show(const char* image, std::uint16_t pc, const char* path) {
   const translator::Layout layout(*board);
   const std::vector<const void*> entries(code.span);
   const translator::Window window{
-      {board->plain_registers(), board->slot.scheme.port_reader}, code, entries.data()};
+      {board->plain_registers(), board->slot.scheme.port_reader}, rom->data(), code, entries.data()};
   std::vector<std::uint8_t> memory(65536);
   translator::Assembler as(memory.data(), memory.size(), layout, window, memory.data());
   for (const translator::Block& block : translator::discover(code, pc, std::vector<bool>(code.span))) {

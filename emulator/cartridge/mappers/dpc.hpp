@@ -20,6 +20,7 @@ namespace racebeam::dpc {
 
 constexpr unsigned kDisplay = 8192, kDisplaySize = 2048;  // offset in the image, size
 constexpr unsigned kFetchers = 8, kFirstMusic = 5;
+constexpr unsigned kFirstSound = 4;  // from this fetcher on, kRandomOrSound reads the sound
 constexpr unsigned kReadPort = 0x40, kPorts = 0x80, kHotPage = 0xFC0;
 
 struct Fetcher {
@@ -141,7 +142,7 @@ std::uint8_t fetch(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycl
 
   const auto displayed = [&] { return slot.rom[kDisplay + kDisplaySize - 1 - fetcher.counter]; };
   std::uint8_t result = 0;
-  if (kFunction == kRandomOrSound && number < 4) {
+  if (kFunction == kRandomOrSound && number < kFirstSound) {
     result = chip.random;
   } else if (kFunction == kRandomOrSound) {
     run_music(slot, chip, cycle);
@@ -157,6 +158,16 @@ std::uint8_t fetch(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycl
   return result;
 }
 
+constexpr unsigned function_at(std::uint16_t address) { return address >> 3 & 7; }
+
+// Whether the address reads a value through a fetcher that cannot make music.
+constexpr bool is_plain_fetch(std::uint16_t address) {
+  if ((address & 0xFFF) >= kReadPort) return false;
+  const unsigned function = function_at(address), number = address & 7;
+  if (function == kRandomOrSound) return number < kFirstSound;
+  return number < kFirstMusic && (function == kDisplayed || function == kMasked || function == kFlag);
+}
+
 // An address without a fetcher reads the image.
 inline std::uint8_t read_image(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
   clock_random(chip_of(slot));
@@ -167,7 +178,7 @@ inline PortReader port_reader(std::uint16_t address) {
   static constexpr PortReader kReaders[8] = {fetch<0>, fetch<1>, fetch<2>, fetch<3>,
                                              fetch<4>, fetch<5>, fetch<6>, fetch<7>};
   const unsigned offset = address & 0xFFF;
-  if (offset < kReadPort) return kReaders[offset >> 3];
+  if (offset < kReadPort) return kReaders[function_at(address)];
   return offset < kPorts ? read_image : nullptr;
 }
 
