@@ -41,13 +41,15 @@ RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::ui
   return same ? Likeness::kIsSame : Likeness::kLooks;
 }
 
-// Whether the writes from `entry` to `end` are the beginning of the record's.
+// Whether the writes from `entry` to `end` are those of the record up to the cycle of the word at `end`.
 bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::uint32_t origin,
                      const LineRecord& record) {
   const auto count = static_cast<std::size_t>(end - entry);
   if (count > record.count) return false;
-  return std::equal(entry, end, record.event.begin(),
-                    [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
+  const bool lacks_none =
+      count == record.count || LineWrite(record.event[count]).cycle() >= LineWrite(*end, origin).cycle();
+  return lacks_none && std::equal(entry, end, record.event.begin(),
+                                  [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
 }
 
 }  // namespace
