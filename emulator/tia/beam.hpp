@@ -105,12 +105,14 @@ class Beam {
     if (((tia_.reflect ^ reflect) | p0.skip | p1.skip | tia_.cosmic) != 0) act_on_line_end();
   }
 
-  // Since look_afresh(): LineDependencies::seen, and the pairs that met after the last CXCLR.
-  void look_afresh() { seen_ = meetings_ = 0; }
+  // Since look_afresh(): LineDependencies::seen, and the pairs that met after the last CXCLR, and before it.
+  void look_afresh() { seen_ = meetings_ = cleared_meetings_ = 0; }
   std::uint16_t seen() const { return seen_; }
   Collisions meetings() const { return meetings_; }
+  Collisions cleared_meetings() const { return cleared_meetings_; }
   void clear_collisions() {
     tia_.collisions = 0;
+    cleared_meetings_ |= meetings_;
     meetings_ = unsought_;
     cleared_ = true;
   }
@@ -176,6 +178,7 @@ class Beam {
   bool lost_track_ = false;
   std::uint16_t seen_ = 0;
   Collisions meetings_ = 0;  // pairs that have met: they need not be computed
+  Collisions cleared_meetings_ = 0;
   Collisions unsought_ = 0;  // pairs that are not sought
   std::uint8_t sought_objects_ = 0;
   bool cleared_ = false;

@@ -52,6 +52,10 @@ bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::
                                   [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
 }
 
+bool has_clear(const std::uint32_t* entry, const std::uint32_t* end) {
+  return std::any_of(entry, end, [](std::uint32_t write) { return TiaWrite(write).reg() == CXCLR; });
+}
+
 }  // namespace
 
 void Tia::begin_frame() {
@@ -186,9 +190,18 @@ bool Tia::take_lines(Collisions asked) {
   return false;
 }
 
+// Whether the latches `asked` have the same values at the end of the writes as at the beginning of their
+// line. The record's line begins with the same registers.
+bool Tia::keeps_latches(const LineRecord& record, std::uint32_t origin, Collisions asked) const {
+  const Collisions met = record.meetings | record.cleared;
+  if (record.number == kNoLine || (met & asked & ~tia_.collisions) != 0) return false;
+  if ((record.view.seen & kClears) != 0 && has_clear(played_, log_->next)) return false;
+  return begins_the_same(played_, log_->next, origin, record);
+}
+
 // Recalls lines that start with the same relevant registers and have the same writes as when these rows were
-// last drawn. Returns true if it stops at a line whose writes are not complete, but equal so far, and on
-// which no asked pair has met.
+// last drawn. Returns true if it stops at a line whose writes are not complete, but equal so far, and leave
+// the asked latches as they are.
 bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   if (recorded_ != nullptr || !beam_.has_record()) return false;
   RegisterVectors registers(tia_);
@@ -201,9 +214,8 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   for (; record != last; ++record, ++shown, origin += kLineOfWrites, cursor += kLineClocks) {
     const Likeness likeness = compare(registers, played_, origin, *record);
     if (likeness < Likeness::kLooks || (*shown != record->number && !beam_.can_copy(shown, record->number))) {
-      const bool can_meet = (record->meetings & asked) != 0 || (record->view.seen & kClears) != 0;
-      enough = record->number != kNoLine && likeness == Likeness::kBegins && asked != kWholePicture &&
-               !can_meet && begins_the_same(played_, log_->next, origin, *record);
+      enough =
+          likeness == Likeness::kBegins && asked != kWholePicture && keeps_latches(*record, origin, asked);
       break;
     }
     const std::uint32_t* next = played_ + record->count;
@@ -271,6 +283,7 @@ void Tia::close_record() {
   if (recorded_ == nullptr) return;
   recorded_->view.seen |= beam_.seen();
   recorded_->meetings = beam_.meetings();
+  recorded_->cleared = beam_.cleared_meetings();
   beam_.show(*recorded_);
   recorded_->end = tia_.registers();
   recorded_ = nullptr;

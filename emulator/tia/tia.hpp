@@ -51,6 +51,7 @@ class Tia {
   bool at_line() const;
   std::uint32_t line_origin() const;
   bool take_lines(Collisions asked);
+  bool keeps_latches(const LineRecord& record, std::uint32_t origin, Collisions asked) const;
   bool recall_lines(std::uint32_t& origin, Collisions asked);
   void play_recalled(const std::uint32_t* next, LineRecord& record);
   bool draw_line(std::uint32_t origin);

@@ -53,6 +53,7 @@ struct alignas(64) LineRecord {
   const LineMask* mask = nullptr;  // set by summarize(): then `start` and `end` are 0 except for the bytes
                                    // that count, or are set
   Collisions meetings;             // pairs that met on the line, after the last CXCLR
+  Collisions cleared;              // pairs that met before it
   LineDependencies view;           // why bytes count
   LineNumber number = kNoLine;
   std::uint8_t count;       // of events

@@ -76,5 +76,32 @@ TEST_CASE("Latches of lines that recur are those of the model, wherever a line r
   }
 }
 
+// Plays the same frame several times. Returns how many rows were not drawn again in the last one.
+int rows_that_recur(const Line& line, int strobe) {
+  Bench bench(Rom(4096, 0xEA), window());
+  for (int frame = 0; frame < 6; ++frame) {
+    if (frame > 0) bench.next_frame(kFrameCycles + kLineCycles);
+    for (const Access& access : make_frame(line, strobe, 2)) {
+      if (access.kind == Access::kWrite)
+        bench.store_at(access.cycle, access.reg, access.value);
+      else
+        bench.load_at(access.cycle, access.reg);
+    }
+    bench.write_at(kFrameCycles, 0x3F, 0);  // draws the picture to its end
+    bench.end_step();
+  }
+  int rows = 0;
+  for (std::size_t row = 0; row + 1 < kRows; ++row)  // the last one is never remembered
+    rows += bench.pictures()[0].shows(row) == bench.pictures()[1].shows(row) ? 1 : 0;
+  return rows;
+}
+
+TEST_CASE("Lines that read latches before CXCLR are not drawn again, except where the pair meets") {
+  constexpr Line kReadThenClear = {kNothing, kNothing, kReads, kReads, kClears};
+  constexpr int kBesideBars = 44, kOnBar = 30, kAll = kRows - 1, kWithPlayer = 3;
+  CHECK(rows_that_recur(kReadThenClear, kBesideBars) == kAll);
+  CHECK(rows_that_recur(kReadThenClear, kOnBar) == kAll - kWithPlayer);
+}
+
 }  // namespace
 }  // namespace racebeam::test
