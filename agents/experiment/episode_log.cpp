@@ -165,6 +165,12 @@ bool is_console_key(std::string_view name) {
   return std::ranges::find(kKeys, name) != kKeys.end();
 }
 
+// Logs have the words of version 0.1 where these say the same.
+bool is_said_otherwise(std::string_view name, const PlaySettings& settings) {
+  const bool is_new = settings.life_loss != LifeLoss::kIgnored;
+  return (name == "life_loss" && !is_new) || (name == "life_loss_ends" && is_new);
+}
+
 // The rows that would show the machine's value. Mode and difficulty are written only where they were set,
 // since setting them begins another episode.
 std::optional<std::int64_t> own_value(std::string_view name, const PlaySettings& settings) {
@@ -181,6 +187,7 @@ std::string words_of(const PlaySettings& settings, const Environment& machine) {
     const bool own = std::ranges::find(kOwn, row.name) != kOwn.end();
     const auto value = own ? own_value(row.name, settings) : std::nullopt;
     if (row.name == "preset" || is_console_key(row.name) || (own && !value)) continue;
+    if (is_said_otherwise(row.name, settings)) continue;
     ((out += out.empty() ? "" : " ") += row.name) += '=';
     own ? append_number(out, *value) : row.append(out, settings, machine);
   }

@@ -13,7 +13,7 @@ namespace {
 // Plays actions and keeps account of them.
 class Account {
  public:
-  explicit Account(Environment& machine) : machine_(machine) {}
+  Account(Environment& machine, LifeLoss life_loss) : machine_(machine), life_loss_(life_loss) {}
 
   double act(int action) {
     const int before = machine_.frame_number();
@@ -31,7 +31,8 @@ class Account {
   EpisodeEnd finish() {
     if (hashes_.size() < hashes_of(static_cast<std::size_t>(end_.decisions)))
       hashes_.push_back(machine_.state_hash());
-    end_.over = machine_.terminal() ? EpisodeOver::kTerminated : EpisodeOver::kTruncated;
+    const bool terminated = ends_of(machine_, life_loss_).terminated;
+    end_.over = terminated ? EpisodeOver::kTerminated : EpisodeOver::kTruncated;
     end_.lives = machine_.lives();
     return end_;
   }
@@ -40,6 +41,7 @@ class Account {
 
  private:
   Environment& machine_;
+  const LifeLoss life_loss_;
   EpisodeEnd end_;
   std::vector<std::uint64_t> hashes_;
 };
@@ -47,8 +49,11 @@ class Account {
 }  // namespace
 
 void check_episode_settings(const PlaySettings& settings) {
-  if (settings.autoreset)
-    throw InvalidInput("autoreset is 1; an episode that is played ends, so that autoreset=0 is accepted");
+  if (settings.autoreset != Autoreset::kDisabled)
+    throw InvalidInput("autoreset is " + std::string(name_of(settings.autoreset)) +
+                       "; an episode that is played ends, so that autoreset=disabled is accepted");
+  if (settings.life_loss != LifeLoss::kIgnored && settings.life_loss != LifeLoss::kResets)
+    throw InvalidInput("an episode is played with life_loss=ignored or life_loss=restart");
   if (!settings.console.empty())
     throw InvalidInput(
         "an episode is played with the properties of its image; scheme, left, right, format, ystart and "
@@ -69,7 +74,7 @@ void Stage::begin(std::uint32_t seed) {
 
 Episode play(Agent& agent, Stage& stage, const PlayOptions& options) {
   Environment& machine = stage.machine();
-  Account account(machine);
+  Account account(machine, stage.settings().life_loss);
   Episode episode;
   for (int action = agent.begin(machine);;) {
     episode.actions.push_back(static_cast<std::uint8_t>(action));
@@ -113,7 +118,7 @@ Replay Replayer::play(const EpisodeLog& log, const Cartridge& cartridge) {
   auto stage = std::make_unique<Stage>(cartridge, settings, Drawing::kNone);
   stage->begin(settings.machine.random_seed);
   const std::vector<int>& actions = actions_of(settings.action_set, *cartridge.game);
-  Account account(stage->machine());
+  Account account(stage->machine(), settings.life_loss);
   for (const int action : log.actions) {
     if (account.over()) break;
     if (std::ranges::find(actions, action) == actions.end())

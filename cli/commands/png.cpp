@@ -20,7 +20,7 @@ namespace {
 
 constexpr auto kPngFooter =
     R"(Reads replies of the line protocol from standard input, and writes the picture of the last one that has any: a
-field screen, rgb, grey, or of another size such as grey84x4, whose screens are one below the other; or the data
+field screen, rgb, grey, or of another size such as grey84x84x4, whose screens are one below the other; or the data
 of `shot`. The encoding is the one that fits. With --encoding delta, it must have the replies from that of `load`
 or `observe` on. The pixels of whole screens are doubled, to a width of 320.
 

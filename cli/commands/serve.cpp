@@ -111,6 +111,7 @@ LineService line_service(const ServeOptions& options, ThreadPool& pool,
   service.strict = options.strict;
   service.share_all = options.watch_all;
   service.report_fault = [](const std::string& sentence) { log(LogLevel::kError, sentence); };
+  service.report_old_word = [](const std::string& sentence) { log_warning(sentence); };
   service.parallel = [&pool](std::size_t count, const std::function<void(std::size_t)>& task) {
     pool.run(count, task);
   };

@@ -89,7 +89,7 @@ std::vector<std::string> Completion::commands() const {
   return names;
 }
 
-// From the usage, with which `help COMMAND` begins: "save NAME [random=1] [machine=N]: ...".
+// From the usage, with which `help COMMAND` begins: "save NAME [generator=1] [machine=N]: ...".
 std::vector<std::string> Completion::arguments(std::string_view command, std::string_view word) const {
   const Texts known = commands();
   if (std::ranges::find(known, command) == known.end()) return {};

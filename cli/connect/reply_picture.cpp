@@ -36,7 +36,7 @@ std::optional<std::size_t> number(std::string_view text) {
   return client::detail::to_number<std::size_t>(text);
 }
 
-// The form of fields such as grey84x4 and rgb40x30x2.
+// The form of fields such as grey84x84x4 and rgb40x30x2.
 std::optional<Form> resized_form(std::string_view field) {
   const bool colours = field.starts_with("rgb");
   if (!colours && !field.starts_with("grey")) return std::nullopt;
@@ -118,7 +118,7 @@ class Replies {
       return std::move(*seen_);
     }
     std::string sentence = "no reply on standard input has " +
-                           (request_.field.empty() ? "a picture, such as screen, rgb or grey84x4"
+                           (request_.field.empty() ? "a picture, such as screen, rgb or grey84x84x4"
                                                    : "the field " + request_.field);
     if (!refusal_.empty()) sentence += "; the server refused a request: " + refusal_;
     throw std::invalid_argument(sentence);

@@ -31,7 +31,7 @@ def expected(racebeam):
     commands = helped(racebeam, "").removeprefix("commands: ").split(";")[0].split()
     presets = re.findall(r"(\S+) \([^)]*\) sets", helped(racebeam, "presets"))
     choices = re.findall(r"\[(\w+)=([^\]]*)\]", helped(racebeam, "open"))
-    fields = [name for name in names(helped(racebeam, "fields")) if name != "ends"]
+    fields = names(helped(racebeam, "fields"))
     return {
         "command": commands,
         "setting": names(helped(racebeam, "settings")),

@@ -22,7 +22,7 @@ options = parser.parse_args()
 
 def play(session):
     session.load(options.game, seed=1, sticky=0, frame_skip=4)
-    session.observe("reward", "ends")
+    session.observe("reward", "terminated", "truncated")
     actions = list(session.actions().values())
     score = 0
     for _ in range(STEPS):

@@ -153,7 +153,7 @@ def play(session, agent, basic, load, film):
     session.load(**load)
     if film:
         session.record("gif", film)
-    session.observe("reward", "ends", "screen:zlib")
+    session.observe("reward", "terminated", "truncated", "screen:zlib")
     score, actions = 0, [agent.begin(basic.active(session.look("screen:zlib")["screen"]))]
     while True:
         reply = session.act(actions[-1])
@@ -171,7 +171,7 @@ def random_score(session, options, episodes=5):
     random, total = Random(options.agent_seed), 0
     for episode in range(episodes):
         session.load(**load_of(options, options.seed + episode))
-        session.observe("reward", "ends")
+        session.observe("reward", "terminated", "truncated")
         reply = {"terminated": 0, "truncated": 0}
         while not (reply["terminated"] or reply["truncated"]):
             reply = session.act(random.below(ACTIONS))

@@ -6,7 +6,7 @@ function ask(request) { print request; fflush() }
 function value(key) { return match($0 " ", " " key "=[^ ]* ") ? substr($0, RSTART + length(key) + 2, RLENGTH - length(key) - 3) : "" }
 BEGIN { ask("load beamfall seed=1 sticky=0 frame_skip=4") }
 !/^ok/ { print > "/dev/stderr"; exit 1 }
-NR == 1 { ask("observe reward ends"); next }
+NR == 1 { ask("observe reward terminated truncated"); next }
 NR > 2 { score += value("reward") }
 value("terminated") + value("truncated") { print "score " score > "/dev/stderr"; exit }
 { ask("act RIGHTFIRE*4 LEFTFIRE*4") }

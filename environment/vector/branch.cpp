@@ -7,16 +7,29 @@
 
 namespace racebeam {
 
-Branching::Branching(Environment& environment)
-    : environment_(environment), undisturbed_(environment.save(true)), drawing_(environment.drawing()) {}
+Branching::Branching(Environment& environment, LifeLoss life_loss)
+    : environment_(environment),
+      life_loss_(life_loss),
+      undisturbed_(environment.save(true)),
+      drawing_(environment.drawing()) {}
 
 void Branching::enter(const Environment::Saved& root) {
   environment_.set_drawing(Drawing::kNone);
   if (!root.random) environment_.restore(*undisturbed_);
   environment_.restore(root);
   end_ = {};
-  end_.terminated = environment_.terminal();
-  end_.truncated = environment_.truncated();
+  life_ended_ = false;
+  end_.lives = environment_.lives();
+  look_at_ends();
+}
+
+void Branching::look_at_ends() {
+  const bool lost = 0 < environment_.lives() && environment_.lives() < end_.lives;
+  const Ends ends = ends_of(environment_, life_loss_);
+  const bool told = life_loss_ == LifeLoss::kTold && (lost || end_.terminated);
+  life_ended_ |= life_loss_ == LifeLoss::kEnds && lost;
+  end_.terminated = ends.terminated || life_ended_ || told;
+  end_.truncated = ends.truncated;
   end_.lives = environment_.lives();
 }
 
@@ -27,9 +40,7 @@ int Branching::act(const Act& act) {
   end_.reward_b += environment_.rewards().b;
   ++end_.acts;
   end_.frames += frames_between(before, environment_.frame_number());
-  end_.terminated = environment_.terminal();
-  end_.truncated = environment_.truncated();
-  end_.lives = environment_.lives();
+  look_at_ends();
   return reward;
 }
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "environment/environment.hpp"
+#include "environment/vector/slot.hpp"
 
 namespace racebeam {
 
@@ -21,8 +21,8 @@ struct BranchEnd {
 // Plays branches on an environment, act by act. The caller must not use the environment meanwhile.
 class Branching {
  public:
-  // Saves the state of `environment`, its generator included.
-  explicit Branching(Environment& environment);
+  // Saves the state of `environment`, its generator included. A lost life has this effect on a branch.
+  explicit Branching(Environment& environment, LifeLoss life_loss = LifeLoss::kIgnored);
   ~Branching();  // restores it
   Branching(const Branching&) = delete;
   Branching& operator=(const Branching&) = delete;
@@ -31,7 +31,8 @@ class Branching {
   // environment had. Throws InvalidInput for a state of another image or game.
   void enter(const Environment::Saved& root);
 
-  bool over() const { return environment_.game_over(); }
+  bool over() const { return environment_.game_over() || life_ended_; }
+  bool life_ended() const { return life_ended_; }  // by LifeLoss::kEnds: the game goes on
 
   // Plays one act and returns player A's reward. Throws what Environment::act() throws.
   int act(const Act& act);
@@ -40,7 +41,11 @@ class Branching {
   const BranchEnd& end() const { return end_; }
 
  private:
+  void look_at_ends();
+
   Environment& environment_;
+  const LifeLoss life_loss_;
+  bool life_ended_ = false;  // and the episode with it, but not the game
   std::shared_ptr<const Environment::Saved> undisturbed_;
   Drawing drawing_;  // to be restored: the screens of a branch are not drawn
   BranchEnd end_;

@@ -28,7 +28,10 @@ const SlotSettings& checked(const SlotSettings& settings) {
 // With Steps::kFrames each frame is an act, to which the limits of a step do not apply.
 Settings machine_settings(const SlotSettings& settings) {
   Settings machine = settings.machine;
-  if (settings.steps == Steps::kActs) return machine;
+  if (settings.steps == Steps::kActs) {
+    machine.truncate_on_life_loss |= settings.life_loss == LifeLoss::kResets;
+    return machine;
+  }
   const Settings defaults;
   machine.frame_skip = 1;
   machine.frame_skip_max = 0;
@@ -66,6 +69,13 @@ std::string described(const StackSettings& stack) {
 
 }  // namespace
 
+Ends ends_of(const Environment& machine, LifeLoss life_loss) {
+  if (life_loss != LifeLoss::kResets) return {machine.terminal(), machine.truncated()};
+  const int limit = machine.settings().max_episode_frames;
+  const bool too_long = limit > 0 && machine.episode_frame_number() >= limit;
+  return {machine.terminal() || (machine.truncated() && !too_long), too_long};
+}
+
 Slot::Slot(const Cartridge& cartridge, const SlotSettings& settings, Pace* pace)
     : settings_(checked(settings)),
       pace_(pace),
@@ -82,11 +92,22 @@ void Slot::begin_request() {
 }
 
 void Slot::look_at_ends() {
-  const bool acts = settings_.steps == Steps::kActs;
+  if (settings_.steps == Steps::kActs) look_at_lives();
   outcome_.game_over = environment_.terminal();
-  outcome_.terminated = acts ? outcome_.game_over : progress_.terminated;
-  outcome_.truncated = acts ? environment_.truncated() : progress_.truncated;
-  outcome_.finished = acts ? outcome_.terminated || outcome_.truncated : progress_.finished;
+  outcome_.terminated = progress_.terminated;
+  outcome_.truncated = progress_.truncated;
+  outcome_.finished = finished();
+}
+
+// The ends of an episode whose steps are acts. A lost life counts once in an act, at its end.
+void Slot::look_at_lives() {
+  const Ends ends = ends_of(environment_, settings_.life_loss);
+  const bool lost = outcome_.lives_lost > 0 && environment_.lives() > 0;
+  const bool by_life = settings_.life_loss == LifeLoss::kEnds && (progress_.goes_on || lost);
+  progress_.terminated = ends.terminated || by_life || (settings_.life_loss == LifeLoss::kTold && lost);
+  progress_.truncated = ends.truncated;
+  progress_.goes_on = by_life && !environment_.game_over();
+  progress_.finished = by_life || environment_.game_over();
 }
 
 void Slot::end_episode(std::optional<std::uint32_t> seed) {
@@ -97,23 +118,22 @@ void Slot::end_episode(std::optional<std::uint32_t> seed) {
 }
 
 bool Slot::finished() const {
-  return settings_.steps == Steps::kActs ? environment_.game_over() : progress_.finished;
+  return progress_.finished || (settings_.steps == Steps::kActs && environment_.game_over());
 }
 
 void Slot::act(const Act& act) { settings_.steps == Steps::kActs ? run_act(act) : run_frames(act); }
 
 void Slot::run_act(const Act& act) {
   const int before = environment_.frame_number();
-  environment_.act(act);
+  if (!progress_.goes_on) environment_.act(act);
   const int frames = frames_between(before, environment_.frame_number());
   if (frames == 0) {  // no reward, even if reward_min is above 0
     outcome_.over = outcome_.acts == 0;
     return;
   }
   progress_.elapsed += frames;
-  progress_.terminated = environment_.terminal();
-  progress_.truncated = environment_.truncated();
-  progress_.finished = environment_.game_over();
+  outcome_.lives_lost += std::max(0, progress_.lives - environment_.lives());
+  progress_.lives = environment_.lives();
   add_outcome(environment_.raw_rewards(), frames);
   progress_.blends = frames > 1;
   if (stack_) show(progress_.blends);
@@ -213,9 +233,10 @@ void Slot::restore(const Saved& saved) {
   environment_.restore(*saved.machine);
   progress_ = saved.progress;
   next_seed_.reset();
-  progress_.lives = environment_.lives();  // a slot whose steps are acts does not count them
+  progress_.lives = environment_.lives();
+  outcome_.lives_lost = 0;
   if (environment_.terminal()) progress_.finished = progress_.terminated = true;
-  if (settings_.steps == Steps::kActs) progress_.goes_on = false;
+  if (settings_.steps == Steps::kActs) progress_.goes_on &= settings_.life_loss == LifeLoss::kEnds;
   if (saved.noops) noops_.set_generator(*saved.noops);
   look_at_ends();
   if (!stack_) return;

@@ -29,13 +29,21 @@ enum class ResetOrder {
   kBaselines   // as in Stable-Baselines3: at least one no-op, then a step of FIRE and one of the next action
 };
 
-// What a lost life does to the episode.
+// What a lost life does to the episode. One that ends by it is terminated, not truncated: an agent must not
+// expect rewards of the state after it.
 enum class LifeLoss {
   kIgnored,
-  kTold,   // the step counts as terminated, but the episode continues (life_loss_info)
+  kTold,   // the step counts as terminated, but the episode continues (ALE's life_loss_info)
   kEnds,   // the episode ends, and the next one continues the game with the next life, as in DQN
-  kResets  // the episode ends, and the next one is a new game (episodic_life)
+  kResets  // the episode ends, and the next one is a new game (ALE's episodic_life)
 };
+
+struct Ends {
+  bool terminated = false, truncated = false;
+};
+// How the episode of a machine ended whose acts end with a lost life as ALE's do
+// (Settings::truncate_on_life_loss), which kResets asks for.
+Ends ends_of(const Environment& machine, LifeLoss life_loss);
 
 // The stack of screens when an episode begins.
 enum class StackStart {
@@ -46,7 +54,7 @@ enum class StackStart {
 struct SlotSettings {
   // frame_skip and the limits of rewards and frames apply to a step. With Steps::kFrames, frame_skip_max,
   // truncate_on_life_loss and color_averaging must not be set, and no-ops at the start do not count as frames
-  // of the episode.
+  // of the episode. With Steps::kActs, LifeLoss::kResets sets truncate_on_life_loss.
   Settings machine{
       .frame_skip = 4, .sticky = 0, .max_episode_frames = 108000, .reward_min = -1, .reward_max = 1};
   std::optional<int> mode, difficulty;  // the game's defaults if not given
@@ -67,7 +75,7 @@ struct Outcome {
   std::int64_t raw_reward = 0, raw_reward_b = 0;  // the same before clamping
   int acts = 0;
   int frames = 0;
-  int lives_lost = 0;  // with Steps::kFrames
+  int lives_lost = 0;
   bool terminated = false, truncated = false;
   bool finished = false;   // the episode is over
   bool game_over = false;  // the game itself is over; lives and limits do not count
@@ -149,6 +157,7 @@ class Slot {
 
  private:
   void run_act(const Act& act);
+  void look_at_lives();
   void run_frames(const Act& act);
   void add_outcome(Environment::RawRewards rewards, int frames);
   void look_at_ends();
@@ -162,6 +171,7 @@ class Slot {
   Environment reload(std::uint32_t seed);  // returns the one that it replaces
   void begin_episode();
   void begin_life();
+  void begin_progress();
   void begin_stack(bool goes_on, bool stepped);
   void draw_nothing();
   void run_noops(int frames);

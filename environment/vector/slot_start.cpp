@@ -28,6 +28,7 @@ class Beginning {
 void Slot::set_up() {
   if (settings_.mode) environment_.set_mode(*settings_.mode);
   if (settings_.difficulty) environment_.set_difficulty(*settings_.difficulty);
+  progress_.lives = environment_.lives();
   if (settings_.steps == Steps::kActs && !settings_.mode && !settings_.difficulty && settings_.noop_max == 0)
     return;
   begin_episode();
@@ -81,9 +82,7 @@ void Slot::begin_episode() {
       stepped = fire && press_as_baselines();
       break;
   }
-  progress_ = {};
-  progress_.lives = environment_.lives();
-  look_at_ends();
+  begin_progress();
   begin_stack(false, stepped);
   if (pace_ != nullptr) reset_frames_ = std::max(reset_frames_, pace_->frames() - frames_before);
 }
@@ -108,14 +107,19 @@ void Slot::begin_life() {
   }
   if (environment_.game_over()) return begin_episode();
   const bool goes_on = environment_.episode_frame_number() > frames;
-  progress_ = {};
+  begin_progress();
   if (goes_on) {
     progress_.score = before.score;
     progress_.elapsed = before.elapsed;
   }
-  progress_.lives = environment_.lives();
-  look_at_ends();
   begin_stack(goes_on, settings_.reset_order == ResetOrder::kBaselines);
+}
+
+void Slot::begin_progress() {
+  progress_ = {};
+  progress_.lives = environment_.lives();
+  outcome_.lives_lost = 0;
+  look_at_ends();
 }
 
 // stepped: a whole step came last, so that the screen may be seen as the brighter of two frames.

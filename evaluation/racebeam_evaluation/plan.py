@@ -25,7 +25,7 @@ PRESETS = {
     "atari100k": ("4", "0", "minimal", "108000", "30"),
     "dqn2015": ("4", "0", "minimal", "18000", "30"),
 }
-_USUAL = {"noop_max": "0", "life_loss_ends": "0"}  # of words that leave it out
+_USUAL = {"noop_max": "0", "life_loss": "ignored", "life_loss_ends": "0"}  # of words that leave it out
 _BUDGETS = ("simulations", "frames")  # an agent's settings that bound its search for a decision
 
 
@@ -105,7 +105,7 @@ def preset_of(environment: str) -> str:
     words = _USUAL | words
     values = tuple(words.get(name) for name in _NAMES)
     named = next((name for name, wanted in PRESETS.items() if values == wanted), "other")
-    return named if words["life_loss_ends"] == "0" else "other"
+    return named if (words["life_loss"], words["life_loss_ends"]) == ("ignored", "0") else "other"
 
 
 def _flat(above: str, tables: dict[str, Any]) -> list[tuple[str, str]]:

@@ -20,11 +20,13 @@ NAME = re.compile(r"[a-z][a-z0-9_]*")
 class Row:
     """What the rows of all tables have: `deprecated` is what to use instead."""
 
+    deprecated: str
+
     @property
     def summary_text(self):
         """The summary, as `help` and the document have it."""
         text = next(getattr(self, name) for name in ("summary", "meaning", "source") if hasattr(self, name))
-        return f"{text}; deprecated: use {self.deprecated}" if self.deprecated else text
+        return f"{text} (deprecated: use {self.deprecated})" if self.deprecated else text
 
 
 @dataclasses.dataclass(frozen=True)
@@ -36,8 +38,12 @@ class Argument:
     key: str = ""
     text: str = ""
     choices: dict[str, str] = dataclasses.field(default_factory=dict)
+    choices_of: str = ""
+    default: str = ""
     optional: bool = False
     about: str = ""
+    old: str = ""
+    old_values: dict[str, str] = dataclasses.field(default_factory=dict)
 
     @property
     def name(self):
@@ -82,6 +88,15 @@ class Command(Row):
     def keys(self):
         return [argument for argument in self.arguments if argument.key]
 
+    @property
+    def old_keys(self):
+        """The old names of keys, as arguments, for programs that were written with them."""
+        return [
+            dataclasses.replace(argument, key=argument.old, about=f"old name of `{argument.key}`", old="")
+            for argument in self.keys
+            if argument.old
+        ]
+
 
 @dataclasses.dataclass(frozen=True)
 class Setting(Row):
@@ -91,6 +106,8 @@ class Setting(Row):
     default: str
     summary: str
     since: str
+    choices: dict[str, str] = dataclasses.field(default_factory=dict)
+    old_values: dict[str, str] = dataclasses.field(default_factory=dict)
     deprecated: str = ""
 
 
@@ -147,6 +164,21 @@ class Error(Row):
 
 
 @dataclasses.dataclass(frozen=True)
+class OldWord:
+    """A word of a request that has a new name. `of` is the command, or "field".
+
+    Attributes:
+        old: A key, a pair KEY=VALUE or a field.
+        is_same: Whether the server takes the one for the other.
+    """
+
+    of: str
+    old: str
+    now: str
+    is_same: bool = True
+
+
+@dataclasses.dataclass(frozen=True)
 class Protocol:
     version: int
     commands: tuple[Command, ...]
@@ -154,13 +186,33 @@ class Protocol:
     settings: tuple[Setting, ...]
     presets: tuple[Preset, ...]
     fields: tuple[Field, ...]
+    old_fields: dict[str, str]
     encodings: tuple[Encoding, ...]
     errors: tuple[Error, ...]
+
+    @property
+    def old_words(self):
+        """The words that have a new name, in the order of the description."""
+        for command in self.commands:
+            for row in self.settings if command.echoes and command.arguments else ():
+                if row.deprecated:
+                    yield OldWord(command.name, row.name, row.deprecated, is_same=False)
+                yield from old_values(command.name, row.name, row.old_values)
+            for argument in command.keys:
+                if argument.old:
+                    yield OldWord(command.name, argument.old, argument.key)
+                yield from old_values(command.name, argument.key, argument.old_values)
+        for old, now in self.old_fields.items():
+            yield OldWord("field", old, now)
 
     @property
     def byte_fields(self):
         """Those whose names are fixed."""
         return [field for field in self.fields if field.shape and not field.is_stack]
+
+
+def old_values(command, key, values):
+    return [OldWord(command, f"{key}={old}", f"{key}={now}") for old, now in values.items()]
 
 
 def expect(condition, sentence):
@@ -187,9 +239,19 @@ def rows(table, kind, document):
             raise ValueError(f"{SOURCE}: {table} {row.get('name', row.get('code', ''))}: {error}") from None
 
 
-def completed(command):
+def with_choices(argument, settings):
+    """An argument with the choices of the setting that it names, its default first."""
+    if not argument.choices_of:
+        return argument
+    expect(argument.choices_of in settings, f"{argument.name}: there is no setting {argument.choices_of!r}")
+    choices = settings[argument.choices_of].choices
+    first = {argument.default: choices[argument.default]} if argument.default else {}
+    return dataclasses.replace(argument, choices=first | choices)
+
+
+def completed(command, settings):
     """A command with its arguments as objects, and with what follows from them."""
-    arguments = tuple(Argument(**argument) for argument in command.arguments)
+    arguments = tuple(with_choices(Argument(**argument), settings) for argument in command.arguments)
     required = sum(1 for argument in arguments if not argument.optional)
     most = math.inf if any(argument.is_repeated for argument in arguments) else len(arguments)
     return dataclasses.replace(
@@ -234,13 +296,15 @@ def check(protocol):
 
 def read(path=SOURCE):
     document = tomllib.loads(path.read_text())
+    settings = {setting.name: setting for setting in rows("setting", Setting, document)}
     protocol = Protocol(
         version=document["protocol"],
-        commands=tuple(completed(command) for command in rows("command", Command, document)),
+        commands=tuple(completed(command, settings) for command in rows("command", Command, document)),
         aliases=document["aliases"],
-        settings=tuple(rows("setting", Setting, document)),
+        settings=tuple(settings.values()),
         presets=tuple(rows("preset", Preset, document)),
         fields=tuple(rows("field", Field, document)),
+        old_fields=document["old_fields"],
         encodings=tuple(rows("encoding", Encoding, document)),
         errors=tuple(rows("error", Error, document)),
     )

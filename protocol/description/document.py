@@ -12,6 +12,11 @@ def row(*cells):
     return "| " + " | ".join(cells) + " |\n"
 
 
+def current(rows):
+    """Those that have no better name."""
+    return [one for one in rows if not one.deprecated]
+
+
 def choices(protocol, command, *keys):
     """The keys of a command, and the values that they may have, with their meanings."""
     arguments = next(one.arguments for one in protocol.commands if one.name == command)
@@ -23,33 +28,44 @@ def choices(protocol, command, *keys):
     ]
 
 
-def autoresets(protocol):
-    rows = [(code(value), meaning) for _, value, meaning in choices(protocol, "open", "autoreset")]
-    return [row(f"{value} (default)" if place == 0 else value, meaning) for place, (value, meaning) in enumerate(rows)]
+def setting_choices(protocol, name):
+    """The values of a setting, with their meanings."""
+    values = next(one.choices for one in protocol.settings if one.name == name)
+    return [row(code(value), meaning) for value, meaning in values.items()]
+
+
+def old_words(protocol):
+    """The old words, with what to write instead."""
+    for word in protocol.old_words:
+        where = "a field" if word.of == "field" else code(word.of)
+        yield row(where, code(word.old), ", ".join(code(now) for now in word.now.split()))
 
 
 def tables(protocol):
     """The rows of each table, by the line of its headings."""
     return {
         "| command | what it does |": [
-            row(code(f"{command.name} {command.usage}".rstrip()), command.summary_text) for command in protocol.commands
+            row(code(f"{command.name} {command.usage}".rstrip()), command.summary_text)
+            for command in current(protocol.commands)
         ],
         "| setting | values | default | meaning |": [
-            row(code(one.name), one.accepted, one.default, one.summary_text) for one in protocol.settings
+            row(code(one.name), one.accepted, one.default, one.summary_text) for one in current(protocol.settings)
         ],
         "| preset | sets | source |": [
-            row(code(one.name), code(one.sets), one.summary_text) for one in protocol.presets
+            row(code(one.name), code(one.sets), one.summary_text) for one in current(protocol.presets)
         ],
         "| field | content | encoding |": [
-            row(code(one.name), one.summary_text, one.encoding) for one in protocol.fields
+            row(code(one.name), one.summary_text, one.encoding) for one in current(protocol.fields)
         ],
-        "| encoding | form |": [row(code(one.name), one.summary_text) for one in protocol.encodings],
-        "| autoreset | at the end of an episode |": autoresets(protocol),
+        "| encoding | form |": [row(code(one.name), one.summary_text) for one in current(protocol.encodings)],
+        "| autoreset | at the end of an episode |": setting_choices(protocol, "autoreset"),
+        "| life_loss | a lost life |": setting_choices(protocol, "life_loss"),
+        "| of | old | now |": list(old_words(protocol)),
         "| key | value | meaning |": [
             row(code(key), code(value), meaning)
-            for key, value, meaning in choices(protocol, "open", "start", "lives", "stack", "pool")
+            for key, value, meaning in choices(protocol, "open", "start", "stack", "pool")
         ],
-        "| code | meaning |": [row(code(one.code), one.summary_text) for one in protocol.errors],
+        "| code | meaning |": [row(code(one.code), one.summary_text) for one in current(protocol.errors)],
     }
 
 

@@ -67,7 +67,7 @@ class Signature:
             name, kind = self.setting.name, TYPES[self.setting.type]
             yield f"{name}?: {kind} | {{ {name}?: {kind} }}"
         if self.settings:
-            yield f"settings?: {settings_type(self.settings)}"
+            yield f"settings?: {settings_type(self.settings + self.command.old_keys)}"
         if self.repeated:
             yield f"...{self.repeated.name}: {TYPES[self.repeated.type]}[]"
 

@@ -95,6 +95,7 @@ def commands(protocol):
 def flags(protocol):
     """The keys of replies that are true or false: fields, settings, and those of commands."""
     rows = [row.name for row in (*protocol.fields, *protocol.settings) if row.type == "flag"]
+    rows += [row.name for row in protocol.settings if {"0", "1"} == set(row.old_values)]  # that replies still have
     replies = [reply for command in protocol.commands for reply in (command.reply, command.groups)]
     keys = [key.removesuffix("?") for reply in replies for key, kind in reply.items() if kind == "flag"]
     return list(dict.fromkeys([*rows, *keys]))

@@ -60,13 +60,18 @@ def request_words(command):
     """The expressions of the arguments. Neighbouring pairs go together."""
     for has_key, arguments in itertools.groupby(command.arguments, key=lambda argument: bool(argument.key)):
         if has_key:
-            yield f"*key_values({', '.join(f'{argument.key}={argument.name}' for argument in arguments)})"
+            names = [argument.key for argument in arguments] + [argument.key for argument in command.old_keys]
+            yield f"*key_values({', '.join(f'{name}={name}' for name in names)})"
         else:
             yield from map(in_request, arguments)
 
 
+def all_arguments(command):
+    return [*command.words, *command.keys, *command.old_keys]
+
+
 def signature(command, result):
-    parameters = ["self", *(parameter(argument) for argument in [*command.words, *command.keys])]
+    parameters = ["self", *(parameter(argument) for argument in all_arguments(command))]
     line = f"    def {command.method}({', '.join(parameters)}) -> {result}:\n"
     if len(line) <= WIDTH:
         return line
@@ -83,18 +88,27 @@ def explained(argument):
 def docstring(command):
     text = folded(f'"""{sentence(command.summary)}', " " * 8)
     if command.arguments:
-        text += "\n        Args:\n" + "".join(map(explained, [*command.words, *command.keys]))
+        text += "\n        Args:\n" + "".join(map(explained, all_arguments(command)))
     result = RESULTS.get(command.returns.partition(" ")[0])
     if result:
         text += f"\n        Returns:\n            {result}\n"
     return text + '        """\n' if "\n\n" in text else text[:-1] + '"""\n'
 
 
+def argument_line(word):
+    """An argument of a call on a line of its own, or on three."""
+    line = f"            {word},\n"
+    if len(line) <= WIDTH:
+        return line
+    name, _, inner = word.removesuffix(")").partition("(")
+    return f"            {name}(\n                {inner}\n            ),\n"
+
+
 def call(name, words):
     line = f"{name}({', '.join(words)})\n"
     if len(line) <= WIDTH:
         return line
-    return f"{name}(\n" + "".join(f"            {word},\n" for word in words) + "        )\n"
+    return f"{name}(\n" + "".join(map(argument_line, words)) + "        )\n"
 
 
 def method(command):

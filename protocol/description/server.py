@@ -47,6 +47,7 @@ namespace racebeam::description {
 
 struct Setting {
   std::string_view name, accepted, summary;
+  bool is_deprecated;
 };
 
 struct Preset {
@@ -59,8 +60,15 @@ struct Field {
   std::string_view encoding;  // of bytes; empty: a number
 };
 
-struct Choice {  // a value that a key of a command may have
-  std::string_view command, key, value, meaning;
+struct Choice {  // a value that a key of a command, or a setting, may have
+  std::string_view key, value, meaning;
+};
+
+// A word of a request that has a new name: a key, a pair KEY=VALUE or a field.
+struct OldWord {
+  std::string_view of;  // the command, or "field"
+  std::string_view old, now;
+  bool is_same;  // the server takes the one for the other
 };
 
 struct Encoding {
@@ -88,6 +96,13 @@ consteval bool same_names(const One& one, const Other& other) {
 """
 
 
+def all_choices(protocol):
+    """The choices of settings and of keys of commands."""
+    yield from ((setting.name, setting.choices) for setting in protocol.settings)
+    for command in protocol.commands:
+        yield from ((one.key, one.choices) for one in command.arguments if not one.choices_of)
+
+
 def tables(protocol):
     return "\n".join(
         (
@@ -95,7 +110,10 @@ def tables(protocol):
             array(
                 "Setting",
                 "kSettings",
-                (braced(quoted(row.name), quoted(row.accepted), quoted(row.summary_text)) for row in protocol.settings),
+                (
+                    braced(quoted(row.name), quoted(row.accepted), quoted(row.summary_text), boolean(row.deprecated))
+                    for row in protocol.settings
+                ),
             ),
             array(
                 "Preset",
@@ -114,10 +132,17 @@ def tables(protocol):
                 "Choice",
                 "kChoices",
                 (
-                    braced(quoted(command.name), quoted(argument.key), quoted(value), quoted(meaning))
-                    for command in protocol.commands
-                    for argument in command.arguments
-                    for value, meaning in argument.choices.items()
+                    braced(quoted(key), quoted(value), quoted(meaning))
+                    for key, choices in all_choices(protocol)
+                    for value, meaning in choices.items()
+                ),
+            ),
+            array(
+                "OldWord",
+                "kOldWords",
+                (
+                    braced(quoted(word.of), quoted(word.old), quoted(word.now), boolean(word.is_same))
+                    for word in protocol.old_words
                 ),
             ),
             array(
@@ -131,9 +156,14 @@ def tables(protocol):
     )
 
 
+def takes_fields(command):
+    return any(argument.type == "fields" for argument in command.arguments)
+
+
 def command_rows(protocol):
     """For command_table.cpp: the handlers, and the rows that bind them."""
     handlers = "".join(f"void run_{command.name}(Session&, Words);\n" for command in protocol.commands)
+    old = {word.of for word in protocol.old_words}
     rows = "".join(
         braced(
             quoted(command.name),
@@ -144,6 +174,8 @@ def command_rows(protocol):
             str(command.least),
             "kAnyNumber" if command.most == math.inf else str(command.most),
             f"Needs::{enumerator(command.needs)}",
+            boolean(takes_fields(command)),
+            boolean(takes_fields(command) or command.name in old),
             f"run_{command.name}",
         )
         for command in protocol.commands

@@ -23,6 +23,8 @@ struct Command {
   std::string_view example;  // for `help`: a working example; empty: none is needed
   std::size_t least, most;   // number of arguments
   Needs needs;
+  bool takes_fields;
+  bool has_old;  // old words among its arguments (old_words.hpp)
 
   // Appends "ok" and the fields to session.out, without LF. Throws RequestError. It is the body of
   // session.pacer: long work is suspended between frames, or where it calls breathe().

@@ -77,7 +77,6 @@ constexpr std::array kFields = {
           return scratch;
         },
         Drawing::kLast),
-    bytes("grey84", nullptr, Drawing::kLastTwo),
     bytes(kGreyStack, nullptr, Drawing::kLastTwo),
     bytes(kRgbStack, nullptr, Drawing::kLastTwo),
     bytes("palette",
@@ -97,8 +96,8 @@ int size_within(std::string_view text, std::string_view what, int least, int mos
   return static_cast<int>(number_within(text, what, least, most));
 }
 
-// Parses grey84, grey84xN, greyWxHxN and rgbWxHxN, and sets `name` to the name of their row. Returns nothing
-// for other fields.
+// Parses greyWxHxN and rgbWxHxN, and the old names grey84 and grey84xN. Sets `name` to the name of their row.
+// Returns nothing for other fields.
 std::optional<StackSettings> parse_stack(std::string_view& name) {
   constexpr int kLeastHeight = 9, kMostHeight = 600;  // ScreenStack checks against the machine's screen
   const bool rgb = name.starts_with("rgb");
@@ -112,12 +111,11 @@ std::optional<StackSettings> parse_stack(std::string_view& name) {
   };
   if (!rgb && width == "84" && depth.empty() && !name.ends_with('x')) {
     const bool alone = name == "grey84";
-    name = "grey84";
+    name = kGreyStack;
     return stack_of(alone ? "1" : height, kSmallSide, kSmallSide);
   }
   if (depth.empty() || depth.find('x') != std::string_view::npos)
-    throw RequestError(ErrorCode::kBadArguments,
-                       "a stack is written as in grey84x4, grey100x50x4 or rgb100x50x4");
+    throw RequestError(ErrorCode::kBadArguments, "a stack is written as in grey84x84x4 or rgb100x50x4");
   name = rgb ? kRgbStack : kGreyStack;
   return stack_of(depth, size_within(width, "the width of a stack", 1, 2 * kScreenWidth),
                   size_within(height, "the height of a stack", kLeastHeight, kMostHeight));
@@ -148,7 +146,7 @@ Field parse_field(std::string_view word) {
   const auto row = std::ranges::find(kFields, name, &FieldRow::name);
   if (row == kFields.end() || (!stack && (name == kGreyStack || name == kRgbStack))) {
     auto known = names_of(kFields);
-    known.insert(known.end(), {"ends", "none"});
+    known.emplace_back("none");
     refuse_name(ErrorCode::kBadArguments, "field", name, known);
   }
   if (!encoded) return {&*row, row->usual, stack, std::move(written)};

@@ -36,8 +36,8 @@ struct Field {
   std::string name;                    // as in replies; contains the size of a stack
 };
 
-// Parses words such as lives, screen:rle, grey84x4 and rgb100x50x2. `ends` stands for two fields, `none` for
-// no field. Throws RequestError.
+// Parses words such as lives, screen:rle, grey84x84x4 and rgb100x50x2. `none` stands for no field, the old
+// word `ends` for two. Throws RequestError.
 std::vector<Field> parse_fields(Words words);
 
 // Which screens of an act the fields need, on a machine with colour averaging or without.

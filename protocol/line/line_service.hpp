@@ -10,6 +10,7 @@
 
 #include "emulator/translator/translator.hpp"
 #include "protocol/line/images.hpp"
+#include "protocol/line/old_words.hpp"
 #include "protocol/line/share.hpp"
 #include "protocol/running/disposal.hpp"
 #include "protocol/running/memory_budget.hpp"
@@ -54,6 +55,9 @@ struct LineService {
   bool share_all = false;  // sessions are shared from their first game on
   // Reports an `internal` error; thread-safe; may be empty.
   std::function<void(const std::string& sentence)> report_fault;
+  std::shared_ptr<UsedOldWords> old_words = std::make_shared<UsedOldWords>();
+  // Reports an old word of a request, at its first use; thread-safe; may be empty.
+  std::function<void(const std::string& sentence)> report_old_word;
 };
 
 }  // namespace racebeam

@@ -7,6 +7,8 @@ namespace racebeam {
 SlotSettings slot_settings(const PlaySettings& settings) {
   SlotSettings slot;
   slot.machine = settings.machine;
+  slot.machine.truncate_on_life_loss = truncates_on_life_loss(settings);
+  slot.life_loss = settings.life_loss;
   slot.mode = settings.mode;
   slot.difficulty = settings.difficulty;
   slot.action_set = settings.action_set;

@@ -40,6 +40,7 @@ class LoadedMachine {
 
   void observe(std::vector<Field> fields);
   void append_view(std::string& out, std::string& raw) { view_.append(out, raw, slot_); }
+  void append_final(std::string& out, std::string& raw) { view_.append_final(out, raw, slot_); }
 
  private:
   Pacer& pacer_;

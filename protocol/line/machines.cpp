@@ -1,7 +1,6 @@
 #include "protocol/line/machines.hpp"
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <new>
 #include <optional>
@@ -11,8 +10,6 @@
 
 namespace racebeam {
 namespace {
-
-constexpr std::array<std::string_view, 3> kAutoresets = {"next-step", "same-step", "disabled"};
 
 struct Seat {
   Pacer pacer;
@@ -24,8 +21,6 @@ struct Seat {
 };
 
 }  // namespace
-
-std::span<const std::string_view> autoresets() { return kAutoresets; }
 
 // Each machine writes its part of the reply into its own seat, since machines run on several threads.
 class Machines::Host final : public VectorHost {
@@ -155,7 +150,7 @@ void Machines::open(std::size_t count, const SlotSettings& settings, Autoreset a
   opened_ = std::move(opened);
   session_.out += "ok";
   append_pair(session_.out, "machines", static_cast<std::int64_t>(count));
-  append_pair(session_.out, "autoreset", kAutoresets[static_cast<std::size_t>(autoreset)]);
+  append_pair(session_.out, "autoreset", name_of(autoreset));
   append_texts();
 }
 

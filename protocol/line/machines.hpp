@@ -17,8 +17,6 @@ namespace racebeam {
 
 class Session;
 
-std::span<const std::string_view> autoresets();  // names, in the order of Autoreset
-
 class Machines {
  public:
   explicit Machines(Session& session);  // must outlive the machines

@@ -22,6 +22,9 @@ constexpr int kLeastReward = std::numeric_limits<int>::min(), kMostReward = std:
 constexpr int kMostFrameSkip = 1000;  // an act is never interrupted
 constexpr int kMostNoops = 1000;
 constexpr std::array<std::string_view, 3> kActionSets = {"full", "legal", "minimal"};
+constexpr std::array<std::string_view, 3> kAutoresets = {"next-step", "same-step",
+                                                         "disabled"};  // as Autoreset
+constexpr std::array<std::string_view, 4> kLifeLosses = {"ignored", "told", "end", "restart"};  // as LifeLoss
 constexpr std::array<std::string_view, 2> kRules = {"ale-0.12", "fixed"};  // as Rules counts
 
 // Never 0. Not of std::random_device, which needs a C library of 2022 when it is linked statically, as in a
@@ -81,6 +84,18 @@ void set_rules(PlaySettings& settings, std::string_view value) {
   settings.machine.rules = static_cast<Rules>(choice_of(value, "rules", kRules));
 }
 
+// The old setting, whose episodes are truncated.
+void set_life_loss_ends(PlaySettings& settings, std::string_view value) {
+  settings.life_loss = LifeLoss::kIgnored;
+  settings.machine.truncate_on_life_loss = flag(value, "life_loss_ends");
+}
+
+// A reply has the numbers of version 0.1 where there is one.
+void append_autoreset(std::string& out, const PlaySettings& settings, const Environment&) {
+  constexpr std::array<std::string_view, 3> kShown = {"1", "same-step", "0"};
+  out += kShown[static_cast<std::size_t>(settings.autoreset)];
+}
+
 void set_preset(PlaySettings& settings, std::string_view value) {
   if (value == "none") return;
   auto names = names_of(preset_rows());
@@ -120,7 +135,7 @@ using Append = void (*)(std::string& out, const PlaySettings& settings, const En
 
 consteval SettingRow setting(std::string_view name, Set set, Append append) {
   const description::Setting& row = description::row_named(description::kSettings, name);
-  return {name, row.accepted, row.summary, set, append};
+  return {name, row.accepted, row.is_deprecated, row.summary, set, append};
 }
 
 constexpr std::array kSettings = {
@@ -141,11 +156,15 @@ constexpr std::array kSettings = {
     setting("max_episode_frames",
             READ(s.machine.max_episode_frames = whole(value, "max_episode_frames", 0, kMostFrames)),
             ECHO(std::int64_t{s.machine.max_episode_frames})),
-    setting("life_loss_ends", READ(s.machine.truncate_on_life_loss = flag(value, "life_loss_ends")),
-            ECHO(std::int64_t{s.machine.truncate_on_life_loss})),
+    setting("life_loss", READ(set_life_loss(s, life_loss_of(value))),
+            [](std::string& out, const PlaySettings& s, const Environment&) {
+              out += kLifeLosses[static_cast<std::size_t>(s.life_loss)];
+            }),
+    setting("life_loss_ends", set_life_loss_ends,
+            ECHO(std::int64_t{truncates_on_life_loss(s) || s.life_loss >= LifeLoss::kEnds})),
     setting("noop_max", READ(s.noop_max = whole(value, "noop_max", 0, kMostNoops)),
             ECHO(std::int64_t{s.noop_max})),
-    setting("autoreset", READ(s.autoreset = flag(value, "autoreset")), ECHO(std::int64_t{s.autoreset})),
+    setting("autoreset", READ(s.autoreset = autoreset_of(value)), append_autoreset),
     setting(
         "action_set", set_action_set,
         [](std::string& out, const PlaySettings& s, const Environment&) { out += name_of(s.action_set); }),
@@ -194,6 +213,15 @@ constexpr auto kPresets = [] {
   return rows;
 }();
 
+// In this order, so that a setting overrides its old word and both override a preset.
+enum class Rank { kPreset, kOld, kOther };
+
+Rank rank_of(std::string_view key) {
+  if (key == "preset") return Rank::kPreset;
+  const auto row = std::ranges::find(kSettings, key, &SettingRow::name);
+  return row != kSettings.end() && row->is_deprecated ? Rank::kOld : Rank::kOther;
+}
+
 const SettingRow& setting_row(std::string_view name, Words other_keys) {
   const auto found = std::ranges::find(kSettings, name, &SettingRow::name);
   if (found != kSettings.end()) return *found;
@@ -212,10 +240,10 @@ std::span<const PresetRow> preset_rows() { return kPresets; }
 
 void read_settings(Words words, PlaySettings& settings, Words other_keys) {
   std::bitset<kSettings.size()> given;
-  for (const bool presets : {true, false}) {
+  for (const Rank rank : {Rank::kPreset, Rank::kOld, Rank::kOther}) {
     for (const std::string_view word : words) {
       const auto [key, value] = key_value(word);
-      if ((key == "preset") != presets) continue;
+      if (rank_of(key) != rank) continue;
       const SettingRow& row = setting_row(key, other_keys);
       const auto place = static_cast<std::size_t>(&row - kSettings.data());
       if (given[place]) refuse_twice(key);
@@ -238,6 +266,28 @@ std::uint32_t parse_seed(std::string_view text) {
   return static_cast<std::uint32_t>(number_within(text, "seed", 0, kMostSeed));
 }
 
+// `ignored` leaves the old word beside it as it is: the settings that a reply shows can be loaded again.
+void set_life_loss(PlaySettings& settings, LifeLoss life_loss) {
+  const bool stays = life_loss == LifeLoss::kIgnored && truncates_on_life_loss(settings);
+  settings.life_loss = life_loss;
+  settings.machine.truncate_on_life_loss = stays || life_loss == LifeLoss::kResets;
+}
+
+bool truncates_on_life_loss(const PlaySettings& settings) {
+  return settings.machine.truncate_on_life_loss && settings.life_loss != LifeLoss::kResets;
+}
+
+Autoreset autoreset_of(std::string_view name) {
+  if (name == "0") return Autoreset::kDisabled;  // old words, which logs have, too
+  if (name == "1") return Autoreset::kNextStep;
+  return static_cast<Autoreset>(choice_of(name, "autoreset", kAutoresets));
+}
+
+LifeLoss life_loss_of(std::string_view name) {
+  return static_cast<LifeLoss>(choice_of(name, "life_loss", kLifeLosses));
+}
+
+std::string_view name_of(Autoreset autoreset) { return kAutoresets[static_cast<std::size_t>(autoreset)]; }
 std::string_view name_of(ActionSet set) { return kActionSets[static_cast<std::size_t>(set)]; }
 
 }  // namespace racebeam

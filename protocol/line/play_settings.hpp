@@ -9,6 +9,7 @@
 
 #include "environment/environment.hpp"
 #include "environment/input/action_set.hpp"
+#include "environment/vector/vector_environment.hpp"
 #include "games/game/given_properties.hpp"
 #include "protocol/line/words.hpp"
 
@@ -21,14 +22,16 @@ struct PlaySettings {
   std::optional<int> mode, difficulty;  // the game's defaults if not given
   GivenProperties console;
   ActionSet action_set = ActionSet::kFull;
-  bool autoreset = false;  // an act after the end of an episode is a reset
-  int noop_max = 0;        // an episode begins with 0 to noop_max - 1 frames of NOOP
+  Autoreset autoreset = Autoreset::kDisabled;
+  LifeLoss life_loss = LifeLoss::kIgnored;  // kResets also sets machine.truncate_on_life_loss
+  int noop_max = 0;                         // an episode begins with 0 to noop_max - 1 frames of NOOP
   std::string_view preset = "none";
 };
 
 struct SettingRow {
   std::string_view name;
   std::string_view accepted;  // for people
+  bool is_deprecated;
   std::string_view summary;
   void (*set)(PlaySettings& settings, std::string_view value);  // throws RequestError
   // Null if the replies have the key anyway.
@@ -51,6 +54,11 @@ void read_settings(Words words, PlaySettings& settings, Words other_keys = {});
 void append_settings(std::string& out, const PlaySettings& settings, const Environment& machine);
 
 std::string_view name_of(ActionSet set);
-std::uint32_t parse_seed(std::string_view text);  // throws RequestError
+std::string_view name_of(Autoreset autoreset);
+Autoreset autoreset_of(std::string_view name);  // throws RequestError
+LifeLoss life_loss_of(std::string_view name);   // throws RequestError
+void set_life_loss(PlaySettings& settings, LifeLoss life_loss);
+bool truncates_on_life_loss(const PlaySettings& settings);  // as the old setting life_loss_ends asks
+std::uint32_t parse_seed(std::string_view text);            // throws RequestError
 
 }  // namespace racebeam

@@ -63,7 +63,7 @@ Session::Session(const LineService& with, const CommandTable& table, Meter* coun
     : service(with),
       input(longest_line(with, !with.admission)),
       admitted(!with.admission),
-      fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})),
+      fields(parse_fields(std::array<std::string_view, 4>{"reward", "terminated", "truncated", "lives"})),
       memory(budget ? budget : with.memory),
       machines(*this),
       table_(table),
@@ -272,6 +272,7 @@ void Session::execute(std::string_view line) {
   command_ = table_.row(command);
   const Words arguments = Words(words_).subspan(1);
   check(command, *this, arguments.size());
+  renew_words(command);
   command.run(*this, arguments);
 }
 
@@ -283,6 +284,23 @@ void Session::read_words(std::string_view line) {
     words_.push_back(word);
     if (words_.size() % kWordsBetweenLooks == 0) pacer.breathe();
   }
+}
+
+// Replaces the old words of a request. Fields stay as they are, since the reply has their names.
+void Session::renew_words(const Command& command) {
+  new_words_.clear();
+  if (!command.has_old) return;
+  for (std::string_view& word : std::span(words_).subspan(1)) {
+    const OldWord* const row = command.takes_fields ? old_field(word) : old_word(command.name, word);
+    if (row == nullptr) continue;
+    report_old(*row);
+    if (row->is_same && !command.takes_fields) word = new_words_.emplace_back(new_word(*row, word));
+  }
+}
+
+void Session::report_old(const OldWord& row) {
+  if (service.old_words->add(row) && service.report_old_word)
+    service.report_old_word("a client uses an old word: " + deprecation_of(row));
 }
 
 void Session::finish_reply() {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@
 
 namespace racebeam {
 
+struct Command;
 struct CommandTable;
 class Recording;
 class SessionRecording;
@@ -113,6 +115,8 @@ class Session {
   void take(const LineReader::Line& line);
   void execute(std::string_view line);
   void read_words(std::string_view line);
+  void renew_words(const Command& command);
+  void report_old(const OldWord& row);
   void drop_reply();
   void refuse(ErrorCode code, std::string_view sentence);
   void refuse_fault(const std::string& what);
@@ -126,9 +130,10 @@ class Session {
 
   const CommandTable& table_;
   std::vector<std::string_view> words_;
-  std::size_t reply_ = 0;           // offset of the current reply in `out`
-  std::int64_t sent_frames_ = 0;    // pacer.frames() when `out` was last sent
-  std::int64_t sent_requests_ = 0;  // statistics.requests at the same time
+  std::deque<std::string> new_words_;  // in the place of old ones
+  std::size_t reply_ = 0;              // offset of the current reply in `out`
+  std::int64_t sent_frames_ = 0;       // pacer.frames() when `out` was last sent
+  std::int64_t sent_requests_ = 0;     // statistics.requests at the same time
   bool done_ = false;
   Clock::time_point began_;   // when the current request began
   Clock::time_point looked_;  // when the clock was last read

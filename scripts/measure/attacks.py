@@ -171,7 +171,7 @@ def not_reading(session):
 
 @attack
 def states(session):
-    session.ask(LONG, b"observe grey84x16:hex")
+    session.ask(LONG, b"observe grey84x84x16:hex")
     session.send(*[b"save s%d" % number for number in range(256)], b"act NOOP")
     session.read_on(4)
 

@@ -21,7 +21,7 @@ from bench_wire import image, name_of  # noqa: E402
 
 BUILD = ROOT / "build/release"
 ENCODINGS = ("hex", "rle", "delta", "base64", "zlib")
-FIELDS = {"screen": 33600, "rgb": 100800, "grey84": 84 * 84}
+FIELDS = {"screen": 33600, "rgb": 100800, "grey84x84x1": 84 * 84}
 ROUNDS = 7
 
 
@@ -31,7 +31,7 @@ def texts_of(rom, field, encoding, acts):
     with racebeam.Session.start(str(BUILD / "racebeam"), *options) as session:
         session.load(name_of(rom), seed=1, sticky=0, frame_skip=4)
         actions = sorted(session.actions())
-        session.observe("ends", f"{field}:{encoding}")
+        session.observe("terminated", "truncated", f"{field}:{encoding}")
         draw = random.Random(7)
         texts = []
         for _ in range(acts):

@@ -26,10 +26,10 @@ SHOWN = (
     "reward ends",
     "reward ends ram",
     "screen:delta",
-    "grey84:zlib",
+    "grey84x84x1:zlib",
     "screen:zlib",
     "screen:rle",
-    "grey84:base64",
+    "grey84x84x1:base64",
     "screen:base64",
 )
 PARTS = ("steps", "cores", "sessions", "idle", "crowd")
@@ -108,14 +108,14 @@ def cores(arguments):
     print("\n| cores of the server | steps/s | us of a core | cores that it used |\n|---:|---:|---:|---:|")
     usable = sorted(os.sched_getaffinity(0))
     for count in range(1, len(usable) + 1):
-        found = acting(arguments, ACTORS, "observe reward ends ram", usable[:count])
+        found = acting(arguments, ACTORS, "observe reward terminated truncated ram", usable[:count])
         print(f"| {count} | {found['rate']:,.0f} | {found['us']:.1f} | {found['busy']:.2f} |", flush=True)
 
 
 def sessions(arguments):
     print("\n| acting sessions | steps/s | us of a core | p99, ms | KiB a session |\n|---:|---:|---:|---:|---:|")
     for count in arguments.acting:
-        found = acting(arguments, count, "observe reward ends ram")
+        found = acting(arguments, count, "observe reward terminated truncated ram")
         print(
             (
                 f"| {count:,} | {found['rate']:,.0f} | {found['us']:.1f} | {found['p99'] / 1000:,.2f} | "

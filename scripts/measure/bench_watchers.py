@@ -75,7 +75,7 @@ def measure(watchers, seconds):
         port = int(server.wait_for(r"listening on ws://127\.0\.0\.1:(\d+)$")[1])
         agent = connect_tcp(server.port())
         ask(agent, b"load beamfall seed=1 sticky=0 frame_skip=4 autoreset=1 max_episode_frames=0")
-        ask(agent, b"observe reward grey84x4:delta")
+        ask(agent, b"observe reward grey84x84x4:delta")
         ask(agent, b"share room")
         (told, ready), (ended, stop) = multiprocessing.Pipe(False), multiprocessing.Pipe(False)
         process = multiprocessing.Process(target=watch_all, args=(port, watchers, ready, ended))

@@ -41,8 +41,8 @@ ENCODINGS = [
     "screen:delta",
     "screen:base64",
     "screen:zlib",
-    "grey84:base64",
-    "grey84:zlib",
+    "grey84x84x1:base64",
+    "grey84x84x1:zlib",
     "ram",
 ]
 TRANSPORTS = ("stdio", "unix", "tcp")

@@ -10,7 +10,7 @@ import tempfile
 import time
 
 LOAD = "load beamfall seed=1 sticky=0 max_episode_frames=0"
-OBSERVE = "observe reward ends ram screen:rle"
+OBSERVE = "observe reward terminated truncated ram screen:rle"
 
 
 class Server:

@@ -30,7 +30,7 @@ def wait_for_end(session):
 
 @hoarder(48)
 def idle_hoarder(session):
-    session.ask(LONG, b"observe grey84x4:hex", b"open 64", b"step NOOP")
+    session.ask(LONG, b"observe grey84x84x4:hex", b"open 64", b"step NOOP")
     session.send(*[b"save s%d" % number for number in range(256)])
     session.read_on(60)
 

@@ -68,8 +68,7 @@ std::multimap<std::string, std::string> all_names() {
     for (std::sregex_iterator found(arguments.begin(), arguments.end(), word), end; found != end; ++found)
       if (!is_topic_or_command(found->str())) add(found->str(), row.arguments);
   }
-  add("ends", "terminated and truncated");
-  add("grey84x4", "84 x 84 grey");
+  add("grey84x4", "a stack of N screens");
   add("rgb100x50x4", "the same in colour");
   for (const Command& row : commands()) {
     const bool shares = row.name == "share" || row.name == "watch";  // NAME of a session
@@ -113,7 +112,8 @@ TEST_CASE("help explains each value of a key that has a list of them") {
   CHECK_THAT(client.ask("help start"), Contains("; start=noops-fire: as in EnvPool: the no-ops, then FIRE") &&
                                            Contains("; start=noops: only the no-ops"));
   CHECK_THAT(client.ask("help told"),
-             Contains("; lives=told: the step that loses a life is terminated") && !Contains("lives=end:"));
+             Contains("; life_loss=told: the act or step that loses a life is terminated") &&
+                 !Contains("life_loss=end:"));
 }
 
 TEST_CASE("help says what it has help on") {

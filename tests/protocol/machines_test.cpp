@@ -157,7 +157,7 @@ TEST_CASE("Machines of open whose steps are frames show what a batch shows") {
 TEST_CASE("open refuses keys that it does not have, and those of frames with acts") {
   LineClient client;
   client.ask("load beamfall life_loss_ends=1");
-  CHECK(client.ask("open 1 lives=told") == "error bad-arguments lives= goes with steps=frames");
+  CHECK(client.ask("open 1 pool=0") == "error bad-arguments pool= goes with steps=frames");
   CHECK(client.ask("open 1 steps=frames") ==
         "error bad-value a step of frames takes only life_loss for the effect of lost lives");
   CHECK(code(client.ask("open 1 steps=halves")) == "bad-value");

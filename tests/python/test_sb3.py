@@ -27,7 +27,7 @@ class Interface(unittest.TestCase):
     def test_it_shows_what_AtariVectorEnv_shows(self):
         self.assertIsInstance(self.envs, Base)
         other = AtariVectorEnv(
-            "beamfall", 2, seed=1, frameskip=60, autoreset_mode="SameStep", start="baselines", lives="end"
+            "beamfall", 2, seed=1, frameskip=60, autoreset_mode="SameStep", start="baselines", life_loss="end"
         )
         self.assertTrue(np.array_equal(self.envs.reset(), other.reset()[0]))
         returns, episodes, ends = np.zeros(2), 0, 0
@@ -96,7 +96,7 @@ class Interface(unittest.TestCase):
     def test_the_infos_have_each_game_that_ends(self):
         for settings in (
             {"max_num_frames_per_episode": 8},
-            {"max_num_frames_per_episode": 40, "lives": "restart", "frameskip": 60},
+            {"max_num_frames_per_episode": 40, "life_loss": "restart", "frameskip": 60},
         ):
             envs = VecEnv("beamfall", 2, seed=1, **settings)
             envs.reset()
@@ -111,7 +111,7 @@ class Interface(unittest.TestCase):
     def test_settings_that_are_not_those_of_a_VecEnv_are_refused(self):
         for settings, sentence in (
             ({"autoreset_mode": "NextStep"}, "autoreset_mode is 'NextStep'; VecEnv takes SameStep"),
-            ({"lives": "told"}, "VecEnv takes ignored, end, restart"),
+            ({"life_loss": "told"}, "VecEnv takes ignored, end, restart"),
             ({"batch_size": 1}, "batch_size is 1; VecEnv takes 0"),
         ):
             with self.subTest(**settings), self.assertRaisesRegex(ValueError, sentence):

@@ -79,7 +79,7 @@ for _name, _settings in {
     "NextStep": {"autoreset_mode": "NextStep", **SHORT},
     "Disabled": {"autoreset_mode": "Disabled", **SHORT},
     "Continuous": {"continuous": True, "repeat_action_probability": 0.25},
-    "Lives": {"lives": "end", "start": "baselines", "frameskip": 20},
+    "Lives": {"life_loss": "end", "start": "baselines", "frameskip": 20},
 }.items():
     case(
         VectorEnvironmentTests,

@@ -44,7 +44,7 @@ const char* action(const Bytes& ram) {
 int main() {
   auto game = racebeam::client::connect();
   game.load("beamfall", "seed=1", "frame_skip=4");
-  game.observe("reward", "ends", "ram");
+  game.observe("reward", "terminated", "truncated", "ram");
   auto shown = game.open(kMachines, "autoreset=same-step");
   std::vector<std::int64_t> scores(kMachines);
   for (int step = 0; step < kSteps; ++step) {

@@ -8,7 +8,7 @@ int main(int count, char** words) {
   constexpr int kAhead = 20;  // acts
   auto game = racebeam::client::connect();
   game.load("beamfall", "seed=1", "frame_skip=4", "sticky=0");
-  game.observe("reward", "ends");
+  game.observe("reward", "terminated", "truncated");
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> lists;
   for (const auto& [number, name] : game.actions()) {

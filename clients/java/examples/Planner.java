@@ -17,7 +17,7 @@ public final class Planner {
     int steps = words.length > 0 ? Integer.parseInt(words[0]) : 100;
     try (Session game = Racebeam.connect()) {
       game.load("beamfall", Map.of("seed", 1, "sticky", 0, "frame_skip", 4));
-      game.observe("reward", "ends");
+      game.observe("reward", "terminated", "truncated");
       List<String> actions = List.copyOf(game.actions().values());
       List<List<String>> lists = new ArrayList<>();
       actions.forEach(action -> lists.add(List.of(action, "FIRE*" + DEPTH)));

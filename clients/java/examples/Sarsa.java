@@ -37,7 +37,7 @@ public final class Sarsa {
     Sarsa agent = new Sarsa();
     try (Session game = Racebeam.connect()) {
       game.load("beamfall", Map.of("seed", 1, "frame_skip", 6, "max_episode_frames", 12000));
-      game.observe("reward", "ends", "lives", "ram");
+      game.observe("reward", "terminated", "truncated", "lives", "ram");
       long sum = 0;
       for (int episode = 1; episode <= episodes; ++episode) {
         sum += agent.play(game);

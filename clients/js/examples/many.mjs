@@ -38,7 +38,7 @@ function action(ram) {
 
 const game = await connect();
 await game.load("beamfall", { seed: 1, frame_skip: 4 });
-await game.observe("reward", "ends", "ram");
+await game.observe("reward", "terminated", "truncated", "ram");
 let shown = await game.open(MACHINES, { autoreset: "same-step" });
 const scores = new Array(MACHINES).fill(0);
 for (let step = 0; step < STEPS; ++step) {

@@ -5,7 +5,7 @@ const DECODERS = { hex, rle, base64, zlib };
 const WIDTH = 160;
 const NUMBER = /^-?(0|[1-9]\d{0,14})(\.\d+)?$/;
 
-/** The bytes of fields such as grey84x4 and rgb40x30x2; undefined for others. */
+/** The bytes of fields such as grey84x84x4 and rgb40x30x2; undefined for others. */
 function sizeOfSmall(field) {
   const stack = /^grey84(?:x(\d+))?$/.exec(field);
   if (stack) {

@@ -124,11 +124,11 @@ export class Session {
    */
   reset(seed?: number | "random" | { seed?: number | "random" }): Promise<Group>;
   /**
-   * Save the state; random=1: with the random generator.
-   * random: 1: with the random generator
+   * Save the state; generator=1: with the random generator.
+   * generator: 1: with the random generator
    * machine: one of those of open, 0 the first
    */
-  save(name: string, settings?: { random?: 0 | 1 | boolean; machine?: number; }): Promise<void>;
+  save(name: string, settings?: { generator?: 0 | 1 | boolean; machine?: number; random?: 0 | 1 | boolean; }): Promise<void>;
   /**
    * Restore a saved state.
    * machine: one of those of open, 0 the first
@@ -143,17 +143,18 @@ export class Session {
    * autoreset: what happens at the end of an episode
    * steps: what a step is
    * start: how an episode begins; with steps=frames
-   * lives: what a lost life does; with steps=frames
+   * life_loss: what a lost life does
    * stack: what a stack of screens begins with; with steps=frames
    * pool: which frames a stack shows; with steps=frames
    */
   open(count: number, settings?: {
-    autoreset?: "next-step" | "same-step" | "disabled";
+    autoreset?: "next-step" | "disabled" | "same-step";
     steps?: "acts" | "frames";
     start?: "fire-noops" | "noops-fire" | "baselines" | "noops";
-    lives?: "ignored" | "told" | "end" | "restart";
+    life_loss?: "ignored" | "told" | "end" | "restart";
     stack?: "zeros" | "repeats";
     pool?: 0 | 1 | boolean;
+    lives?: "ignored" | "told" | "end" | "restart";
   }): Promise<Group[]>;
   /** Play one act on each machine: an action each, or one for all. */
   step(...actions: Action[]): Promise<Group[]>;
@@ -196,7 +197,7 @@ export class Session {
   // end of commands
 }
 
-/** A stack of the last screens, oldest first, with zeros before the first one. It is for observe("grey84:delta"). */
+/** A stack of the last screens, oldest first, with zeros before the first one. It is for observe("grey84x84x1:delta"). */
 export class ScreenStack {
   constructor(depth: number);
   /** Begins anew, as after a reset. */

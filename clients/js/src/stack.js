@@ -1,4 +1,4 @@
-/** A stack of screens that the client makes, as the server does for the field grey84xN. */
+/** A stack of screens that the client makes, as the server does for the field grey84x84xN. */
 export class ScreenStack {
   #depth;
   #screens = [];

@@ -32,12 +32,12 @@ test("each command has a method", { skip }, async (context) => {
   assert.equal(ram.get(1), "lives");
   assert.equal(tia.length, (await game.look("tia")).tia.length);
   assert.equal((await game.actions()).get(17), "DOWNLEFTFIRE");
-  assert.deepEqual(await game.observe("reward", "ends", "frame"), ["reward", "terminated", "truncated", "frame"]);
+  assert.deepEqual(await game.observe("reward", "terminated", "truncated", "frame"), ["reward", "terminated", "truncated", "frame"]);
   assert.equal((await game.act("UP", "FIRE*2")).frame, 15);
   await game.poke(5, [0x12, 0xf4]);
   assert.deepEqual(await game.peek(5, 2), Uint8Array.of(0x12, 0xf4));
   await game.save("a");
-  await game.save("r", { random: 1 });
+  await game.save("r", { generator: 1 });
   await game.importState("b", await game.exportState("a"));
   assert.deepEqual(await game.states(), ["a", "b", "r"]);
   await game.drop("a", "r");
@@ -53,7 +53,7 @@ test("each command has a method", { skip }, async (context) => {
   assert.deepEqual((await game.step("UP", "FIRE", "NOOP")).map(({ frame }) => frame), [5, 5, 5]);
   await game.save("c", { machine: 1 });
   assert.equal((await game.restore("c", 2)).frame, (await game.restore("c", { machine: 0 })).frame);
-  assert.ok((await game.exportState("c", { whole: true })).length > (await game.exportState("c")).length);
+  assert.ok((await game.exportState("c", { episode: true })).length > (await game.exportState("c")).length);
   assert.equal((await game.restart("010", { seed: 4 })).length, 3);
   await game.closeMachines();
   assert.equal((await game.reset()).reward, 0);

@@ -41,7 +41,7 @@ end
 
 local game = racebeam.connect()
 game:load("beamfall", { seed = 1, frame_skip = 4 })
-game:observe("reward", "ends", "ram")
+game:observe("reward", "terminated", "truncated", "ram")
 local shown, score, acts = game:look(), 0, 0
 repeat
   local distance = way(shown.ram)

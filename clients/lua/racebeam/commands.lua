@@ -94,8 +94,8 @@ function methods:reset(seed)
   return first(self, "reset", keyed("seed", seed))
 end
 
--- Save the state; random=1: with the random generator.
--- random: 1: with the random generator.
+-- Save the state; generator=1: with the random generator.
+-- generator: 1: with the random generator.
 -- machine: one of those of open, 0 the first.
 function methods:save(name, settings)
   nothing(self, "save", name, settings or "")
@@ -121,7 +121,7 @@ end
 -- autoreset: what happens at the end of an episode.
 -- steps: what a step is.
 -- start: how an episode begins; with steps=frames.
--- lives: what a lost life does; with steps=frames.
+-- life_loss: what a lost life does.
 -- stack: what a stack of screens begins with; with steps=frames.
 -- pool: which frames a stack shows; with steps=frames.
 function methods:open(count, settings)

@@ -8,5 +8,5 @@ return {
   -- Bytes of a pixel of fields that have the size of the screen.
   pixels = { screen = 1, rgb = 3, grey = 1 },
   -- What is true or false where its value is 1 or 0: 0 would be true in Lua.
-  flags = { terminated = true, truncated = true, game_over = true, life_loss_ends = true, autoreset = true, color_averaging = true, sound = true, recording = true, admitted = true, here = true, rule = true, over = true, complete = true },
+  flags = { terminated = true, truncated = true, game_over = true, life_loss_ends = true, color_averaging = true, sound = true, autoreset = true, recording = true, admitted = true, here = true, rule = true, over = true, complete = true },
 }

@@ -6,7 +6,7 @@ local known = require("racebeam.field_table")
 
 local WIDTH = 160
 
--- Width, height, depth and bytes a pixel of fields such as grey84x4 and rgb40x30x2; nil for others.
+-- Width, height, depth and bytes a pixel of fields such as grey84x84x4 and rgb40x30x2; nil for others.
 local function small(field)
   local kind, width, height, depth = field:match("^(%a+)(%d+)x(%d+)x(%d+)$")
   if not kind then

@@ -329,8 +329,8 @@ function Session:stop_recording()
   return first(self, "record", "stop")
 end
 
--- A stack of screens that the client makes, as the server does for grey84xN. It has the last `depth` screens, oldest first,
--- and zeros before the first one. With observe("grey84:delta"), a reply has fewer bytes than with a stack of the server.
+-- A stack of screens that the client makes, as the server does for grey84x84xN. It has the last `depth` screens, oldest first,
+-- and zeros before the first one. With observe("grey84x84x1:delta"), a reply has fewer bytes than with a stack of the server.
 local Stack = {}
 Stack.__index = Stack
 

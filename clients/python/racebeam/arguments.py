@@ -35,6 +35,26 @@ def value_or(value: Any, default: Any) -> Any:
     return default if value is None else value
 
 
+def renamed(old: str, old_value: Any, name: str, value: Any) -> Any:
+    """Returns the value of an argument that may be given by its old name, and warns of the old name.
+
+    Args:
+        old: Old name.
+        old_value: Value under the old name, or None.
+        name: Name.
+        value: Value under the name, or None.
+
+    Raises:
+        WrongValue: If both are given.
+    """
+    if old_value is None:
+        return value
+    if value is not None:
+        raise WrongValue(f"{old} is the old name of {name}; only one of them may be given")
+    warnings.warn(f"{old} is the old name of {name}", DeprecationWarning, stacklevel=3)
+    return old_value
+
+
 def join(values: Iterable[object]) -> str:
     """Returns the values as a list for a message: "a, b, c"."""
     return ", ".join(map(str, values))

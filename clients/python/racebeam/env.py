@@ -19,6 +19,7 @@ from .arguments import (
     optional_whole,
     path_of,
     real,
+    renamed,
     seconds,
     share,
     value_or,
@@ -29,6 +30,7 @@ from .interface import ALEInterface
 from .presets import preset as preset_of
 from .single.actions import PlayerAction
 from .single.arguments import check_reward_range, check_rules, frameskip_of
+from .single.life_loss import LIFE_LOSSES, LifeLoss
 from .single.view import VIEWS, EnvWithView, Observation, closed_error
 from .wire.remote import RemoteInterface
 
@@ -89,7 +91,7 @@ class AtariEnv(EnvWithView):
             All games of a process share one window, which shows the game that was stepped last.
         sound_obs: Whether an observation is a dict of "image" and "sound", the 512 samples of the last frame.
         preset: Name of a preset of `racebeam.presets`. It supplies `frameskip`, `repeat_action_probability`,
-            `full_action_space`, `max_num_frames_per_episode`, `noop_max`, `life_loss_ends` and `reward_range` where
+            `full_action_space`, `max_num_frames_per_episode`, `noop_max`, `life_loss` and `reward_range` where
             they are None.
         rules: "ale-0.12" for the rewards and ends of ALE 0.12, or "fixed" for corrected ones.
         rom: Path or bytes of the cartridge image. Default: the image that `racebeam.find_image` finds.
@@ -104,7 +106,10 @@ class AtariEnv(EnvWithView):
         two_player: Whether an action is a pair of indices for players A and B. `info` then has `reward_a`, which is
             also the reward, and `reward_b`.
         noop_max: Upper limit of the random number of NOOP frames that begin an episode: 0 to `noop_max` - 1.
-        life_loss_ends: Whether a lost life truncates the episode.
+        life_loss: Effect of a lost life. "ignored": none. "told": the step is terminated, and the episode goes on.
+            "end": the episode ends, and the next one continues the game, as in DQN. "restart": the episode ends, and
+            the next one is a new game.
+        life_loss_ends: Old word: a lost life truncates the episode, and the next one is a new game.
         reward_range: Pair (low, high) to which the reward of a step is clipped. (-inf, inf) overrides that of a preset.
         sound: Whether the window plays the sound.
         server: Address of the server that runs the game.
@@ -165,12 +170,13 @@ class AtariEnv(EnvWithView):
         height: int | None = None,
         two_player: bool = False,
         noop_max: int | None = None,
-        life_loss_ends: bool | None = None,
+        life_loss: str | None = None,
         reward_range: tuple[float, float] | None = None,
         sound: bool = False,
         server: str | None = None,
         token: str | None = None,
         timeout: float | None = None,
+        life_loss_ends: bool | None = None,
     ) -> None:
         usual = preset_of(preset)
         check_rules(rules)
@@ -202,12 +208,17 @@ class AtariEnv(EnvWithView):
         limit = optional_whole(
             "max_num_frames_per_episode", value_or(max_num_frames_per_episode, usual.max_num_frames_per_episode)
         )
-        life_loss_ends = flag("life_loss_ends", value_or(life_loss_ends, usual.life_loss_ends))
+        truncates = flag(
+            "life_loss_ends", value_or(renamed("life_loss_ends", life_loss_ends, "life_loss", None), False)
+        )
+        word = value_or(life_loss, "ignored" if life_loss_ends is not None else usual.life_loss)
+        check_choice("life_loss", word, LIFE_LOSSES)
+        self._life_loss = LifeLoss(word)
         is_full = flag("full_action_space", value_or(full_action_space, usual.full_action_space))
         if server is None and game is not None:
             self._check_game(game)
         self.ale: Any = self._interface(server, token, seconds("timeout", timeout))
-        self._set_keys(rules, sticky, limit, life_loss_ends)
+        self._set_keys(rules, sticky, limit, truncates or word == "restart")
         self._set_console(
             console_of(scheme=scheme, left=left, right=right, format=format),
             {"ystart": optional_whole("ystart", ystart), "height": optional_whole("height", height)},
@@ -262,8 +273,10 @@ class AtariEnv(EnvWithView):
         if seed is not None:
             seeds = self.seed_game(seed)
             self.load_game()
-        self.ale.reset_game()
-        self._play_noops()
+        if not (self._life_loss.continues and seed is None):
+            self.ale.reset_game()
+            self._play_noops()
+        self._life_loss.continues = False
         self._show_window()
         info = self._get_info()
         if seeds is not None:
@@ -303,7 +316,10 @@ class AtariEnv(EnvWithView):
         if isinstance(frames, tuple):
             frames = int(self.np_random.integers(*frames))
         play = self._play if self._window is None else self._play_in_window
+        before = self._life_loss.lives_before(self.ale)
         seen, reward, reward_b, terminated, truncated, lives, episode_frame, frame = play(parsed, frames)
+        ends = (terminated, truncated)
+        terminated, truncated = self._life_loss.ends(self.ale, ends, before, lives, episode_frame)
         info: AtariEnvStepMetadata = {"lives": lives, "episode_frame_number": episode_frame, "frame_number": frame}
         reward = self._clip(reward)
         if self._two_player:

@@ -14,7 +14,7 @@ class Preset(NamedTuple):
     repeat_action_probability: float = 0.25
     full_action_space: bool = False
     max_num_frames_per_episode: int | None = None
-    life_loss_ends: bool = False
+    life_loss: str = "ignored"
     noop_max: int = 0
     reward_range: tuple[int, int] | None = None
 
@@ -23,7 +23,7 @@ PRESETS = {
     "ale": Preset(),
     "gym-v5": Preset(max_num_frames_per_episode=108000),
     "paper2013": Preset(5, 0.0, True, 18000),
-    "dqn2015": Preset(4, 0.0, False, 18000, life_loss_ends=True, noop_max=30, reward_range=(-1, 1)),
+    "dqn2015": Preset(4, 0.0, False, 18000, life_loss="restart", noop_max=30, reward_range=(-1, 1)),
     "machado2018": Preset(5, 0.25, True, 18000),
 }
 
@@ -37,7 +37,7 @@ class VectorPreset(NamedTuple):
     max_num_frames_per_episode: int = 108000
     noop_max: int = 30
     use_fire_reset: bool = True
-    lives: str = "ignored"
+    life_loss: str = "ignored"
     reward_clipping: bool = True
 
 

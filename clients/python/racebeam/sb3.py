@@ -23,7 +23,7 @@ from .vector_options import autoreset_of
 
 __all__ = ["VecEnv"]
 
-DEFAULTS: dict[str, Any] = {"autoreset_mode": "SameStep", "start": "baselines", "lives": "end"}
+DEFAULTS: dict[str, Any] = {"autoreset_mode": "SameStep", "start": "baselines", "life_loss": "end"}
 
 
 def _check(settings: dict[str, Any]) -> None:
@@ -31,9 +31,9 @@ def _check(settings: dict[str, Any]) -> None:
     mode = settings.get("autoreset_mode", AutoresetMode.SAME_STEP)
     if autoreset_of(mode) is not AutoresetMode.SAME_STEP:
         raise WrongValue(f"autoreset_mode is {mode!r}; VecEnv takes SameStep")
-    if settings.get("lives") == "told":
+    if settings.get("life_loss") == "told":
         raise WrongValue(
-            "lives is 'told', with which an episode goes on after a step that is done; VecEnv takes ignored, "
+            "life_loss is 'told', with which an episode goes on after a step that is done; VecEnv takes ignored, "
             "end, restart"
         )
     if settings.get("batch_size"):
@@ -58,8 +58,8 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
         game: Name of a game, or one name for each environment.
         num_envs: Number of environments. Default: 1, or the number of names in `game`.
         seed: Seed of the first environment, from which seeds count up. Default: random.
-        **settings: Arguments of `AtariVectorEnv`, except `batch_size`. `autoreset_mode` must be SAME_STEP, and `lives`
-            must not be "told", since an episode ends where a step is done.
+        **settings: Arguments of `AtariVectorEnv`, except `batch_size`. `autoreset_mode` must be SAME_STEP, and
+            `life_loss` must not be "told", since an episode ends where a step is done.
 
     Raises:
         gymnasium.error.Error: If an argument is wrong; also a TypeError or a ValueError.
@@ -80,7 +80,7 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
     ) -> None:
         _check(settings)
         self._envs = AtariVectorEnv(game, num_envs, seed=seed, **{**DEFAULTS, **settings})
-        self._restarts = settings.get("lives") == "restart"  # each episode is a game
+        self._restarts = settings.get("life_loss") == "restart"  # each episode is a game
         self._start_time = time.time()
         self._actions: Any = None
         count = self._envs.num_envs

@@ -8,7 +8,18 @@ from collections.abc import Callable, Sequence
 from typing import Any, Literal, SupportsIndex
 
 from . import images, xla
-from .arguments import WrongValue, check_source, console_of, image, path_of, real, seconds, value_or, warn_of
+from .arguments import (
+    WrongValue,
+    check_source,
+    console_of,
+    image,
+    path_of,
+    real,
+    renamed,
+    seconds,
+    value_or,
+    warn_of,
+)
 from .presets import vector_preset
 from .vector.autoreset import AutoresetMode, check_supported
 from .vector.making import Rom, make_local_machines, make_remote_machines, parse_games
@@ -58,8 +69,8 @@ class AtariVectorEnv(PlayedVector):
         frameskip: Frames per step, 1 to 1000. A step stops early if the episode ends.
         maxpool: Whether a screen is the pixelwise maximum of the last two frames of a step.
         noop_max: Upper limit of the random number of NOOP frames that begin an episode: 0 to `noop_max` - 1.
-        episodic_life: Same as `lives="restart"`; for compatibility with ale_py.
-        life_loss_info: Same as `lives="told"`; for compatibility with ale_py.
+        episodic_life: Same as `life_loss="restart"`; for compatibility with ale_py.
+        life_loss_info: Same as `life_loss="told"`; for compatibility with ale_py.
         reward_clipping: Whether rewards are clipped to [-1, 1].
         use_fire_reset: Whether an episode begins with FIRE, if the game has this action.
         preset: Name of a preset of `racebeam.presets`, which supplies the arguments that are None.
@@ -67,9 +78,9 @@ class AtariVectorEnv(PlayedVector):
         difficulty: Difficulty of the game, or None for its default.
         obs_type: "rgb" or "grayscale" for screens of full size, or "ram" for the 128 bytes of RAM. Default: screens of
             `img_height` x `img_width`.
-        lives: Effect of a lost life. "ignored": none. "told": the step is terminated, and the episode goes on. "end":
-            the episode ends, and the next one continues the game, as in DQN. "restart": the episode ends, and the next
-            one is a new game.
+        life_loss: Effect of a lost life. "ignored": none. "told": the step is terminated, and the episode goes on.
+            "end": the episode ends, and the next one continues the game, as in DQN. "restart": the episode ends, and
+            the next one is a new game.
         start: How an episode begins: "fire-noops" as in ale_py, "noops-fire" as in EnvPool, or "baselines" as in
             Stable-Baselines3.
         stack_start: Whether the first stack of an episode has "zeros", or "repeats" of its first screen.
@@ -92,6 +103,7 @@ class AtariVectorEnv(PlayedVector):
             game, and `batch_size` equal to `num_envs`.
         token: Token that the server asks for.
         timeout: Seconds to wait for each reply of the server. Default: no limit.
+        lives: Old name of `life_loss`.
 
     Raises:
         gymnasium.error.Error: If an argument is wrong; also a TypeError or a ValueError.
@@ -155,7 +167,7 @@ class AtariVectorEnv(PlayedVector):
         mode: int | None = None,
         difficulty: int | None = None,
         obs_type: Literal["rgb", "grayscale", "ram"] | None = None,
-        lives: str | None = None,
+        life_loss: str | None = None,
         start: str = "fire-noops",
         stack_start: str = "zeros",
         rules: str = "ale-0.12",
@@ -173,6 +185,7 @@ class AtariVectorEnv(PlayedVector):
         server: str | Sequence[str] | None = None,
         token: str | None = None,
         timeout: float | None = None,
+        lives: str | None = None,
     ) -> None:
         check_supported("AtariVectorEnv")
         rom, own_file = image(rom), path_of(game_file)
@@ -202,7 +215,10 @@ class AtariVectorEnv(PlayedVector):
             mode=mode,
             difficulty=difficulty,
             obs_type=obs_type,
-            lives=value_or(merge_life_flags(lives, episodic_life, life_loss_info), usual.lives),
+            life_loss=value_or(
+                merge_life_flags(renamed("lives", lives, "life_loss", life_loss), episodic_life, life_loss_info),
+                usual.life_loss,
+            ),
             start=start,
             stack_start=stack_start,
             rules=rules,

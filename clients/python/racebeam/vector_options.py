@@ -39,7 +39,7 @@ FLAGS = (
     "grayscale",
     "sound_obs",
 )
-WORDS = {"lives": _core.LifeLoss, "start": _core.ResetOrder, "stack_start": _core.StackStart}
+WORDS = {"life_loss": _core.LifeLoss, "start": _core.ResetOrder, "stack_start": _core.StackStart}
 CHOICES = {"obs_type": OBS_TYPES, "render_mode": RENDER_MODES, "rules": tuple(RULES)}
 
 
@@ -64,31 +64,31 @@ def autoreset_of(mode: object) -> AutoresetMode:
     )
 
 
-def merge_life_flags(lives: str | None, episodic_life: object, life_loss_info: object) -> str | None:
-    """Merges ale_py's two flags of life loss into `lives`.
+def merge_life_flags(life_loss: str | None, episodic_life: object, life_loss_info: object) -> str | None:
+    """Merges ale_py's two flags of life loss into `life_loss`.
 
     Args:
-        lives: The argument `lives` of `AtariVectorEnv`.
-        episodic_life: The flag that means lives="restart".
-        life_loss_info: The flag that means lives="told".
+        life_loss: The argument `life_loss` of `AtariVectorEnv`.
+        episodic_life: The flag that means life_loss="restart".
+        life_loss_info: The flag that means life_loss="told".
 
     Returns:
-        The word for `lives`, or None if none of the three arguments was given.
+        The word for `life_loss`, or None if none of the three arguments was given.
 
     Raises:
-        WrongValue: If a flag contradicts `lives`.
+        WrongValue: If a flag contradicts `life_loss`.
     """
-    if lives is not None:
-        member("lives", lives, _core.LifeLoss)
-    merged = lives
+    if life_loss is not None:
+        member("life_loss", life_loss, _core.LifeLoss)
+    merged = life_loss
     for name, value, word in (
         ("life_loss_info", life_loss_info, "told"),
         ("episodic_life", episodic_life, "restart"),  # takes precedence, as in ale_py
     ):
         if not flag(name, value):
             continue
-        if lives not in (None, word):
-            raise WrongValue(f"{name} is True, which means lives={word!r}, but lives is {lives!r}")
+        if life_loss not in (None, word):
+            raise WrongValue(f"{name} is True, which means life_loss={word!r}, but life_loss is {life_loss!r}")
         merged = word
     return merged
 
@@ -97,7 +97,7 @@ def merge_life_flags(lives: str | None, episodic_life: object, life_loss_info: o
 class VectorOptions:
     """Options of a vector of environments, checked when the object is made.
 
-    `AtariVectorEnv` documents the options. It merges the arguments that say the same: `lives` stands for
+    `AtariVectorEnv` documents the options. It merges the arguments that say the same: `life_loss` stands for
     `episodic_life` and `life_loss_info`, and the values of the preset are filled in. `dataclasses.replace` copies
     options with changes.
 
@@ -110,7 +110,7 @@ class VectorOptions:
 
     Example:
         >>> from racebeam.vector_options import VectorOptions
-        >>> options = VectorOptions(num_envs=8, lives="end", autoreset_mode="SameStep", seed=7)
+        >>> options = VectorOptions(num_envs=8, life_loss="end", autoreset_mode="SameStep", seed=7)
         >>> options.core_settings().lives
         LifeLoss.END
         >>> VectorOptions(frameskip=0)
@@ -139,7 +139,7 @@ class VectorOptions:
     mode: int | None = None
     difficulty: int | None = None
     obs_type: str | None = None
-    lives: str = "ignored"
+    life_loss: str = "ignored"
     start: str = "fire-noops"
     stack_start: str = "zeros"
     rules: str = "ale-0.12"
@@ -195,7 +195,7 @@ class VectorOptions:
         core.noop_max = self.noop_max
         core.fire = self.use_fire_reset
         core.start = member("start", self.start, _core.ResetOrder)
-        core.lives = member("lives", self.lives, _core.LifeLoss)
+        core.lives = member("life_loss", self.life_loss, _core.LifeLoss)
         core.stack_start = member("stack_start", self.stack_start, _core.StackStart)
         core.autoreset = _core.Autoreset[autoreset_of(self.autoreset_mode).name]
         core.stack = 0 if self.obs_type == "ram" else self.stack_num

@@ -3,7 +3,7 @@
 
     with launch() as game:  # or connect("tcp://HOST:PORT"), or another address
         game.load("beamfall", seed=7, frame_skip=4)
-        game.observe("reward", "ends", "ram", "screen:delta")
+        game.observe("reward", "terminated", "truncated", "ram", "screen:delta")
         while True:
             reply = game.act("FIRE")  # {"reward": 0, "terminated": 0, ..., "screen": bytes}
             if reply["terminated"] or reply["truncated"]:
@@ -1243,14 +1243,15 @@ class Commands(Exchange):
         """
         self.ask("poke", index, data.hex().upper())
 
-    def export_state(self, name: str, whole: bool | int = False) -> bytes:
+    def export_state(self, name: str, episode: bool | int = False, whole: bool | int = False) -> bytes:
         """Return a state, for later or for another process.
 
         Args:
             name: Name of the state.
-            whole: Whether the score, the progress of the episode and the stack of screens are included.
+            episode: Whether the score, the progress of the episode and the stack of screens are included.
+            whole: Old name of `episode`.
         """
-        return base64.b64decode(self.ask("export", name, *key_values(whole=whole or None))[0]["data"])
+        return base64.b64decode(self.ask("export", name, *key_values(episode=episode or whole or None))[0]["data"])
 
     def import_state(self, name: str, data: bytes) -> None:
         """Save an exported state.
@@ -1404,15 +1405,22 @@ class Commands(Exchange):
         """
         return self._first("reset", *key_values(seed=seed))
 
-    def save(self, name: str, random: bool | int | None = None, machine: int | None = None) -> None:
-        """Save the state; random=1: with the random generator.
+    def save(
+        self,
+        name: str,
+        generator: bool | int | None = None,
+        machine: int | None = None,
+        random: bool | int | None = None,
+    ) -> None:
+        """Save the state; generator=1: with the random generator.
 
         Args:
             name: `NAME` of the request.
-            random: 1: with the random generator.
+            generator: 1: with the random generator.
             machine: One of those of open, 0 the first.
+            random: Old name of `generator`.
         """
-        self.ask("save", name, *key_values(random=random, machine=machine))
+        self.ask("save", name, *key_values(generator=generator, machine=machine, random=random))
 
     def restore(self, name: str, machine: int | None = None) -> Values:
         """Restore a saved state.
@@ -1448,9 +1456,10 @@ class Commands(Exchange):
         autoreset: str | None = None,
         steps: str | None = None,
         start: str | None = None,
-        lives: str | None = None,
+        life_loss: str | None = None,
         stack: str | None = None,
         pool: bool | int | None = None,
+        lives: str | None = None,
     ) -> list[Values]:
         """Create N machines with the loaded game and settings; their seeds count up.
 
@@ -1459,9 +1468,10 @@ class Commands(Exchange):
             autoreset: What happens at the end of an episode.
             steps: What a step is.
             start: How an episode begins; with steps=frames.
-            lives: What a lost life does; with steps=frames.
+            life_loss: What a lost life does.
             stack: What a stack of screens begins with; with steps=frames.
             pool: Which frames a stack shows; with steps=frames.
+            lives: Old name of `life_loss`.
 
         Returns:
             The values of each group after the first.
@@ -1469,7 +1479,9 @@ class Commands(Exchange):
         return self._rest(
             "open",
             count,
-            *key_values(autoreset=autoreset, steps=steps, start=start, lives=lives, stack=stack, pool=pool),
+            *key_values(
+                autoreset=autoreset, steps=steps, start=start, life_loss=life_loss, stack=stack, pool=pool, lives=lives
+            ),
         )
 
     def step(self, *actions: object) -> list[Values]:
@@ -1704,9 +1716,9 @@ class Session(Commands):
 
 
 class Stack:
-    r"""A stack of the last screens, as the server makes it for the field grey84xN.
+    r"""A stack of the last screens, as the server makes it for the field grey84x84xN.
 
-    With `observe("grey84:delta")`, a reply has fewer bytes than with a stack of the server.
+    With `observe("grey84x84x1:delta")`, a reply has fewer bytes than with a stack of the server.
 
     Args:
         depth: Number of screens in the stack.

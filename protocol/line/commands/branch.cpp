@@ -28,14 +28,16 @@ class Loan {
 };
 
 // What is kept of the end of a branch.
-Slot::Saved leaf(const Slot::Saved& root, const BranchEnd& end,
+Slot::Saved leaf(const Slot::Saved& root, const Branching& branching,
                  std::shared_ptr<const Environment::Saved> machine) {
+  const BranchEnd& end = branching.end();
   Slot::Saved saved{std::move(machine), {}, root.with_random, root.progress};
   saved.progress.score += end.reward;
   saved.progress.elapsed += end.frames;
   saved.progress.terminated = end.terminated;
   saved.progress.truncated = end.truncated;
-  saved.progress.finished = end.terminated || end.truncated;
+  saved.progress.finished = branching.over();
+  saved.progress.goes_on = branching.life_ended() && !end.truncated;
   saved.progress.blends = false;
   return saved;
 }
@@ -108,7 +110,7 @@ void play_branches(Session& session, const BranchRequest& request) {
   {
     const Loan loan(session);
     Environment& machine = session.loaded->machine();
-    Branching branching(machine);
+    Branching branching(machine, session.settings.life_loss);
     for (std::size_t i = 0; i < request.lists.size(); ++i) {
       branching.enter(*request.root.machine);
       const Rewards rewards = play(branching, machine, request.lists[i]);
@@ -120,7 +122,7 @@ void play_branches(Session& session, const BranchRequest& request) {
       const std::string name = request.keep + std::to_string(i);
       append_pair(session.out, "state", name);
       const bool with_random = request.root.with_random;
-      kept.emplace_back(name, leaf(request.root, end, machine.save(with_random)));
+      kept.emplace_back(name, leaf(request.root, branching, machine.save(with_random)));
       session.memory.check(kept.back().second.footprint(), "a state");
     }
   }

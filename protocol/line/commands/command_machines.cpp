@@ -15,18 +15,28 @@ struct OpenSettings {
 
 struct OpenRow {
   std::string_view name;
-  std::vector<std::string_view> values;
-  bool of_frames;  // goes with steps=frames
+  std::vector<std::string_view> values;  // none: `read` takes the text
+  bool of_frames;                        // goes with steps=frames
   void (*set)(OpenSettings& settings, std::size_t value);
+  void (*read)(OpenSettings& settings, std::string_view value) = nullptr;
 };
 
 // Values count as their enumerations do.
 const std::vector<OpenRow>& open_rows() {
   static const std::vector<OpenRow> rows = {
       {"autoreset",
-       {autoresets().begin(), autoresets().end()},
+       {},
        false,
-       [](OpenSettings& s, std::size_t value) { s.autoreset = static_cast<Autoreset>(value); }},
+       nullptr,
+       [](OpenSettings& s, std::string_view value) { s.autoreset = autoreset_of(value); }},
+      {"life_loss",
+       {},
+       false,
+       nullptr,
+       [](OpenSettings& s, std::string_view value) {
+         s.slot.life_loss = life_loss_of(value);
+         s.slot.machine.truncate_on_life_loss = false;
+       }},
       {"steps",
        {"frames", "acts"},
        false,
@@ -38,10 +48,6 @@ const std::vector<OpenRow>& open_rows() {
          s.slot.fire_at_reset = value < 3;
          if (value < 3) s.slot.reset_order = static_cast<ResetOrder>(value);
        }},
-      {"lives",
-       {"ignored", "told", "end", "restart"},
-       true,
-       [](OpenSettings& s, std::size_t value) { s.slot.life_loss = static_cast<LifeLoss>(value); }},
       {"stack",
        {"zeros", "repeats"},
        true,
@@ -70,7 +76,8 @@ OpenSettings read_open_settings(const Session& session, Words words) {
     if (std::ranges::find(given, key) != given.end()) refuse_twice(key);
     given.push_back(key);
     if (row->of_frames) of_frames = key;
-    row->set(settings, choice_of(value, key, row->values));
+    row->read != nullptr ? row->read(settings, value)
+                         : row->set(settings, choice_of(value, key, row->values));
   }
   if (settings.slot.steps == Steps::kActs && !of_frames.empty())
     throw RequestError(ErrorCode::kBadArguments, std::string(of_frames) + "= goes with steps=frames");

@@ -108,6 +108,22 @@ void run_reset(Session& session, Words arguments) {
   loaded.append_view(session.out, session.raw);
 }
 
+// The next episode begins at once; the reply has the ends of the one before.
+void begin_next_episode(Session& session) {
+  Slot& slot = session.loaded->slot();
+  session.loaded->append_final(session.out, session.raw);
+  const Outcome outcome = slot.outcome();
+  slot.reset();
+  slot.set_outcome(outcome);
+  ++session.episode;
+}
+
+// Assumes that a reset takes as long as the longest one so far.
+std::int64_t frames_of_reset(const Slot& slot, Autoreset autoreset) {
+  if (autoreset != Autoreset::kSameStep) return 0;
+  return std::max<std::int64_t>(slot.reset_frames() - kFreeResetFrames, 0);
+}
+
 // Ends early with the episode.
 void run_act(Session& session, Words arguments) {
   LoadedMachine& loaded = *session.loaded;
@@ -119,17 +135,21 @@ void run_act(Session& session, Words arguments) {
     acts += actions.back().times;
     if (actions.size() % 256 == 0) session.pacer.breathe();
   }
-  session.check_frames(acts);
-  if (session.settings.autoreset && loaded.slot().finished()) {
+  const Autoreset autoreset = session.settings.autoreset;
+  session.check_frames(acts, frames_of_reset(loaded.slot(), autoreset));
+  if (autoreset == Autoreset::kNextStep && loaded.slot().finished()) {
     run_reset(session, {});
     return session.append_cut();
   }
+  // Only a restored state can have ended before.
+  if (autoreset == Autoreset::kSameStep && loaded.slot().finished()) loaded.slot().reset();
   loaded.slot().begin_request();
   play(loaded.slot(), actions);
   if (loaded.slot().outcome().acts > 0) session.last_action = actions.back().act.a;
   session.count(loaded.slot().outcome());
   session.out += "ok";
   session.append_cut();
+  if (autoreset == Autoreset::kSameStep && loaded.slot().finished()) begin_next_episode(session);
   loaded.append_view(session.out, session.raw);
 }
 

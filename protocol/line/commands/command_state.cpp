@@ -71,7 +71,7 @@ bool flag_of(std::string_view word, std::string_view key, std::string_view comma
 }
 
 struct SaveOptions {
-  bool random = false;
+  bool generator = false;
   std::optional<std::size_t> machine;  // of `open`
 };
 
@@ -84,11 +84,11 @@ SaveOptions read_save_options(const Session& session, Words words) {
     if (key == std::exchange(before, key)) refuse_twice(key);
     if (key == "machine") {
       options.machine = session.machines.number_of(value);
-    } else if (key == "random") {
-      options.random = number_within(value, key, 0, 1) == 1;
+    } else if (key == "generator") {
+      options.generator = number_within(value, key, 0, 1) == 1;
     } else {
       throw RequestError(ErrorCode::kBadArguments,
-                         quote(word) + " is not accepted here; save takes random= and machine=");
+                         quote(word) + " is not accepted here; save takes generator= and machine=");
     }
   }
   return options;
@@ -152,10 +152,10 @@ void check_memory(Session& session, Words lists) {
 void run_save(Session& session, Words arguments) {
   const std::string_view name = state_name(arguments[0]);
   const SaveOptions options = read_save_options(session, arguments.subspan(1));
-  const bool random = options.random;
+  const bool generator = options.generator;
   keep(session, name,
-       options.machine ? session.machines.slot(*options.machine).save(random, random)
-                       : session.loaded->slot().save(random));
+       options.machine ? session.machines.slot(*options.machine).save(generator, generator)
+                       : session.loaded->slot().save(generator));
   session.out += "ok";
   append_pair(session.out, "state", name);
 }
@@ -209,7 +209,7 @@ void run_states(Session& session, Words) {
 
 void run_export(Session& session, Words arguments) {
   const Slot::Saved& place = find_state(session, arguments[0]);
-  const bool whole = arguments.size() == 2 && flag_of(arguments[1], "whole", "export");
+  const bool whole = arguments.size() == 2 && flag_of(arguments[1], "episode", "export");
   const std::size_t reply = 2 * place.footprint();
   session.check_reply(reply, "this state");
   session.memory.check(3 * reply, "a reply about this state");

@@ -9,6 +9,7 @@
 #include "protocol/encoding/encoding.hpp"
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
+#include "protocol/line/old_words.hpp"
 #include "protocol/line/play_settings.hpp"
 #include "system/folded.hpp"
 
@@ -52,15 +53,12 @@ HelpText table(std::string_view head, const Rows& rows) {
   return text;
 }
 
-constexpr std::string_view kEnds = "ends: terminated and truncated";
-
 HelpText on_settings() { return table("settings of load, as KEY=VALUE:", setting_rows()); }
 
 HelpText on_presets() { return table("presets of load, as preset=NAME:", preset_rows()); }
 
 HelpText on_fields() {
   HelpText text = table("fields of observe and look:", field_rows());
-  text.entries.emplace_back(kEnds);
   text.entries.push_back("those that are bytes are written as FIELD:ENCODING: " +
                          list_of(names_of(encodings())));
   return text;
@@ -134,6 +132,16 @@ void add_choices(std::string_view name, HelpText& text) {
     if (choice.key == name || choice.value == name) text.entries.push_back(about(choice));
 }
 
+// Adds the old words that are `name`, or a pair with that key. Returns whether there are any.
+bool add_old(std::string_view name, HelpText& text) {
+  const std::size_t before = text.entries.size();
+  for (const OldWord& row : description::kOldWords) {
+    if (row.old.substr(0, row.old.find('=')) == name || &row == old_field(name))
+      text.entries.push_back("old: " + deprecation_of(row));
+  }
+  return text.entries.size() > before;
+}
+
 template <typename... Rows>
 [[noreturn]] void refuse(std::string_view name, const Rows&... rows) {
   std::vector<std::string_view> known;
@@ -163,7 +171,6 @@ HelpText help_on(std::string_view name) {
   const auto known = [name](const auto& row) { return row.name == name; };
   if (std::ranges::any_of(commands(), known) || std::ranges::any_of(aliases(), known))
     return on(find_command(name));
-  if (name == "ends") return {"two fields of observe and look:", {std::string(kEnds)}};
   HelpText text{"a word of:", {}};
   const bool found =
       find_in(setting_rows(), name, "a setting of load, as KEY=VALUE:", text) ||
@@ -171,10 +178,9 @@ HelpText help_on(std::string_view name) {
       find_in(preset_rows(), name, "a preset of load, as preset=NAME:", text) ||
       find_in(encodings(), name, "an encoding of fields that are bytes, as FIELD:ENCODING:", text) ||
       find_in(codes(), name, "the code of an error:", text);
-  if (add_commands(name, text) || found) {
-    add_choices(name, text);
-    return text;
-  }
+  const bool taken = add_commands(name, text);
+  add_choices(name, text);
+  if (add_old(name, text) || taken || found) return text;
   refuse(name, kTopics, commands(), setting_rows(), field_rows(), preset_rows(), encodings(), codes());
 }
 

@@ -57,7 +57,7 @@ class Rows(unittest.TestCase):
         self.assertIn(
             "public Group rewind(long count) throws", files["clients/java/src/main/java/racebeam/Commands.java"]
         )
-        self.assertIn("run_rewind},", files["protocol/description/command_rows.inc"])
+        self.assertIn("run_rewind, ", files["protocol/description/command_rows.inc"])
 
     def test_a_setting_and_an_error_code_reach_the_program_and_the_document(self):
         for text in (
@@ -81,8 +81,22 @@ class Rows(unittest.TestCase):
 
     def test_what_is_deprecated_is_marked(self):
         files = changed('[[encoding]]\nname = "old"\nsummary = "as before"\ndeprecated = "hex"\n')
-        self.assertIn("| `old` | as before; deprecated: use hex |\n", files["protocol/PROTOCOL.md"])
-        self.assertIn('{"old", "as before; deprecated: use hex"}', files["protocol/description/tables.hpp"])
+        self.assertNotIn("protocol/PROTOCOL.md", files)  # its tables have what is current
+        self.assertIn('{"old", "as before (deprecated: use hex)"}', files["protocol/description/tables.hpp"])
+
+    def test_an_old_word_reaches_the_program_the_document_and_the_clients_with_types(self):
+        files = changed(
+            '[[command]]\nname = "rewind"\nneeds = "game"\nsummary = "go back"\nreturns = "first"\n'
+            'arguments = [{ key = "frames", text = "N", type = "int", optional = true, old = "steps",'
+            ' old_values = { 0 = "1" } }, { key = "loop", text = "N", type = "int", optional = true }]\n'
+        )
+        self.assertIn('{"rewind", "steps", "frames", true}', files["protocol/description/tables.hpp"])
+        self.assertIn('{"rewind", "frames=0", "frames=1", true}', files["protocol/description/tables.hpp"])
+        self.assertIn("| `rewind` | `steps` | `frames` |\n", files["protocol/PROTOCOL.md"])
+        python = files["clients/python/racebeam/wire/commands.py"]
+        self.assertIn("*key_values(frames=frames, loop=loop, steps=steps)", python)
+        self.assertIn("steps: Old name of `frames`.", python)
+        self.assertIn("steps?: number", files["clients/js/src/index.d.ts"])
 
 
 class Mistakes(unittest.TestCase):

@@ -129,6 +129,7 @@ TEST_CASE("A preset comes before the settings that change it, wherever it stands
   const std::string reply = client.ask("load beamfall frame_skip=2-4 preset=dqn2015 seed=3 noop_max=0");
   CHECK(value(reply, "frame_skip") == "2-4");
   CHECK(value(reply, "sticky") == "0");
+  CHECK(value(reply, "life_loss") == "restart");
   CHECK(value(reply, "life_loss_ends") == "1");
   CHECK(value(reply, "preset") == "dqn2015");
   CHECK(value(reply, "noop_max") == "0");

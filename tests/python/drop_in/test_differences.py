@@ -152,7 +152,7 @@ class Differences(unittest.TestCase):
 
     def test_13_many_environments_take_more(self):
         for autoreset in ("NextStep", "Disabled"):
-            envs = drop_in.AtariVectorEnv("pong", 2, autoreset_mode=autoreset, lives="end", render_mode="rgb_array")
+            envs = drop_in.AtariVectorEnv("pong", 2, autoreset_mode=autoreset, life_loss="end", render_mode="rgb_array")
             envs.reset(seed=[3, 4])
             envs.reset(seed=np.int64(3))
             self.assertEqual(envs.render()[1].shape, (210, 160, 3))

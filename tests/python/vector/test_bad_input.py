@@ -75,7 +75,7 @@ class BadInput(unittest.TestCase):
         two = ["beamfall", "updraft"]
         for game, arguments, error, sentence in (
             (["beamfall"], {"num_envs": 3}, ValueError, "num_envs is 3"),
-            ("beamfall", {"lives": "end", "episodic_life": True}, ValueError, "episodic_life is True"),
+            ("beamfall", {"life_loss": "end", "episodic_life": True}, ValueError, "episodic_life is True"),
             (two, {"rom": b"", "full_action_space": True}, ValueError, "^there are 2 games"),
             (["beamfall", ["x"]], {}, TypeError, r"^game .*\['x'\]"),
             (b"beamfall", {}, TypeError, "^game .* 98 "),
@@ -169,12 +169,15 @@ class BadInput(unittest.TestCase):
             for lives in others:
                 with (
                     self.subTest(flag=flag, lives=lives),
-                    self.assertRaisesRegex(Error, f"{flag} is True.* but lives is '{lives}'"),
+                    self.assertRaisesRegex(Error, f"{flag} is True.* but life_loss is '{lives}'"),
                 ):
-                    AtariVectorEnv("beamfall", 2, lives=lives, **{flag: True})
+                    AtariVectorEnv("beamfall", 2, life_loss=lives, **{flag: True})
         for lives in (3, np.zeros(2)):
-            self.assertRaisesRegex(Error, "lives is", AtariVectorEnv, "beamfall", 2, lives=lives, episodic_life=True)
-        AtariVectorEnv("beamfall", 2, lives="restart", episodic_life=True)
+            self.assertRaisesRegex(Error, "life_loss is", AtariVectorEnv, "beamfall", 2, life_loss=lives, episodic_life=True)
+        AtariVectorEnv("beamfall", 2, life_loss="restart", episodic_life=True)
+        with self.assertWarnsRegex(DeprecationWarning, "lives is the old name of life_loss"):
+            AtariVectorEnv("beamfall", 2, lives="end")
+        self.assertRaisesRegex(Error, "only one", AtariVectorEnv, "beamfall", 2, lives="end", life_loss="end")
         AtariVectorEnv("beamfall", 2, preset="dqn2015", episodic_life=True)
 
     def test_seeds_and_masks(self):

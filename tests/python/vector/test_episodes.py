@@ -134,7 +134,7 @@ class Episodes(unittest.TestCase):
         self.assertFalse(np.array_equal(seen[0], before[0]))
 
     def test_the_info_has_unclipped_rewards_and_true_ends(self):
-        envs = AtariVectorEnv("beamfall", 2, frameskip=60, lives="end")
+        envs = AtariVectorEnv("beamfall", 2, frameskip=60, life_loss="end")
         envs.reset(seed=1)
         shown = [envs.step([1, 1]) for _ in range(60)]
         raw = np.array([one[4]["raw_reward"] for one in shown])
@@ -147,7 +147,7 @@ class Episodes(unittest.TestCase):
     def test_what_a_lost_life_does(self):
         frames = {}
         for lives in ("ignored", "told", "end", "restart"):
-            envs = AtariVectorEnv("beamfall", 1, frameskip=60, lives=lives, noop_max=0)
+            envs = AtariVectorEnv("beamfall", 1, frameskip=60, life_loss=lives, noop_max=0)
             envs.reset(seed=1)
             shown = [envs.step([1]) for _ in range(40)]
             first = next(step for step, one in enumerate(shown) if one[2][0])

@@ -113,7 +113,7 @@ class States(unittest.TestCase):
         for settings in (
             {},
             {"obs_type": "ram"},
-            {"lives": "end", "grayscale": False},
+            {"life_loss": "end", "grayscale": False},
             {"noop_max": 7, "rules": "fixed"},
         ):
             envs = AtariVectorEnv("beamfall", 1, seed=1, max_num_frames_per_episode=90, **settings)

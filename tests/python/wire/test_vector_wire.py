@@ -38,7 +38,7 @@ SETTINGS = (
     {
         "obs_type": "grayscale",
         "stack_num": 1,
-        "lives": "end",
+        "life_loss": "end",
         "frameskip": 30,
         "reward_clipping": False,
         "full_action_space": True,
@@ -51,7 +51,7 @@ SETTINGS = (
         "stack_start": "repeats",
     },
     {"preset": "dqn2015", "autoreset_mode": "Disabled", "maxpool": False, "frameskip": 60, "rules": "fixed"},
-    {"use_fire_reset": False, "start": "fire-noops", "lives": "told", "frameskip": 60, "seed": 0},
+    {"use_fire_reset": False, "start": "fire-noops", "life_loss": "told", "frameskip": 60, "seed": 0},
 )
 
 

@@ -16,7 +16,7 @@ import { GameChoice } from "./game_choice.js";
 import { Pictures } from "./pictures.js";
 import { Player, type Choice, type Motion, type Shown } from "./player.js";
 
-const INSPECTED = ["grey84:delta", "tia:raw"]; // fields of the panels
+const INSPECTED = ["grey84x84x1:delta", "tia:raw"]; // fields of the panels
 
 /** The view in which a game is played. */
 export class PlayView {

@@ -12,7 +12,7 @@ const MOST_AHEAD = 8; // requests without a reply: a server that is slower slows
 const REWIND_SPEED = 2; // frames a frame
 const SENT_AHEAD = 500; // acts that lead to the moment at which a lost session stood
 
-const FIELDS = ["reward", "ends", "lives", "screen:delta", "audio:raw", "ram:raw"];
+const FIELDS = ["reward", "terminated", "truncated", "lives", "screen:delta", "audio:raw", "ram:raw"];
 
 /** What is known of the game that is loaded. */
 export interface Game {
@@ -131,7 +131,7 @@ export class Player {
     }
   }
 
-  /** Observes more fields, such as grey84:delta. */
+  /** Observes more fields, such as grey84x84x1:delta. */
   async observe(extra: string[]): Promise<void> {
     this.#extra = extra;
     if (this.#game) {
@@ -194,19 +194,19 @@ export class Player {
     ++this.#epoch;
     this.#history.begin();
     this.#over = false;
-    await this.#session.observe("reward", "ends", "lives");
+    await this.#session.observe("reward", "terminated", "truncated", "lives");
     for (let at = 0; at < acts.length; at += SENT_AHEAD) {
       await Promise.all(acts.slice(at, at + SENT_AHEAD).map((act) => this.#send(act).reply));
     }
     await this.#session.observe(...FIELDS, ...this.#extra);
-    await this.#show(this.#session.look("ends", "lives", "screen", "audio:raw", "ram:raw"), this.now);
+    await this.#show(this.#session.look("terminated", "truncated", "lives", "screen", "audio:raw", "ram:raw"), this.now);
   }
 
   /** Sends an act, and a request to save the moment before it if it is time. */
   #send(word: string): { moment: number; reply: Promise<Group> } {
     const state = this.#history.saves();
     if (state) {
-      this.#session.save(state, { random: 1 }).catch(this.failed);
+      this.#session.save(state, { generator: 1 }).catch(this.failed);
     }
     const moment = this.#history.add(word);
     const reply = this.#session.act(word).then((group) => {
@@ -239,7 +239,7 @@ export class Player {
       ++this.#epoch;
       this.#over = true;
     }
-    const { reward = 0, lives, screen, ram, audio, grey84: agent, tia } = group;
+    const { reward = 0, lives, screen, ram, audio, grey84x84x1: agent, tia } = group;
     const act = this.#history.acts[moment - 1] ?? "0";
     const shown: Shown = { moment, act, reward, score: this.score(moment), lives, over, screen, ram, audio, ...(agent ? { agent } : {}), ...(tia ? { tia } : {}) };
     this.#newest = { shown, pressed: this.#newest?.pressed ?? pressed };

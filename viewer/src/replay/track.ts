@@ -5,7 +5,7 @@ import type { Episode } from "./log.js";
 const MOST_STATES = 240;
 const SENT_AHEAD = 500; // requests
 const FILMED_AHEAD = 50; // requests: a film takes longer
-const FIELDS = ["reward", "ends", "lives", "screen:delta", "audio:raw", "ram:raw"];
+const FIELDS = ["reward", "terminated", "truncated", "lives", "screen:delta", "audio:raw", "ram:raw"];
 
 /** What an episode came to when it was played again. */
 export interface Outcome {
@@ -114,7 +114,7 @@ export class Track {
     this.#framesAStep = parts > 1 ? 1 : Number(settings.frame_skip ?? 1) || 1;
     this.#steps = parts > 1 ? acts.flatMap((act) => new Array<string>(parts).fill(act)) : [...acts];
     this.#spacing = Math.max(1, Math.ceil((this.#steps.length + 1) / this.#states));
-    await this.#session.observe("reward", "ends", "lives", "frames");
+    await this.#session.observe("reward", "terminated", "truncated", "lives", "frames");
     const outcome = await this.#play(progress);
     await this.#session.observe(...FIELDS);
     await this.show(0);
@@ -130,7 +130,7 @@ export class Track {
       const sent: Promise<Group>[] = [];
       for (let step = at; step <= Math.min(at + SENT_AHEAD - 1, this.#steps.length); ++step) {
         if (step % this.#spacing === 0) {
-          void this.#session.save(name(step / this.#spacing), { random: 1 });
+          void this.#session.save(name(step / this.#spacing), { generator: 1 });
         }
         if (step < this.#steps.length) {
           sent.push(this.#session.act(this.#steps[step]!));

@@ -75,9 +75,9 @@ class CommandMethods {
     return ask(first, "reset", Setting("seed", seed));
   }
 
-  /// Save the state; random=1: with the random generator.
+  /// Save the state; generator=1: with the random generator.
   /// @param name NAME
-  /// @param settings `Setting("random", 1)`: 1: with the random generator; `Setting("machine", N)`: one of those of open, 0 the first
+  /// @param settings `Setting("generator", 1)`: 1: with the random generator; `Setting("machine", N)`: one of those of open, 0 the first
   template <class... Words>
   auto save(std::string_view name, const Words&... settings) {
     return ask(first, "save", name, settings...);
@@ -103,7 +103,7 @@ class CommandMethods {
 
   /// Create N machines with the loaded game and settings; their seeds count up. Returns the Group of each.
   /// @param count N
-  /// @param settings `Setting("autoreset", VALUE)`: what happens at the end of an episode; `Setting("steps", VALUE)`: what a step is; `Setting("start", VALUE)`: how an episode begins; with steps=frames; `Setting("lives", VALUE)`: what a lost life does; with steps=frames; `Setting("stack", VALUE)`: what a stack of screens begins with; with steps=frames; `Setting("pool", VALUE)`: which frames a stack shows; with steps=frames
+  /// @param settings `Setting("autoreset", VALUE)`: what happens at the end of an episode; `Setting("steps", VALUE)`: what a step is; `Setting("start", VALUE)`: how an episode begins; with steps=frames; `Setting("life_loss", VALUE)`: what a lost life does; `Setting("stack", VALUE)`: what a stack of screens begins with; with steps=frames; `Setting("pool", VALUE)`: which frames a stack shows; with steps=frames
   template <class... Words>
   auto open(std::int64_t count, const Words&... settings) {
     return ask(rest, "open", count, settings...);

@@ -92,7 +92,7 @@ class Commands : public CommandMethods<Derived> {
 
   /// A state for later, or for another process: Bytes.
   /// @param name of the state
-  /// @param settings `"whole=1"` for the score, the progress of the episode and the stack of screens, too
+  /// @param settings `"episode=1"` for the score, the progress of the episode and the stack of screens, too
   template <class... Settings>
   auto export_state(std::string_view name, const Settings&... settings) {
     return ask([](const Reply& reply) { return from_base64(reply.first().text("data")); }, "export", name,

@@ -144,7 +144,7 @@ class Fields {
     return found;
   }
 
-  /// The bytes of fields such as grey84x4 and rgb40x30x2; 0 for others.
+  /// The bytes of fields such as grey84x84x4 and rgb40x30x2; 0 for others.
   static std::size_t small_size(std::string_view field) {
     const bool colours = field.starts_with("rgb");
     if (!colours && !field.starts_with("grey")) return 0;

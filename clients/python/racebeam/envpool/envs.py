@@ -62,7 +62,7 @@ class Envs(AtariVectorEnv):
             difficulty=_optional(config.difficulty),
             full_action_space=config.full_action_space,
             repeat_action_probability=config.repeat_action_probability,
-            lives="end" if config.episodic_life else "ignored",
+            life_loss="end" if config.episodic_life else "ignored",
             start="noops-fire",
             stack_start="repeats",
             render_mode="rgb_array",

@@ -38,13 +38,13 @@ class EnvWithGame(EnvWithActions):
     _sound: bool
     _two_player: bool
 
-    def _set_keys(self, rules: str, sticky: float, limit: int | None, life_loss_ends: bool) -> None:
+    def _set_keys(self, rules: str, sticky: float, limit: int | None, life_loss_truncates: bool) -> None:
         """Sets what takes effect when the game is loaded."""
         self.ale.setString("rules", rules)
         self.ale.setFloat("repeat_action_probability", sticky)
         if limit is not None:
             self.ale.setInt("max_num_frames_per_episode", limit)
-        self.ale.setBool("truncate_on_loss_of_life", life_loss_ends)
+        self.ale.setBool("truncate_on_loss_of_life", life_loss_truncates)
         self.ale.setBool("sound_obs", self.sound_obs or self._sound)
 
     def _set_console(self, words: dict[str, str], numbers: dict[str, int | None]) -> None:

@@ -2,7 +2,7 @@
 
     with launch() as game:  # or connect("tcp://HOST:PORT"), or another address
         game.load("beamfall", seed=7, frame_skip=4)
-        game.observe("reward", "ends", "ram", "screen:delta")
+        game.observe("reward", "terminated", "truncated", "ram", "screen:delta")
         while True:
             reply = game.act("FIRE")  # {"reward": 0, "terminated": 0, ..., "screen": bytes}
             if reply["terminated"] or reply["truncated"]:

@@ -142,7 +142,7 @@ class RemoteGame:
             "frame_skip": max(keys.getInt("frame_skip"), 1),
             "sticky": keys.getFloat("repeat_action_probability"),
             "max_episode_frames": keys.getInt("max_num_frames_per_episode"),
-            "life_loss_ends": int(keys.getBool("truncate_on_loss_of_life")),
+            **({"life_loss_ends": 1} if keys.getBool("truncate_on_loss_of_life") else {}),  # truncates, as ALE does
             "rules": keys.getString("rules"),
             "color_averaging": int(keys.getBool("color_averaging")),
             "sound": int(keys.getBool("sound_obs")),

@@ -156,7 +156,7 @@ class RemoteMachines(Halves):
             _word(settings.autoreset),
             steps="frames",
             start=_word(settings.start) if settings.fire else "noops",
-            lives=_word(settings.lives),
+            life_loss=_word(settings.lives),
             stack=_word(settings.stack_start),
             pool=int(settings.pool),
         )
@@ -353,7 +353,7 @@ class RemoteMachines(Halves):
         self._check_machine(machine)
         with self._exclusively():
             self._machine.ask(self._session.save, STATE, random=int(include_rng), machine=machine)
-            data = self._machine.ask(self._session.export_state, STATE, whole=1)
+            data = self._machine.ask(self._session.export_state, STATE, episode=1)
             self._machine.ask(self._session.drop, STATE)
         state = SavedMachine.__new__(SavedMachine)
         state.__setstate__(data)

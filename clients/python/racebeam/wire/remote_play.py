@@ -16,7 +16,7 @@ from .remote_game import RemoteGame, check_types, exclusive
 Pixels = npt.NDArray[np.uint8]
 
 MOST_AHEAD = 64  # requests whose replies fit into what a connection buffers
-ALWAYS = ("reward", "reward_b", "ends", "lives", "episode_frame", "frame", "acts")
+ALWAYS = ("reward", "reward_b", "terminated", "truncated", "lives", "episode_frame", "frame", "acts")
 FIELDS = {
     View.RGB: ("screen:delta",),
     View.GRAYSCALE: ("screen:delta",),
@@ -123,7 +123,7 @@ class RemotePlay(RemoteGame):
         Args:
             with_truncation: Whether the limit of frames counts as an end.
         """
-        ends = self._look("ends")
+        ends = self._look("terminated", "truncated")
         return bool(ends["terminated"] or (with_truncation and ends["truncated"]))
 
     @exclusive

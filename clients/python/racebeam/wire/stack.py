@@ -8,9 +8,9 @@ __all__ = ["Stack"]
 
 
 class Stack:
-    r"""A stack of the last screens, as the server makes it for the field grey84xN.
+    r"""A stack of the last screens, as the server makes it for the field grey84x84xN.
 
-    With `observe("grey84:delta")`, a reply has fewer bytes than with a stack of the server.
+    With `observe("grey84x84x1:delta")`, a reply has fewer bytes than with a stack of the server.
 
     Args:
         depth: Number of screens in the stack.

@@ -174,7 +174,7 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * Save the state; random=1: with the random generator.
+   * Save the state; generator=1: with the random generator.
    *
    * @param name NAME
    * @throws IOException if the session has ended
@@ -184,10 +184,10 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * Save the state; random=1: with the random generator.
+   * Save the state; generator=1: with the random generator.
    *
    * @param name NAME
-   * @param settings random: 1: with the random generator; machine: one of those of open, 0 the first
+   * @param settings generator: 1: with the random generator; machine: one of those of open, 0 the first
    * @throws IOException if the session has ended
    */
   public void save(String name, Map<String, ?> settings) throws IOException {
@@ -252,7 +252,7 @@ public abstract sealed class Commands permits Session {
    * Create N machines with the loaded game and settings; their seeds count up.
    *
    * @param count N
-   * @param settings autoreset: what happens at the end of an episode; steps: what a step is; start: how an episode begins; with steps=frames; lives: what a lost life does; with steps=frames; stack: what a stack of screens begins with; with steps=frames; pool: which frames a stack shows; with steps=frames
+   * @param settings autoreset: what happens at the end of an episode; steps: what a step is; start: how an episode begins; with steps=frames; life_loss: what a lost life does; stack: what a stack of screens begins with; with steps=frames; pool: which frames a stack shows; with steps=frames
    * @return the groups after the first
    * @throws IOException if the session has ended
    */

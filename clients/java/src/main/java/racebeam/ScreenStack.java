@@ -3,8 +3,8 @@ package racebeam;
 import java.util.Arrays;
 
 /**
- * A stack of screens that the client makes, as the server does for the field {@code grey84xN}. It has the last screens,
- * oldest first, and zeros before the first one. With {@code observe("grey84:delta")}, a reply has fewer bytes than with
+ * A stack of screens that the client makes, as the server does for the field {@code grey84x84xN}. It has the last screens,
+ * oldest first, and zeros before the first one. With {@code observe("grey84x84x1:delta")}, a reply has fewer bytes than with
  * a stack of the server.
  */
 public final class ScreenStack {

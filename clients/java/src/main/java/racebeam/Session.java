@@ -305,7 +305,7 @@ public final class Session extends Commands implements AutoCloseable {
    * @throws IOException if the session has ended
    */
   public void saveWithRandom(String name) throws IOException {
-    request("save " + name + " random=1");
+    request("save " + name + " generator=1");
   }
 
   /**
@@ -327,7 +327,7 @@ public final class Session extends Commands implements AutoCloseable {
    * @throws IOException if the session has ended
    */
   public byte[] exportWhole(String name) throws IOException {
-    return Encoding.BASE64.decode(first("export " + name + " whole=1").text("data"));
+    return Encoding.BASE64.decode(first("export " + name + " episode=1").text("data"));
   }
 
   /**

@@ -4,7 +4,7 @@
  * <pre>{@code
  * try (Session game = Racebeam.connect("tcp://127.0.0.1:7800")) {
  *   game.load("beamfall", Map.of("seed", 7, "frame_skip", 4));
- *   game.observe("reward", "ends", "screen:delta");
+ *   game.observe("reward", "terminated", "truncated", "screen:delta");
  *   Group shown = game.act("FIRE");
  *   System.out.println(shown.reward() + " " + shown.bytes("screen").length);
  * }

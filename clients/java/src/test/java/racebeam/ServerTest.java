@@ -46,7 +46,7 @@ class ServerTest {
     assertEquals(List.of(0, 1), session.difficulties());
     assertEquals(53, session.names().list("tia_names").size());
     assertEquals("DOWNLEFTFIRE", session.actions().get(17));
-    assertEquals(List.of("reward", "terminated", "truncated", "frame"), session.observe("reward", "ends", "frame"));
+    assertEquals(List.of("reward", "terminated", "truncated", "frame"), session.observe("reward", "terminated", "truncated", "frame"));
     assertEquals(15, session.act("UP", "FIRE*2").number("frame"));
     assertEquals(20, session.act(1).number("frame"));
     session.poke(5, (byte) 0x12, (byte) 0xF4);
