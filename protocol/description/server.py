@@ -96,6 +96,12 @@ consteval bool same_names(const One& one, const Other& other) {
 """
 
 
+def reply_keys(protocol):
+    """The keys of replies that handlers write."""
+    replies = [reply for command in protocol.commands for reply in (command.reply, command.groups)]
+    return sorted({key.removesuffix("?") for reply in replies for key in reply})
+
+
 def all_choices(protocol):
     """The choices of settings and of keys of commands."""
     yield from ((setting.name, setting.choices) for setting in protocol.settings)
@@ -150,10 +156,15 @@ def tables(protocol):
                 "kEncodings",
                 (braced(quoted(row.name), quoted(row.summary_text)) for row in protocol.encodings),
             ),
+            array("std::string_view", "kReplyKeys", (f"    {quoted(key)},\n" for key in reply_keys(protocol))),
             array("Error", "kErrors", (braced(quoted(row.code), quoted(row.summary_text)) for row in protocol.errors)),
             "}  // namespace racebeam::description\n",
         )
     )
+
+
+def keys(types):
+    return quoted(" ".join(f"{key}:{kind}" for key, kind in types.items()))
 
 
 def takes_fields(command):
@@ -162,7 +173,7 @@ def takes_fields(command):
 
 def command_rows(protocol):
     """For command_table.cpp: the handlers, and the rows that bind them."""
-    handlers = "".join(f"void run_{command.name}(Session&, Words);\n" for command in protocol.commands)
+    handlers = "".join(f"void run_{command.name}(Context&, Words, Reply&);\n" for command in protocol.commands)
     old = {word.of for word in protocol.old_words}
     rows = "".join(
         braced(
@@ -177,6 +188,10 @@ def command_rows(protocol):
             boolean(takes_fields(command)),
             boolean(takes_fields(command) or command.name in old),
             f"run_{command.name}",
+            keys(command.reply),
+            keys(command.groups),
+            quoted(command.shows),
+            quoted(command.echoes),
         )
         for command in protocol.commands
     )
@@ -188,29 +203,9 @@ def command_rows(protocol):
     )
 
 
-def keys(types):
-    return quoted(" ".join(f"{key}:{kind}" for key, kind in types.items()))
-
-
-def reply_rows(protocol):
-    """For the tests: what each command answers."""
-    rows = "".join(
-        braced(
-            quoted(command.name),
-            keys(command.reply),
-            keys(command.groups),
-            quoted(command.shows),
-            quoted(command.echoes),
-        )
-        for command in protocol.commands
-    )
-    return f"{HEAD}\ninline constexpr std::array<ReplyRow, {len(protocol.commands)}> kReplies = {{{{\n{rows}}}}};\n"
-
-
 def files(protocol):
     return {
         "protocol/description/error_code.hpp": error_codes(protocol),
         "protocol/description/tables.hpp": tables(protocol),
         "protocol/description/command_rows.inc": command_rows(protocol),
-        "tests/protocol/description/reply_rows.inc": reply_rows(protocol),
     }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/line/session.hpp"
+#include "protocol/line/context.hpp"
 
 namespace racebeam {
 namespace {
@@ -42,16 +42,16 @@ void refuse_without_token(std::string_view name) {
                      "this server requires a token before " + quote(name) + "; hello token=TOKEN");
 }
 
-void check(const Command& command, const Session& session, std::size_t arguments) {
+void check(const Command& command, const Context& context, std::size_t arguments) {
   const std::string name(command.name);
-  if (command.needs >= Needs::kAdmission && !session.admitted) refuse_without_token(name);
+  if (command.needs >= Needs::kAdmission && !context.peer.admitted) refuse_without_token(name);
   if (arguments < command.least || arguments > command.most) {
     throw RequestError(ErrorCode::kBadArguments, name + " takes " + count_text(command) + ", not " +
                                                      std::to_string(arguments) + ": " + usage(command));
   }
-  if (command.needs >= Needs::kGame && !session.loaded)
+  if (command.needs >= Needs::kGame && !context.game.loaded)
     throw RequestError(ErrorCode::kNoGame, name + " needs a game; load one first");
-  if (command.needs == Needs::kMachines && session.machines.empty())
+  if (command.needs == Needs::kMachines && context.machines.empty())
     throw RequestError(ErrorCode::kNoMachines, name + " needs machines; open some first");
 }
 

@@ -11,7 +11,8 @@
 
 namespace racebeam {
 
-class Session;
+class Context;
+class Reply;
 
 enum class Needs { kNothing, kAdmission, kGame, kMachines };  // each includes those before it
 
@@ -26,9 +27,14 @@ struct Command {
   bool takes_fields;
   bool has_old;  // old words among its arguments (old_words.hpp)
 
-  // Appends "ok" and the fields to session.out, without LF. Throws RequestError. It is the body of
-  // session.pacer: long work is suspended between frames, or where it calls breathe().
-  void (*run)(Session& session, Words arguments);
+  // Writes the reply, which begins with "ok". Throws RequestError. It is the body of context.pacer: long work
+  // is suspended between frames, or where it calls breathe().
+  void (*run)(Context& context, Words arguments, Reply& reply);
+
+  // What replies have: "KEY:TYPE KEY?:TYPE", where ? marks a key that is not always there.
+  std::string_view reply, groups;
+  std::string_view shows;   // where the fields are: first, groups, asked, or nowhere
+  std::string_view echoes;  // the table whose names are keys, too
 };
 
 constexpr std::size_t kAnyNumber = static_cast<std::size_t>(-1);
@@ -53,7 +59,7 @@ struct CommandTable {
 [[noreturn]] void refuse_without_token(std::string_view name);
 
 // Throws RequestError if the number of arguments is wrong, or another command must come first.
-void check(const Command& command, const Session& session, std::size_t arguments);
+void check(const Command& command, const Context& context, std::size_t arguments);
 
 std::string usage(const Command& command);  // its name and arguments
 

@@ -6,7 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "protocol/line/session.hpp"
+#include "protocol/line/context.hpp"
+#include "protocol/line/play_settings.hpp"
+#include "protocol/line/reply.hpp"
+#include "protocol/line/session_recording.hpp"
 
 namespace racebeam {
 namespace {
@@ -25,7 +28,7 @@ struct Seat {
 // Each machine writes its part of the reply into its own seat, since machines run on several threads.
 class Machines::Host final : public VectorHost {
  public:
-  Host(Session& session, std::size_t count) : session_(session), seats_(count) {
+  Host(Context& context, std::size_t count) : context_(context), seats_(count) {
     for (auto& seat : seats_) seat = std::make_unique<Seat>();
   }
 
@@ -39,8 +42,8 @@ class Machines::Host final : public VectorHost {
   Pace* pace(std::size_t number) override { return &seats_[number]->pacer; }
 
   void opened(std::size_t number, Slot& slot) override {
-    racebeam::observe(slot, session_.fields);
-    observe(number, session_.fields);
+    racebeam::observe(slot, context_.fields);
+    observe(number, context_.fields);
     seats_[number]->memory.emplace(slot);
   }
   void ended(std::size_t number, const Slot& slot) override {
@@ -55,15 +58,15 @@ class Machines::Host final : public VectorHost {
   void work_on(Seat& seat, std::size_t number, const std::function<void(std::size_t)>& task,
                Pacer::Clock::time_point end);
 
-  Session& session_;
+  Context& context_;
   std::vector<std::unique_ptr<Seat>> seats_;
 };
 
 struct Machines::Opened {
-  Opened(Session& session, std::size_t count, const SlotSettings& settings, Autoreset autoreset,
+  Opened(Context& context, std::size_t count, const SlotSettings& settings, Autoreset autoreset,
          std::size_t reply)
-      : host(session, count),
-        vector(std::vector<Cartridge>(count, session.cartridge), settings, autoreset, host),
+      : host(context, count),
+        vector(std::vector<Cartridge>(count, context.game.cartridge), settings, autoreset, host),
         reply_bytes(reply) {}
 
   Host host;
@@ -71,7 +74,7 @@ struct Machines::Opened {
   std::size_t reply_bytes;  // estimated length of a reply
 };
 
-Machines::Machines(Session& session) : session_(session) {}
+Machines::Machines(Context& context) : context_(context) {}
 Machines::~Machines() = default;
 
 std::size_t Machines::size() const { return opened_ ? opened_->vector.size() : 0; }
@@ -80,7 +83,7 @@ Pacer& Machines::pacer(std::size_t number) { return opened_->host.seat(number).p
 
 void Machines::close() {
   if (empty()) return;
-  session_.discard(opened_, footprint());
+  context_.discard(opened_, footprint());
 }
 
 std::size_t Machines::number_of(std::string_view text) const {
@@ -88,8 +91,10 @@ std::size_t Machines::number_of(std::string_view text) const {
   return static_cast<std::size_t>(number_within(text, "machine", 0, static_cast<std::int64_t>(size()) - 1));
 }
 
-void Machines::append_view(std::size_t number) {
-  opened_->host.seat(number).view->append(session_.out, session_.raw, slot(number));
+void Machines::add_view(std::size_t number, Reply& reply) {
+  reply.add_fields([&](std::string& out, std::string& raw) {
+    opened_->host.seat(number).view->append(out, raw, slot(number));
+  });
 }
 
 void Machines::observe(const std::vector<Field>& fields) {
@@ -98,7 +103,7 @@ void Machines::observe(const std::vector<Field>& fields) {
   for (std::size_t number = 0; number < size(); ++number) {
     racebeam::observe(opened_->vector.slot(number), fields);
     opened_->host.observe(number, fields);
-    session_.pacer.breathe();
+    context_.pacer.breathe();
   }
 }
 
@@ -111,16 +116,16 @@ void Machines::rest() {
     seat.view->rest();
   }
   auto texts = opened_->host.take_texts();
-  session_.discard(texts, bytes);
+  context_.discard(texts, bytes);
 }
 
 // Checks whether `count` machines with these fields are possible. Throws RequestError if their replies would
 // exceed the limit, or if there is not enough memory. Returns the estimated length of a reply in bytes.
 std::size_t Machines::check(const std::vector<Field>& fields, std::size_t count, Autoreset autoreset) {
-  const std::size_t once = text_size(fields, session_.loaded->machine());
+  const std::size_t once = text_size(fields, context_.game.loaded->machine());
   const std::size_t reply = count * (autoreset == Autoreset::kSameStep ? 2 * once : once);
-  session_.check_reply(reply, std::to_string(count) + " machines with these fields");
-  session_.memory.check(count * (sizeof(Seat) + LoadedMachine::most_held(fields)) + 2 * reply,
+  context_.check_reply(reply, std::to_string(count) + " machines with these fields");
+  context_.memory.check(count * (sizeof(Seat) + LoadedMachine::most_held(fields)) + 2 * reply,
                         std::to_string(count) + " machines with these fields");
   return reply;
 }
@@ -138,42 +143,40 @@ std::size_t Machines::footprint() const {
 // A reply is put together from the machines' parts of it, which may have kept their memory.
 void Machines::check_reply_memory() const {
   const std::size_t reply = opened_->reply_bytes;
-  session_.memory.check(2 * reply - std::min(reply, opened_->host.held()), "the reply");
+  context_.memory.check(2 * reply - std::min(reply, opened_->host.held()), "the reply");
 }
 
-void Machines::open(std::size_t count, const SlotSettings& settings, Autoreset autoreset) {
-  const std::size_t reply_bytes = check(session_.fields, count, autoreset);
-  session_.allow_resets(count);
-  auto opened = std::make_unique<Opened>(session_, count, settings, autoreset, reply_bytes);
-  session_.stop_recording_machines();
+void Machines::open(std::size_t count, const SlotSettings& settings, Autoreset autoreset, Reply& reply) {
+  const std::size_t reply_bytes = check(context_.fields, count, autoreset);
+  context_.allow_resets(count);
+  auto opened = std::make_unique<Opened>(context_, count, settings, autoreset, reply_bytes);
+  context_.stop_recording_machines();
   close();
   opened_ = std::move(opened);
-  session_.out += "ok";
-  append_pair(session_.out, "machines", static_cast<std::int64_t>(count));
-  append_pair(session_.out, "autoreset", name_of(autoreset));
-  append_texts();
+  reply.add("machines", static_cast<std::int64_t>(count));
+  reply.add("autoreset", name_of(autoreset));
+  add_texts(reply);
 }
 
-void Machines::step(std::span<const Act> acts) {
+void Machines::step(std::span<const Act> acts, Reply& reply) {
   const std::vector<std::uint8_t> resets(size(), opened_->vector.autoreset() != Autoreset::kDisabled);
   check_frames(static_cast<std::int64_t>(size()), resets);
   check_reply_memory();
   opened_->vector.step(acts);
-  session_.out += "ok";
-  append_pair(session_.out, "machines", static_cast<std::int64_t>(size()));
-  session_.append_cut();
-  append_texts();
+  reply.add("machines", static_cast<std::int64_t>(size()));
+  add_cut(context_, reply);
+  add_texts(reply);
   for (std::size_t number = 0; number < size(); ++number)
-    session_.count(opened_->vector.slot(number).outcome());
+    context_.count(opened_->vector.slot(number).outcome());
 }
 
-void Machines::restart(std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds) {
+void Machines::restart(std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds,
+                       Reply& reply) {
   check_frames(0, chosen);
   check_reply_memory();
   opened_->vector.reset(chosen, seeds);
-  session_.out += "ok";
-  append_pair(session_.out, "machines", static_cast<std::int64_t>(size()));
-  append_texts();
+  reply.add("machines", static_cast<std::int64_t>(size()));
+  add_texts(reply);
 }
 
 // Assumes that a reset takes as long as the machine's longest one so far.
@@ -183,28 +186,30 @@ void Machines::check_frames(std::int64_t acts, std::span<const std::uint8_t> res
     if (resets[i] != 0)
       frames += std::max<std::int64_t>(opened_->vector.slot(i).reset_frames() - kFreeResetFrames, 0);
   }
-  session_.check_frames(acts, frames);
+  context_.check_frames(acts, frames);
 }
 
-void Machines::append_texts() {
-  std::size_t text = session_.out.size(), raw = session_.raw.size();
+void Machines::add_texts(Reply& reply) {
+  std::size_t text = 0, raw = 0;
   for (const auto& seat : opened_->host.seats()) {
     text += 2 + seat->text.size();
     raw += seat->raw.size();
   }
-  session_.out.reserve(text);  // at once: a long reply that grows by doubling is copied in one piece
-  session_.raw.reserve(raw);
+  reply.reserve(text, raw);  // at once: a long reply that grows by doubling is copied in one piece
   for (const auto& seat : opened_->host.seats()) {
-    (session_.out += " |") += seat->text;
-    session_.raw += seat->raw;
-    session_.pacer.breathe();
+    reply.add_group();
+    reply.add_fields([&](std::string& out, std::string& more) {
+      out += seat->text;
+      more += seat->raw;
+    });
+    context_.pacer.breathe();
   }
 }
 
 // Long values are written in the machine's own work, or in that of a request about this machine alone.
 void Machines::Host::observe(std::size_t number, const std::vector<Field>& fields) {
   seats_[number]->view.emplace(
-      fields, [this, &own = seats_[number]->pacer] { (own.in_progress() ? own : session_.pacer).breathe(); });
+      fields, [this, &own = seats_[number]->pacer] { (own.in_progress() ? own : context_.pacer).breathe(); });
 }
 
 std::size_t Machines::Host::held() const {
@@ -247,17 +252,17 @@ void Machines::Host::run_all(std::size_t count, const std::function<void(std::si
   }
   std::int64_t counted = frames();
   for (std::size_t first = 0;;) {  // the first machine that is not done
-    const auto end = session_.pacer.end();
-    session_.run_parallel(count - first, [&](std::size_t i) {
+    const auto end = context_.pacer.end();
+    context_.run_parallel(count - first, [&](std::size_t i) {
       Seat& seat = *seats_[first + i];
       const bool begins = i == 0 || seat.pacer.in_progress() || Pacer::Clock::now() < end;
       if (!seat.done && begins) work_on(seat, first + i, task, end);
     });
-    session_.pacer.count(frames() - counted);
+    context_.pacer.count(frames() - counted);
     counted = frames();
     while (first < count && seats_[first]->done) ++first;
     if (first == count) break;
-    session_.pacer.pause();
+    context_.pacer.pause();
   }
   for (const auto& seat : seats_) {
     if (seat->no_fiber) std::rethrow_exception(seat->no_fiber);

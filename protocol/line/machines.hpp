@@ -15,11 +15,12 @@
 
 namespace racebeam {
 
-class Session;
+class Context;
+class Reply;
 
 class Machines {
  public:
-  explicit Machines(Session& session);  // must outlive the machines
+  explicit Machines(Context& context);  // must outlive the machines
   ~Machines();
   Machines(const Machines&) = delete;
   Machines& operator=(const Machines&) = delete;
@@ -31,17 +32,17 @@ class Machines {
   void close();
   // What machine=TEXT means in a request. Throws RequestError if there is no such machine.
   std::size_t number_of(std::string_view text) const;
-  void append_view(std::size_t number);            // what this machine shows, to session.out
-  void observe(const std::vector<Field>& fields);  // may throw RequestError, and changes nothing then
-  void rest();                                     // releases caches
-  std::size_t footprint() const;                   // bytes of memory
+  void add_view(std::size_t number, Reply& reply);  // what this machine shows
+  void observe(const std::vector<Field>& fields);   // may throw RequestError, and changes nothing then
+  void rest();                                      // releases caches
+  std::size_t footprint() const;                    // bytes of memory
 
-  // Each appends its reply to session.out. All may throw RequestError; `open` then keeps the machines that
+  // Each writes its reply. All may throw RequestError; `open` then keeps the machines that
   // were there.
-  void open(std::size_t count, const SlotSettings& settings, Autoreset autoreset);
-  void step(std::span<const Act> acts);  // one for each machine
+  void open(std::size_t count, const SlotSettings& settings, Autoreset autoreset, Reply& reply);
+  void step(std::span<const Act> acts, Reply& reply);  // one for each machine
   // Resets the machines whose byte in `chosen` is not 0. There is a seed for each machine; -1: none.
-  void restart(std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds);
+  void restart(std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds, Reply& reply);
 
  private:
   class Host;
@@ -50,9 +51,9 @@ class Machines {
   std::size_t check(const std::vector<Field>& fields, std::size_t count, Autoreset autoreset);
   void check_frames(std::int64_t acts, std::span<const std::uint8_t> resets) const;
   void check_reply_memory() const;
-  void append_texts();
+  void add_texts(Reply& reply);
 
-  Session& session_;
+  Context& context_;
   std::unique_ptr<Opened> opened_;
 };
 

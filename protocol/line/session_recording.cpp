@@ -2,7 +2,8 @@
 
 #include <utility>
 
-#include "protocol/line/words.hpp"
+#include "protocol/line/context.hpp"
+#include "protocol/line/reply.hpp"
 
 namespace racebeam {
 
@@ -21,9 +22,14 @@ void SessionRecording::watch() {
   });
 }
 
-void SessionRecording::append_cut(std::string& out) {
+std::optional<Recording::Cut> SessionRecording::new_cut() {
   const auto cut = recording_->cut();
-  if (cut && !std::exchange(told_, true)) append_pair(out, "recording_ended", name_of(*cut));
+  return cut && !std::exchange(told_, true) ? cut : std::nullopt;
+}
+
+void add_cut(Context& context, Reply& reply) {
+  if (!context.media.recording) return;
+  if (const auto cut = context.media.recording->new_cut()) reply.add("recording_ended", name_of(*cut));
 }
 
 void await(const Recording& recording, Pacer& pacer) {

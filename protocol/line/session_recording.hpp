@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "environment/vector/slot.hpp"
@@ -9,6 +10,9 @@
 #include "recording/recording.hpp"
 
 namespace racebeam {
+
+class Context;
+class Reply;
 
 class SessionRecording {
  public:
@@ -24,8 +28,8 @@ class SessionRecording {
   Recording& recording() { return *recording_; }
   const std::string& names() const { return recording_->names(); }
 
-  // " recording_ended=limit" or "disk": once, as soon as it is known that a limit or the disk has cut it off.
-  void append_cut(std::string& out);
+  // What has cut it off: once, as soon as that is known.
+  std::optional<Recording::Cut> new_cut();
 
  private:
   std::shared_ptr<Recording> recording_;
@@ -33,6 +37,9 @@ class SessionRecording {
   Pacer& pacer_;
   bool told_ = false;
 };
+
+// Notes in the reply, once, that the session's recording was cut off.
+void add_cut(Context& context, Reply& reply);
 
 // Suspends the body of `pacer` until the recording has begun, has room for a frame, or has finished.
 void await(const Recording& recording, Pacer& pacer);

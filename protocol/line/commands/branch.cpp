@@ -3,7 +3,8 @@
 #include <utility>
 
 #include "environment/vector/branch.hpp"
-#include "protocol/line/session.hpp"
+#include "protocol/line/context.hpp"
+#include "protocol/line/reply.hpp"
 #include "protocol/line/session_recording.hpp"
 
 namespace racebeam {
@@ -12,18 +13,18 @@ namespace {
 // The session's machine, lent to branches.
 class Loan {
  public:
-  explicit Loan(Session& session) : session_(session), undisturbed_(session.loaded->slot().save(true)) {
-    session.loaded->machine().watch({});  // no recording of what did not happen
+  explicit Loan(Context& context) : context_(context), undisturbed_(context.game.loaded->slot().save(true)) {
+    context.game.loaded->machine().watch({});  // no recording of what did not happen
   }
   ~Loan() {
-    session_.loaded->slot().restore(undisturbed_);
-    if (session_.recording) session_.recording->watch();
+    context_.game.loaded->slot().restore(undisturbed_);
+    if (context_.media.recording) context_.media.recording->watch();
   }
   Loan(const Loan&) = delete;
   Loan& operator=(const Loan&) = delete;
 
  private:
-  Session& session_;
+  Context& context_;
   const Slot::Saved undisturbed_;  // with generator and stack
 };
 
@@ -52,10 +53,9 @@ class RewardRuns {  // the rewards of one act after the other, runs of equal one
     }
   }
 
-  // Appends " key=R,R*TIMES,...".
-  void append(std::string& out, std::string_view key, Pacer& pacer) const {
+  // Appends "R,R*TIMES,...".
+  void append(std::string& out, Pacer& pacer) const {
     constexpr std::size_t kBetweenLooks = 4096;
-    append_pair(out, key, "");
     std::size_t appended = 0;
     for (const Run& run : runs_) {
       if (++appended % kBetweenLooks == 0) pacer.breathe();
@@ -90,43 +90,43 @@ Rewards play(Branching& branching, const Environment& machine, std::span<const A
   return rewards;
 }
 
-void append_end(std::string& out, const BranchEnd& end, const Rewards& rewards, bool for_two, Pacer& pacer) {
-  out += " |";
-  append_pair(out, "reward", end.reward);
-  if (for_two) append_pair(out, "reward_b", end.reward_b);
-  append_pair(out, "acts", end.acts);
-  append_pair(out, "terminated", end.terminated);
-  append_pair(out, "truncated", end.truncated);
-  append_pair(out, "lives", end.lives);
-  rewards.a.append(out, "rewards", pacer);
-  if (for_two) rewards.b.append(out, "rewards_b", pacer);
+void add_end(Reply& reply, const BranchEnd& end, const Rewards& rewards, bool for_two, Pacer& pacer) {
+  reply.add_group();
+  reply.add("reward", end.reward);
+  if (for_two) reply.add("reward_b", end.reward_b);
+  reply.add("acts", end.acts);
+  reply.add("terminated", end.terminated);
+  reply.add("truncated", end.truncated);
+  reply.add("lives", end.lives);
+  rewards.a.append(reply.add_long("rewards"), pacer);
+  if (for_two) rewards.b.append(reply.add_long("rewards_b"), pacer);
 }
 
 }  // namespace
 
-void play_branches(Session& session, const BranchRequest& request) {
+void play_branches(Context& context, const BranchRequest& request, Reply& reply) {
   std::vector<std::pair<std::string, Slot::Saved>> kept;
-  append_pair(session.out += "ok", "branches", static_cast<std::int64_t>(request.lists.size()));
+  reply.add("branches", static_cast<std::int64_t>(request.lists.size()));
   {
-    const Loan loan(session);
-    Environment& machine = session.loaded->machine();
-    Branching branching(machine, session.settings.life_loss);
+    const Loan loan(context);
+    Environment& machine = context.game.loaded->machine();
+    Branching branching(machine, context.game.settings.life_loss);
     for (std::size_t i = 0; i < request.lists.size(); ++i) {
       branching.enter(*request.root.machine);
       const Rewards rewards = play(branching, machine, request.lists[i]);
       const BranchEnd& end = branching.end();
-      append_end(session.out, end, rewards, machine.game().has_second_reward(), session.pacer);
-      session.count({.reward = end.reward, .reward_b = end.reward_b, .acts = end.acts, .frames = end.frames});
-      session.pacer.breathe();  // a list that ends at once runs no frame
+      add_end(reply, end, rewards, machine.game().has_second_reward(), context.pacer);
+      context.count({.reward = end.reward, .reward_b = end.reward_b, .acts = end.acts, .frames = end.frames});
+      context.pacer.breathe();  // a list that ends at once runs no frame
       if (request.keep.empty()) continue;
       const std::string name = request.keep + std::to_string(i);
-      append_pair(session.out, "state", name);
+      reply.add("state", name);
       const bool with_random = request.root.with_random;
       kept.emplace_back(name, leaf(request.root, branching, machine.save(with_random)));
-      session.memory.check(kept.back().second.footprint(), "a state");
+      context.memory.check(kept.back().second.footprint(), "a state");
     }
   }
-  for (auto& [name, place] : kept) session.states.put(name, std::move(place));
+  for (auto& [name, place] : kept) context.game.states.put(name, std::move(place));
 }
 
 }  // namespace racebeam

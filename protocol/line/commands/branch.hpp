@@ -10,7 +10,8 @@
 
 namespace racebeam {
 
-class Session;
+class Context;
+class Reply;
 
 // Lists of actions, one after the other in one piece of memory: there may be half a million.
 struct ActionLists {
@@ -30,7 +31,7 @@ struct BranchRequest {
   std::string keep;  // the ends are saved as this name with 0, 1, 2 ... behind it; empty: they are not
 };
 
-// Appends the reply to session.out. The session's machine is where it was afterwards, whatever is thrown.
-void play_branches(Session& session, const BranchRequest& request);
+// Writes the reply. The session's machine is where it was afterwards, whatever is thrown.
+void play_branches(Context& context, const BranchRequest& request, Reply& reply);
 
 }  // namespace racebeam

@@ -6,8 +6,9 @@
 #include "emulator/tia/registers/register_values.hpp"
 #include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
+#include "protocol/line/context.hpp"
 #include "protocol/line/play_settings.hpp"
-#include "protocol/line/session.hpp"
+#include "protocol/line/reply.hpp"
 #include "protocol/line/session_recording.hpp"
 #include "system/invalid_input.hpp"
 
@@ -17,25 +18,9 @@ namespace {
 constexpr std::string_view kInline = "inline";
 
 template <typename Names>
-void append_names(std::string& out, const Names& names) {
-  append_pair(out, "count", static_cast<std::int64_t>(names.size()));
-  append_pair(out, "games", "");
-  for (std::size_t i = 0; i < names.size(); ++i) (out += i > 0 ? "," : "") += names[i];
-}
-
-void append_numbered(std::string& out, std::string_view key, const std::vector<int>& numbers) {
-  append_pair(out, key, "");
-  append_list(out, numbers);
-}
-
-template <typename List>
-void append_words(std::string& out, std::string_view key, const List& words) {
-  append_pair(out, key, "");
-  std::string_view separator;
-  for (const auto& word : words) {
-    out.append(separator).append(word);
-    separator = ",";
-  }
+void add_names(Reply& reply, const Names& names) {
+  reply.add("count", static_cast<std::int64_t>(names.size()));
+  reply.add_list("games", names);
 }
 
 std::string_view format_name(Format format) { return kFormatNames[static_cast<std::size_t>(format)]; }
@@ -53,29 +38,27 @@ std::string_view format_name(Format format) { return kFormatNames[static_cast<st
       "there is no game " + quote(name) + ';' + (meant.empty() ? " games lists those that are here" : meant));
 }
 
-void append_console(std::string& out, const Cartridge& cartridge) {
+void add_console(Reply& reply, const Cartridge& cartridge) {
   const Properties properties = cartridge.game->properties_for(cartridge.image->md5);
-  append_pair(out, "scheme", scheme_word(scheme_of(*cartridge.image->bytes, properties.scheme).name));
-  append_pair(out, "left", name_of(properties.left));
-  append_pair(out, "right", name_of(properties.right));
+  reply.add("scheme", scheme_word(scheme_of(*cartridge.image->bytes, properties.scheme).name));
+  reply.add("left", name_of(properties.left));
+  reply.add("right", name_of(properties.right));
 }
 
-void describe_game(Session& session, std::string_view name) {
-  const Cartridge* cartridge = session.service.images->find(name);
+void describe_game(const Context& context, std::string_view name, Reply& reply) {
+  const Cartridge* cartridge = context.service.images->find(name);
   const auto game = cartridge ? cartridge->game : find_game(name);
-  if (!game) refuse_game(*session.service.images, name);
-  std::string& out = session.out;
-  out += "ok";
-  append_pair(out, "game", game->name);
-  append_pair(out, "here", cartridge != nullptr);
-  if (cartridge) append_pair(out, "md5", cartridge->image->md5);
-  if (cartridge) append_console(out, *cartridge);
-  append_pair(out, "rule", game->has_rule());
-  append_numbered(out, "modes", game->modes);
-  append_numbered(out, "two_player_modes", game->two_player_modes);
-  append_numbered(out, "difficulties", game->difficulties);
-  append_numbered(out, "minimal", game->minimal_actions);
-  append_numbered(out, "legal", game->legal_actions);
+  if (!game) refuse_game(*context.service.images, name);
+  reply.add("game", game->name);
+  reply.add("here", cartridge != nullptr);
+  if (cartridge) reply.add("md5", cartridge->image->md5);
+  if (cartridge) add_console(reply, *cartridge);
+  reply.add("rule", game->has_rule());
+  reply.add("modes", game->modes);
+  reply.add("two_player_modes", game->two_player_modes);
+  reply.add("difficulties", game->difficulties);
+  reply.add("minimal", game->minimal_actions);
+  reply.add("legal", game->legal_actions);
 }
 
 constexpr std::array<std::string_view, 2> kKeysOfImages = {"image", "as"};
@@ -106,9 +89,9 @@ LoadWords sorted(Words words) {
   return load;
 }
 
-std::shared_ptr<const Image> sent_image(Session& session, const LoadWords& words) {
+std::shared_ptr<const Image> sent_image(Context& context, const LoadWords& words) {
   if (!words.image) throw RequestError(ErrorCode::kBadArguments, "load inline needs image=BASE64");
-  session.memory.check(words.image->size() / 4 * 3, "an image");
+  context.memory.check(words.image->size() / 4 * 3, "an image");
   auto bytes = bytes_of_base64(*words.image);
   if (!bytes)
     throw RequestError(ErrorCode::kBadImage, "the image is not base64 (A-Z a-z 0-9 + / and = at the end)");
@@ -119,18 +102,18 @@ std::shared_ptr<const Image> sent_image(Session& session, const LoadWords& words
   }
 }
 
-Cartridge find_cartridge(Session& session, std::string_view name, const LoadWords& words) {
+Cartridge find_cartridge(Context& context, std::string_view name, const LoadWords& words) {
   Cartridge cartridge;
   if (name == kInline) {
-    cartridge.image = sent_image(session, words);
+    cartridge.image = sent_image(context, words);
   } else {
     if (words.image) throw RequestError(ErrorCode::kBadArguments, "image= goes with load inline");
-    const Cartridge* found = session.service.images->find(name);
-    if (found == nullptr) refuse_game(*session.service.images, name);
+    const Cartridge* found = context.service.images->find(name);
+    if (found == nullptr) refuse_game(*context.service.images, name);
     cartridge = *found;
   }
   if (words.as) {
-    const auto rules = session.service.images->rules(*words.as);
+    const auto rules = context.service.images->rules(*words.as);
     if (!rules)
       throw RequestError(ErrorCode::kUnknownGame, "there are no rules for " + quote(*words.as) + ';' +
                                                       did_you_mean(*words.as, game_names()) +
@@ -139,7 +122,7 @@ Cartridge find_cartridge(Session& session, std::string_view name, const LoadWord
   } else if (name == kInline) {
     cartridge.game = recognise(*cartridge.image).game;
   }
-  if (const auto known = session.service.images->same(*cartridge.image)) cartridge.image = known;
+  if (const auto known = context.service.images->same(*cartridge.image)) cartridge.image = known;
   return cartridge;
 }
 
@@ -153,74 +136,71 @@ std::string with_wished_mode(std::string sentence, const PlaySettings& settings,
          std::to_string(*settings.mode);
 }
 
-void append_loaded(Session& session) {
-  const Environment& machine = session.loaded->machine();
-  std::string& out = session.out;
-  out += "ok";
-  append_pair(out, "game", machine.game().name);
-  append_pair(out, "md5", machine.image().md5);
-  append_pair(out, "rule", machine.game().has_rule());
-  if (!doubt_about(machine.game(), machine.image()).empty()) append_pair(out, "image", "other");
-  append_pair(out, "width", kScreenWidth);
-  append_pair(out, "height", machine.height());
-  append_pair(out, "format", format_name(machine.format()));
-  append_settings(out, session.settings, machine);
+void add_loaded(const Context& context, Reply& reply) {
+  const Environment& machine = context.game.loaded->machine();
+  reply.add("game", machine.game().name);
+  reply.add("md5", machine.image().md5);
+  reply.add("rule", machine.game().has_rule());
+  if (!doubt_about(machine.game(), machine.image()).empty()) reply.add("image", "other");
+  reply.add("width", kScreenWidth);
+  reply.add("height", machine.height());
+  reply.add("format", format_name(machine.format()));
+  reply.add_settings([&](std::string& out) { append_settings(out, context.game.settings, machine); });
 }
 
 }  // namespace
 
-void run_games(Session& session, Words arguments) {
-  if (!arguments.empty() && arguments[0] != "all") return describe_game(session, arguments[0]);
-  session.out += "ok";
-  if (arguments.empty()) return append_names(session.out, session.service.images->names());
-  append_names(session.out, game_names());
+void run_games(Context& context, Words arguments, Reply& reply) {
+  if (!arguments.empty() && arguments[0] != "all") return describe_game(context, arguments[0], reply);
+  if (arguments.empty()) return add_names(reply, context.service.images->names());
+  add_names(reply, game_names());
 }
 
 // All or nothing: a refused load leaves the previous game running.
-void run_load(Session& session, Words arguments) {
+void run_load(Context& context, Words arguments, Reply& reply) {
   const LoadWords words = sorted(arguments.subspan(1));
   PlaySettings settings;
-  settings.machine.cpu = session.service.cpu;
+  settings.machine.cpu = context.service.cpu;
   read_settings(words.settings, settings, kKeysOfImages);
-  if (shows_audio(session.fields) && !settings.machine.sound)
+  if (shows_audio(context.fields) && !settings.machine.sound)
     throw RequestError(ErrorCode::kBadArguments,
                        "observe selects audio, which needs sound=1; load with it, or observe other fields");
   if (settings.machine.random_seed == 0) settings.machine.random_seed = parse_seed("random");
   // The cache of resets belongs to the process, and would keep the image when the session is gone.
-  Cartridge cartridge = find_cartridge(session, arguments[0], words);
+  Cartridge cartridge = find_cartridge(context, arguments[0], words);
   cartridge.game = with_given(cartridge.game, *cartridge.image, settings.console);
   std::unique_ptr<CodeOwner> own_image;
-  if (session.service.images->same(*cartridge.image) == nullptr)
+  if (context.service.images->same(*cartridge.image) == nullptr)
     own_image = std::make_unique<CodeOwner>(cartridge.image->bytes);
   settings.machine.copy_resets = own_image == nullptr;
   std::unique_ptr<LoadedMachine> loaded;
   try {
-    session.allow_resets(1);
-    session.memory.check(LoadedMachine::most_held(session.fields) + View::longest_text(session.fields),
+    context.allow_resets(1);
+    context.memory.check(LoadedMachine::most_held(context.fields) + View::longest_text(context.fields),
                          "a machine");
-    loaded = std::make_unique<LoadedMachine>(cartridge, settings, session.fields, session.pacer);
+    loaded = std::make_unique<LoadedMachine>(cartridge, settings, context.fields, context.pacer);
   } catch (const InvalidInput& error) {
     const bool sent = arguments[0] == kInline && !settings.mode && !settings.difficulty;
     throw RequestError(sent ? ErrorCode::kBadImage : ErrorCode::kBadValue,
                        with_wished_mode(error.what(), settings, cartridge));
   }
-  session.recording.reset();
-  session.machines.close();
-  session.discard(session.states, session.states.footprint());
-  session.loaded = std::move(loaded);
-  session.cartridge = std::move(cartridge);
-  session.own_image = std::move(own_image);
-  session.settings = settings;
-  session.episode = 1;
-  session.last_action = 0;
-  if (session.service.share_all && !session.sharing)
-    session.sharing = Sharing::open_next(session.service.shares, kUsualWatchers);
-  append_loaded(session);
+  context.media.recording.reset();
+  context.machines.close();
+  context.discard(context.game.states, context.game.states.footprint());
+  context.game.loaded = std::move(loaded);
+  context.game.cartridge = std::move(cartridge);
+  context.game.own_image = std::move(own_image);
+  context.game.settings = settings;
+  context.game.episode = 1;
+  context.game.last_action = 0;
+  if (context.service.share_all && !context.sharing)
+    context.sharing = Sharing::open_next(context.service.shares, kUsualWatchers);
+  add_loaded(context, reply);
 }
 
-void run_settings(Session& session, Words) { append_loaded(session); }
+void run_settings(Context& context, Words, Reply& reply) { add_loaded(context, reply); }
 
-void run_set(Session& session, Words arguments) {
+void run_set(Context& context, Words arguments, Reply& reply) {
   PlaySettings changed;
   for (const std::string_view word : arguments) {
     const std::string_view key = key_value(word).key;
@@ -230,7 +210,7 @@ void run_set(Session& session, Words arguments) {
                            advice(key, kKeysOfSet, "there are mode and difficulty; load takes the others"));
   }
   read_settings(arguments, changed);
-  Environment& machine = session.loaded->machine();
+  Environment& machine = context.game.loaded->machine();
   const int mode = machine.mode();
   if (changed.mode) machine.set_mode(*changed.mode);
   try {
@@ -239,54 +219,45 @@ void run_set(Session& session, Words arguments) {
     machine.set_mode(mode);
     throw;
   }
-  if (changed.mode) session.settings.mode = changed.mode;
-  if (changed.difficulty) session.settings.difficulty = changed.difficulty;
-  session.out += "ok";
-  append_pair(session.out, "mode", machine.mode());
-  append_pair(session.out, "difficulty", machine.difficulty());
+  if (changed.mode) context.game.settings.mode = changed.mode;
+  if (changed.difficulty) context.game.settings.difficulty = changed.difficulty;
+  reply.add("mode", machine.mode());
+  reply.add("difficulty", machine.difficulty());
 }
 
-void run_modes(Session& session, Words) {
-  const Environment& machine = session.loaded->machine();
-  session.out += "ok";
-  append_pair(session.out, "mode", machine.mode());
-  append_pair(session.out, "default", machine.game().default_mode);
-  append_numbered(session.out, "modes", machine.game().modes);
-  append_numbered(session.out, "two_player_modes", machine.game().two_player_modes);
+void run_modes(Context& context, Words, Reply& reply) {
+  const Environment& machine = context.game.loaded->machine();
+  reply.add("mode", machine.mode());
+  reply.add("default", machine.game().default_mode);
+  reply.add("modes", machine.game().modes);
+  reply.add("two_player_modes", machine.game().two_player_modes);
 }
 
-void run_difficulties(Session& session, Words) {
-  const Environment& machine = session.loaded->machine();
-  session.out += "ok";
-  append_pair(session.out, "difficulty", machine.difficulty());
-  append_pair(session.out, "default", 0);
-  append_numbered(session.out, "difficulties", machine.game().difficulties);
+void run_difficulties(Context& context, Words, Reply& reply) {
+  const Environment& machine = context.game.loaded->machine();
+  reply.add("difficulty", machine.difficulty());
+  reply.add("default", 0);
+  reply.add("difficulties", machine.game().difficulties);
 }
 
-void run_actions(Session& session, Words) {
-  const Game& game = session.loaded->machine().game();
-  std::string& out = session.out;
-  out += "ok";
-  append_pair(out, "action_set", name_of(session.settings.action_set));
-  append_pair(out, "actions", "");
-  bool first = true;
-  for (const int action : actions_of(session.settings.action_set, game)) {
-    if (!std::exchange(first, false)) out += ',';
-    append_number(out, std::int64_t{action});
-    (out += ':') += action_name(action);
-  }
-  append_numbered(out, "minimal", game.minimal_actions);
-  append_numbered(out, "legal", game.legal_actions);
+void run_actions(Context& context, Words, Reply& reply) {
+  const Game& game = context.game.loaded->machine().game();
+  reply.add("action_set", name_of(context.game.settings.action_set));
+  std::vector<std::string> actions;
+  for (const int action : actions_of(context.game.settings.action_set, game))
+    actions.push_back(std::to_string(action).append(1, ':').append(action_name(action)));
+  reply.add_list("actions", actions);
+  reply.add("minimal", game.minimal_actions);
+  reply.add("legal", game.legal_actions);
 }
 
-void run_names(Session& session, Words) {
-  const Game& game = session.loaded->machine().game();
+void run_names(Context& context, Words, Reply& reply) {
+  const Game& game = context.game.loaded->machine().game();
   std::vector<std::string> bytes;
   if (game.rule)
     for (const auto& [index, name] : game.rule->bytes) bytes.push_back(std::to_string(index) + ':' + name);
-  session.out += "ok";
-  append_words(session.out, "ram_names", bytes);
-  append_words(session.out, "tia_names", kTiaValueNames);
+  reply.add_list("ram_names", bytes);
+  reply.add_list("tia_names", kTiaValueNames);
 }
 
 }  // namespace racebeam

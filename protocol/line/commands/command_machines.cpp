@@ -2,8 +2,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "protocol/line/context.hpp"
 #include "protocol/line/play_settings.hpp"
-#include "protocol/line/session.hpp"
+#include "protocol/line/reply.hpp"
 
 namespace racebeam {
 namespace {
@@ -63,8 +64,8 @@ const std::vector<OpenRow>& open_rows() {
   throw RequestError(ErrorCode::kBadArguments, quote(word) + " is no setting; open takes " + keys);
 }
 
-OpenSettings read_open_settings(const Session& session, Words words) {
-  OpenSettings settings{slot_settings(session.settings)};
+OpenSettings read_open_settings(const Context& context, Words words) {
+  OpenSettings settings{slot_settings(context.game.settings)};
   std::vector<std::string_view> given;
   std::string_view of_frames;
   for (const std::string_view word : words) {
@@ -86,24 +87,24 @@ OpenSettings read_open_settings(const Session& session, Words words) {
   return settings;
 }
 
-std::size_t read_machines(const Session& session, std::string_view word) {
+std::size_t read_machines(const Context& context, std::string_view word) {
   const auto count = number_within(word, "N", 1, std::numeric_limits<std::int64_t>::max());
-  const int most = session.service.limits.machines;
+  const int most = context.service.limits.machines;
   if (count <= most) return static_cast<std::size_t>(count);
   throw RequestError(ErrorCode::kLimit,
                      "N is " + quote(word) + "; there may be " + std::to_string(most) + " machines");
 }
 
-[[noreturn]] void refuse_count(const Session& session, std::size_t given, const std::string& what) {
-  throw RequestError(ErrorCode::kBadArguments, "there are " + std::to_string(session.machines.size()) +
+[[noreturn]] void refuse_count(const Context& context, std::size_t given, const std::string& what) {
+  throw RequestError(ErrorCode::kBadArguments, "there are " + std::to_string(context.machines.size()) +
                                                    " machines, but " + std::to_string(given) + " " + what);
 }
 
-std::vector<std::uint8_t> read_mask(const Session& session, std::string_view mask) {
+std::vector<std::uint8_t> read_mask(const Context& context, std::string_view mask) {
   if (mask.find_first_not_of("01") != std::string_view::npos)
     throw RequestError(ErrorCode::kBadValue,
                        quote(mask) + " is no mask; it takes a 0 or a 1 for each machine");
-  if (mask.size() != session.machines.size()) refuse_count(session, mask.size(), "digits in the mask");
+  if (mask.size() != context.machines.size()) refuse_count(context, mask.size(), "digits in the mask");
   std::vector<std::uint8_t> chosen;
   for (const char digit : mask) chosen.push_back(digit == '1');
   return chosen;
@@ -111,18 +112,18 @@ std::vector<std::uint8_t> read_mask(const Session& session, std::string_view mas
 
 }  // namespace
 
-void run_open(Session& session, Words arguments) {
-  const std::size_t machines = read_machines(session, arguments[0]);
-  const OpenSettings settings = read_open_settings(session, arguments.subspan(1));
-  session.machines.open(machines, settings.slot, settings.autoreset);
+void run_open(Context& context, Words arguments, Reply& reply) {
+  const std::size_t machines = read_machines(context, arguments[0]);
+  const OpenSettings settings = read_open_settings(context, arguments.subspan(1));
+  context.machines.open(machines, settings.slot, settings.autoreset, reply);
 }
 
-void run_step(Session& session, Words arguments) {
-  const AllowedActions allowed = session.loaded->allowed();
-  const std::size_t machines = session.machines.size();
+void run_step(Context& context, Words arguments, Reply& reply) {
+  const AllowedActions allowed = context.game.loaded->allowed();
+  const std::size_t machines = context.machines.size();
   if (arguments.size() != 1 && arguments.size() != machines)
-    refuse_count(session, arguments.size(), "actions; give one each, or one for all");
-  auto& acts = session.step_acts;
+    refuse_count(context, arguments.size(), "actions; give one each, or one for all");
+  auto& acts = context.scratch.acts;
   acts.clear();
   for (const std::string_view word : arguments) {
     const Action action = parse_action(word, allowed);
@@ -131,31 +132,30 @@ void run_step(Session& session, Words arguments) {
     acts.push_back(action.act);
   }
   acts.resize(machines, acts[0]);
-  session.machines.step(acts);
+  context.machines.step(acts, reply);
 }
 
-void run_restart(Session& session, Words arguments) {
+void run_restart(Context& context, Words arguments, Reply& reply) {
   std::vector<std::uint8_t> chosen;
   std::vector<std::int64_t> seeds;
   for (const std::string_view word : arguments) {
     if (word.find('=') == std::string_view::npos) {
       if (!chosen.empty()) refuse_twice("MASK");
-      chosen = read_mask(session, word);
+      chosen = read_mask(context, word);
       continue;
     }
     if (!seeds.empty()) refuse_twice("seed");
-    seeds.resize(session.machines.size());
+    seeds.resize(context.machines.size());
     const std::uint32_t first = parse_seed(value_of(word, "seed", "restart"));
     for (std::size_t i = 0; i < seeds.size(); ++i) seeds[i] = first + static_cast<std::uint32_t>(i);
   }
-  chosen.resize(session.machines.size(), 1);
-  session.machines.restart(chosen, seeds);
+  chosen.resize(context.machines.size(), 1);
+  context.machines.restart(chosen, seeds, reply);
 }
 
-void run_close(Session& session, Words) {
-  session.stop_recording_machines();
-  session.machines.close();
-  session.out += "ok";
+void run_close(Context& context, Words, Reply&) {
+  context.stop_recording_machines();
+  context.machines.close();
 }
 
 }  // namespace racebeam

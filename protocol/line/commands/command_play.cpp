@@ -2,13 +2,15 @@
 #include <algorithm>
 #include <optional>
 
-#include "protocol/line/session.hpp"
+#include "protocol/line/context.hpp"
+#include "protocol/line/reply.hpp"
+#include "protocol/line/session_recording.hpp"
 
 namespace racebeam {
 namespace {
 
-void check_sound(const Session& session, const std::vector<Field>& fields) {
-  if (session.loaded && !session.settings.machine.sound && shows_audio(fields))
+void check_sound(const Context& context, const std::vector<Field>& fields) {
+  if (context.game.loaded && !context.game.settings.machine.sound && shows_audio(fields))
     throw RequestError(ErrorCode::kBadArguments, "audio needs a game that was loaded with sound=1");
 }
 
@@ -24,13 +26,17 @@ void check_look(const std::vector<Field>& fields) {
   }
 }
 
-void append_bytes_of(Session& session, int index, std::size_t count) {
-  session.out += "ok";
-  append_pair(session.out, "index", index);
-  append_pair(session.out, "bytes", "");
+void add_bytes_of(const Context& context, int index, std::size_t count, Reply& reply) {
+  reply.add("index", index);
   Encoder(Encoding::kHex)
-      .append(session.out, session.loaded->machine().ram().subspan(static_cast<std::size_t>(index), count),
-              session.raw);
+      .append(reply.add_long("bytes"),
+              context.game.loaded->machine().ram().subspan(static_cast<std::size_t>(index), count),
+              reply.raw_memory());
+}
+
+// What the machine of `load` shows.
+void add_view(LoadedMachine& loaded, Reply& reply) {
+  reply.add_fields([&loaded](std::string& out, std::string& raw) { loaded.append_view(out, raw); });
 }
 
 void play(Slot& slot, const std::vector<Action>& actions) {
@@ -60,62 +66,57 @@ int ram_index(std::string_view text) {
 
 }  // namespace
 
-void run_observe(Session& session, Words arguments) {
+void run_observe(Context& context, Words arguments, Reply& reply) {
   if (!arguments.empty()) {
     std::vector<Field> fields = parse_fields(arguments);
-    check_sound(session, fields);
-    session.memory.check(View::most_held(fields) + View::longest_text(fields), "a view of these fields");
-    if (session.loaded) stack_of(fields, session.loaded->slot());  // it can be made
-    session.machines.observe(fields);
-    session.fields = std::move(fields);
-    if (session.loaded) session.loaded->observe(session.fields);
+    check_sound(context, fields);
+    context.memory.check(View::most_held(fields) + View::longest_text(fields), "a view of these fields");
+    if (context.game.loaded) stack_of(fields, context.game.loaded->slot());  // it can be made
+    context.machines.observe(fields);
+    context.fields = std::move(fields);
+    if (context.game.loaded) context.game.loaded->observe(context.fields);
   }
-  session.out += "ok fields=";
-  for (std::size_t i = 0; i < session.fields.size(); ++i) {
-    if (i > 0) session.out += ',';
-    session.out += session.fields[i].name;
-  }
+  std::vector<std::string_view> names;
+  for (const Field& field : context.fields) names.push_back(field.name);
+  reply.add_list("fields", names);
 }
 
-void run_look(Session& session, Words arguments) {
-  LoadedMachine& loaded = *session.loaded;
-  if (arguments.empty()) {
-    session.out += "ok";
-    return loaded.append_view(session.out, session.raw);
-  }
+void run_look(Context& context, Words arguments, Reply& reply) {
+  LoadedMachine& loaded = *context.game.loaded;
+  if (arguments.empty()) return add_view(loaded, reply);
   std::vector<Field> fields = parse_fields(arguments);
-  check_sound(session, fields);
+  check_sound(context, fields);
   check_look(fields);
-  session.memory.check(View::most_held(fields) + text_size(fields, loaded.machine()),
+  context.memory.check(View::most_held(fields) + text_size(fields, loaded.machine()),
                        "a look at these fields");
   const auto stack = stack_of(fields, loaded.slot());
-  session.out += "ok";
-  View(std::move(fields), [&session] {
-    session.pacer.breathe();
-  }).append(session.out, session.raw, {loaded.machine(), loaded.slot().outcome(), stack ? &*stack : nullptr});
+  View view(std::move(fields), [&context] { context.pacer.breathe(); });
+  reply.add_fields([&](std::string& out, std::string& raw) {
+    view.append(out, raw, {loaded.machine(), loaded.slot().outcome(), stack ? &*stack : nullptr});
+  });
 }
 
-void run_reset(Session& session, Words arguments) {
-  LoadedMachine& loaded = *session.loaded;
+void run_reset(Context& context, Words arguments, Reply& reply) {
+  LoadedMachine& loaded = *context.game.loaded;
   std::optional<std::uint32_t> seed;
   if (!arguments.empty()) seed = parse_seed(value_of(arguments[0], "seed", "reset"));
-  session.allow_resets(1);
+  context.allow_resets(1);
   loaded.slot().reset(seed);
-  if (seed) session.settings.machine.random_seed = *seed;
-  ++session.episode;
+  if (seed) context.game.settings.machine.random_seed = *seed;
+  ++context.game.episode;
   loaded.slot().begin_request();
-  session.out += "ok";
-  loaded.append_view(session.out, session.raw);
+  add_view(loaded, reply);
 }
 
 // The next episode begins at once; the reply has the ends of the one before.
-void begin_next_episode(Session& session) {
-  Slot& slot = session.loaded->slot();
-  session.loaded->append_final(session.out, session.raw);
+void begin_next_episode(Context& context, Reply& reply) {
+  Slot& slot = context.game.loaded->slot();
+  reply.add_fields(
+      [&context](std::string& out, std::string& raw) { context.game.loaded->append_final(out, raw); });
   const Outcome outcome = slot.outcome();
   slot.reset();
   slot.set_outcome(outcome);
-  ++session.episode;
+  ++context.game.episode;
 }
 
 // Assumes that a reset takes as long as the longest one so far.
@@ -125,44 +126,43 @@ std::int64_t frames_of_reset(const Slot& slot, Autoreset autoreset) {
 }
 
 // Ends early with the episode.
-void run_act(Session& session, Words arguments) {
-  LoadedMachine& loaded = *session.loaded;
-  std::vector<Action>& actions = session.actions;
+void run_act(Context& context, Words arguments, Reply& reply) {
+  LoadedMachine& loaded = *context.game.loaded;
+  std::vector<Action>& actions = context.scratch.actions;
   std::int64_t acts = 0;
   actions.clear();
   for (const std::string_view word : arguments) {
     actions.push_back(parse_action(word, loaded.allowed()));
     acts += actions.back().times;
-    if (actions.size() % 256 == 0) session.pacer.breathe();
+    if (actions.size() % 256 == 0) context.pacer.breathe();
   }
-  const Autoreset autoreset = session.settings.autoreset;
-  session.check_frames(acts, frames_of_reset(loaded.slot(), autoreset));
+  const Autoreset autoreset = context.game.settings.autoreset;
+  context.check_frames(acts, frames_of_reset(loaded.slot(), autoreset));
   if (autoreset == Autoreset::kNextStep && loaded.slot().finished()) {
-    run_reset(session, {});
-    return session.append_cut();
+    run_reset(context, {}, reply);
+    return add_cut(context, reply);
   }
   // Only a restored state can have ended before.
   if (autoreset == Autoreset::kSameStep && loaded.slot().finished()) loaded.slot().reset();
   loaded.slot().begin_request();
   play(loaded.slot(), actions);
-  if (loaded.slot().outcome().acts > 0) session.last_action = actions.back().act.a;
-  session.count(loaded.slot().outcome());
-  session.out += "ok";
-  session.append_cut();
-  if (autoreset == Autoreset::kSameStep && loaded.slot().finished()) begin_next_episode(session);
-  loaded.append_view(session.out, session.raw);
+  if (loaded.slot().outcome().acts > 0) context.game.last_action = actions.back().act.a;
+  context.count(loaded.slot().outcome());
+  add_cut(context, reply);
+  if (autoreset == Autoreset::kSameStep && loaded.slot().finished()) begin_next_episode(context, reply);
+  add_view(loaded, reply);
 }
 
-void run_peek(Session& session, Words arguments) {
+void run_peek(Context& context, Words arguments, Reply& reply) {
   const int index = ram_index(arguments[0]);
   const std::size_t count =
       arguments.size() < 2
           ? 1
           : static_cast<std::size_t>(number_within(arguments[1], "COUNT", 1, kRamSize - index));
-  append_bytes_of(session, index, count);
+  add_bytes_of(context, index, count, reply);
 }
 
-void run_poke(Session& session, Words arguments) {
+void run_poke(Context& context, Words arguments, Reply& reply) {
   const int index = ram_index(arguments[0]);
   const auto bytes = bytes_of_hex(arguments[1]);
   if (bytes.empty() || bytes.size() > static_cast<std::size_t>(kRamSize - index)) {
@@ -171,8 +171,8 @@ void run_poke(Session& session, Words arguments) {
                                                  std::to_string(kRamSize - index));
   }
   for (std::size_t i = 0; i < bytes.size(); ++i)
-    session.loaded->machine().set_ram(index + static_cast<int>(i), bytes[i]);
-  append_bytes_of(session, index, bytes.size());
+    context.game.loaded->machine().set_ram(index + static_cast<int>(i), bytes[i]);
+  add_bytes_of(context, index, bytes.size(), reply);
 }
 
 }  // namespace racebeam

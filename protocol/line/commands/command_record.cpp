@@ -6,7 +6,8 @@
 #include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/encoding/encoding.hpp"
-#include "protocol/line/session.hpp"
+#include "protocol/line/context.hpp"
+#include "protocol/line/reply.hpp"
 #include "protocol/line/session_recording.hpp"
 #include "recording/footage.hpp"
 #include "recording/png.hpp"
@@ -19,20 +20,19 @@ constexpr std::string_view kTaken =
     "record takes png, gif, y4m, wav, webm, mp4 or several as in y4m,wav, and a name, or stop";
 constexpr std::array<std::string_view, 7> kWords = {"png", "gif", "y4m", "wav", "webm", "mp4", "stop"};
 
-void stop(Session& session) {
-  if (!session.recording) throw RequestError(ErrorCode::kRecording, "nothing is being recorded");
-  Recording& recording = session.recording->recording();
+void stop(Context& context, Reply& reply) {
+  if (!context.media.recording) throw RequestError(ErrorCode::kRecording, "nothing is being recorded");
+  Recording& recording = context.media.recording->recording();
   recording.finish();
-  await(recording, session.pacer);
-  const auto ended = std::move(session.recording);
+  await(recording, context.pacer);
+  const auto ended = std::move(context.media.recording);
   const Recording::Result& result = recording.result();
   if (result.names.empty()) throw RequestError(ErrorCode::kRecording, result.failure + "; nothing was kept");
-  session.out += "ok";
-  append_pair(session.out, "recorded", result.names);
-  append_pair(session.out, "frames", result.frames);
-  append_pair(session.out, "bytes", static_cast<std::int64_t>(result.bytes));
-  append_pair(session.out, "complete", recording.cut() ? 0 : 1);
-  if (const auto cut = recording.cut()) append_pair(session.out, "recording_ended", name_of(*cut));
+  reply.add("recorded", result.names);
+  reply.add("frames", result.frames);
+  reply.add("bytes", static_cast<std::int64_t>(result.bytes));
+  reply.add("complete", recording.cut() ? 0 : 1);
+  if (const auto cut = recording.cut()) reply.add("recording_ended", name_of(*cut));
 }
 
 std::vector<MediaKind> parse_kinds(std::string_view words) {
@@ -60,10 +60,10 @@ struct Subject {  // of a recording
 };
 
 // One of the machines of `open`, or without a number the machine of `load`.
-Subject subject_of(Session& session, std::optional<std::string_view> text) {
-  if (!text) return {session.loaded->slot(), session.loaded->pacer()};
-  const std::size_t number = session.machines.number_of(*text);
-  return {session.machines.slot(number), session.machines.pacer(number)};
+Subject subject_of(Context& context, std::optional<std::string_view> text) {
+  if (!text) return {context.game.loaded->slot(), context.game.loaded->pacer()};
+  const std::size_t number = context.machines.number_of(*text);
+  return {context.machines.slot(number), context.machines.pacer(number)};
 }
 
 // To the server. What is written slowly may outlive the session by far.
@@ -85,16 +85,16 @@ std::shared_ptr<Recording> begin(const LineService& service, const std::vector<M
   }
 }
 
-void start(Session& session, const std::vector<MediaKind>& kinds, std::string_view name, Subject subject) {
-  const auto recording = begin(session.service, kinds, name, subject.slot.environment());
-  session.recording = std::make_unique<SessionRecording>(recording, subject.slot, subject.pacer);
-  await(*recording, session.pacer);
+void start(Context& context, const std::vector<MediaKind>& kinds, std::string_view name, Subject subject,
+           Reply& reply) {
+  const auto recording = begin(context.service, kinds, name, subject.slot.environment());
+  context.media.recording = std::make_unique<SessionRecording>(recording, subject.slot, subject.pacer);
+  await(*recording, context.pacer);
   if (recording->finished()) {
-    session.recording.reset();
+    context.media.recording.reset();
     throw RequestError(ErrorCode::kRecording, recording->result().failure);
   }
-  session.out += "ok";
-  append_pair(session.out, "recording", recording->names());
+  reply.add("recording", recording->names());
 }
 
 // The words of `shot`, in any order.
@@ -113,62 +113,59 @@ ShotWords shot_words(Words arguments) {
   return words;
 }
 
-void append_size(std::string& out, const Environment& machine, std::size_t bytes) {
-  append_pair(out, "width", static_cast<std::int64_t>(kPictureWidth));
-  append_pair(out, "height", machine.height());
-  append_pair(out, "bytes", static_cast<std::int64_t>(bytes));
+void add_size(Reply& reply, const Environment& machine, std::size_t bytes) {
+  reply.add("width", static_cast<std::int64_t>(kPictureWidth));
+  reply.add("height", machine.height());
+  reply.add("bytes", static_cast<std::int64_t>(bytes));
 }
 
-void write_picture(Session& session, std::string_view name, const Environment& machine) {
-  const auto picture = session.picture = begin(session.service, {MediaKind::kPicture}, name, machine);
-  await(*picture, session.pacer);
+void write_picture(Context& context, std::string_view name, const Environment& machine, Reply& reply) {
+  const auto picture = context.media.picture = begin(context.service, {MediaKind::kPicture}, name, machine);
+  await(*picture, context.pacer);
   if (!picture->finished()) picture->add(machine);
   picture->finish();
-  await(*picture, session.pacer);
-  session.picture.reset();
+  await(*picture, context.pacer);
+  context.media.picture.reset();
   const Recording::Result& result = picture->result();
   if (result.names.empty()) throw RequestError(ErrorCode::kRecording, result.failure);
-  session.out += "ok";
-  append_pair(session.out, "picture", result.names);
-  append_size(session.out, machine, result.bytes);
+  reply.add("picture", result.names);
+  add_size(reply, machine, result.bytes);
 }
 
-void hand_over_picture(Session& session, const Environment& machine) {
+void hand_over_picture(Context& context, const Environment& machine, Reply& reply) {
   const auto pixels = machine.screen();
   constexpr std::size_t kBytesOfPixel = 8;  // rows, packed rows, the file and its text
-  session.memory.check(kBytesOfPixel * pixels.size(), "a picture");
+  context.memory.check(kBytesOfPixel * pixels.size(), "a picture");
   PngWriter writer(footage_of(machine));
   const auto file = writer.file(pixels);
-  session.check_reply(text_size(Encoding::kBase64, file.size()), "a picture");
-  session.out += "ok";
-  append_size(session.out, machine, file.size());
-  append_pair(session.out, "data", "");
-  append_base64(session.out, file);
+  context.check_reply(text_size(Encoding::kBase64, file.size()), "a picture");
+  add_size(reply, machine, file.size());
+  append_base64(reply.add_long("data"), file);
 }
 
 }  // namespace
 
-void run_record(Session& session, Words arguments) {
-  if (arguments[0] == "stop" && arguments.size() == 1) return stop(session);
+void run_record(Context& context, Words arguments, Reply& reply) {
+  if (arguments[0] == "stop" && arguments.size() == 1) return stop(context, reply);
   const auto kinds = parse_kinds(arguments[0]);
   if (arguments.size() < 2) throw RequestError(ErrorCode::kBadArguments, std::string(kTaken));
-  if (!session.service.recorder)
+  if (!context.service.recorder)
     throw RequestError(ErrorCode::kRecording,
                        "this server does not record; it was started without --record-dir");
-  if (session.recording)
+  if (context.media.recording)
     throw RequestError(ErrorCode::kRecording,
-                       session.recording->names() + " has not been stopped; record stop does it");
+                       context.media.recording->names() + " has not been stopped; record stop does it");
   const std::string_view name = checked_name(arguments[1], "recording");
   std::optional<std::string_view> machine;
   if (arguments.size() > 2) machine = value_of(arguments[2], "machine", "record");
-  start(session, kinds, name, subject_of(session, machine));
+  start(context, kinds, name, subject_of(context, machine), reply);
 }
 
-void run_shot(Session& session, Words arguments) {
+void run_shot(Context& context, Words arguments, Reply& reply) {
   const ShotWords words = shot_words(arguments);
-  const Environment& machine = subject_of(session, words.machine).slot.environment();
-  if (words.name && session.service.recorder) return write_picture(session, *words.name, machine);
-  hand_over_picture(session, machine);
+  const Environment& machine = subject_of(context, words.machine).slot.environment();
+  if (words.name && context.service.recorder) return write_picture(context, *words.name, machine, reply);
+  hand_over_picture(context, machine, reply);
 }
 
 }  // namespace racebeam

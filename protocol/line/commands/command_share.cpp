@@ -7,7 +7,8 @@
 
 #include "games/game/actions.hpp"
 #include "games/similar.hpp"
-#include "protocol/line/session.hpp"
+#include "protocol/line/context.hpp"
+#include "protocol/line/reply.hpp"
 #include "protocol/line/watching.hpp"
 
 namespace racebeam {
@@ -31,8 +32,8 @@ std::string share_name(std::string_view text) {
 
 constexpr std::size_t kMostSimilar = 256;  // names that are compared: more would take milliseconds
 
-[[noreturn]] void refuse_unknown(const Session& session, std::string_view name) {
-  const auto all = session.service.shares->all();
+[[noreturn]] void refuse_unknown(const Context& context, std::string_view name) {
+  const auto all = context.service.shares->all();
   std::vector<std::string_view> names;
   for (const auto& share : std::span(all).first(std::min(all.size(), kMostSimilar)))
     names.push_back(share->name());
@@ -56,26 +57,26 @@ void make_room(Watching& watching) {
 }
 
 // A name that is shared anew keeps what its last reply showed, since the watcher keeps it, too.
-Watched& watched(Session& session, std::string_view name) {
-  for (auto& [known, subject] : session.watching)
+Watched& watched(Context& context, std::string_view name) {
+  for (auto& [known, subject] : context.watching)
     if (subject.ended()) subject.leave();
-  const auto found = session.watching.find(name);
-  const bool is_known = found != session.watching.end();
+  const auto found = context.watching.find(name);
+  const bool is_known = found != context.watching.end();
   if (is_known && !found->second.ended()) return found->second;
-  const auto share = session.service.shares->find(name);
-  if (!share) refuse_unknown(session, name);
-  if (!is_known) make_room(session.watching);
+  const auto share = context.service.shares->find(name);
+  if (!share) refuse_unknown(context, name);
+  if (!is_known) make_room(context.watching);
   auto place = place_of(share);
-  Watched& subject = is_known ? found->second : session.watching[std::string(name)];
+  Watched& subject = is_known ? found->second : context.watching[std::string(name)];
   subject.enter(std::move(place));
   return subject;
 }
 
-void append_scores(std::string& out, const Snapshot& snapshot) {
-  append_pair(out, "game", snapshot.game);
-  append_pair(out, "frame", snapshot.frame);
-  append_pair(out, "score", snapshot.score);
-  append_pair(out, "episode", snapshot.episode);
+void add_scores(Reply& reply, const Snapshot& snapshot) {
+  reply.add("game", snapshot.game);
+  reply.add("frame", snapshot.frame);
+  reply.add("score", snapshot.score);
+  reply.add("episode", snapshot.episode);
 }
 
 // 0 if the session has not published for a while: it waits for its client.
@@ -87,47 +88,42 @@ std::int64_t frames_a_second(const Snapshot& snapshot) {
 
 }  // namespace
 
-void run_share(Session& session, Words arguments) {
+void run_share(Context& context, Words arguments, Reply& reply) {
   const std::string name = share_name(arguments[0]);
   int most = kUsualWatchers;
   if (arguments.size() > 1) {
     most = static_cast<int>(
         number_within(value_of(arguments[1], "watchers", "share"), "watchers", 1, kMostWatchers));
   }
-  if (session.sharing && session.sharing->share().name() == name) session.sharing.reset();
-  auto sharing = Sharing::open(session.service.shares, name, most);
+  if (context.sharing && context.sharing->share().name() == name) context.sharing.reset();
+  auto sharing = Sharing::open(context.service.shares, name, most);
   if (!sharing) throw RequestError(ErrorCode::kBadValue, "the name " + quote(name) + " is taken");
-  session.sharing = std::move(sharing);
-  session.out += "ok";
-  append_pair(session.out, "share", name);
-  append_pair(session.out, "watchers", most);
+  context.sharing = std::move(sharing);
+  reply.add("share", name);
+  reply.add("watchers", most);
 }
 
-void run_unshare(Session& session, Words) {
-  if (session.service.share_all)
+void run_unshare(Context& context, Words, Reply&) {
+  if (context.service.share_all)
     throw RequestError(ErrorCode::kBadValue, "this server shares all sessions (--watch all)");
-  session.sharing.reset();
-  session.out += "ok";
+  context.sharing.reset();
 }
 
-void run_shared(Session& session, Words) {
-  std::string groups;
-  std::int64_t count = 0;
-  for (const auto& share : session.service.shares->all()) {
-    const auto snapshot = share->newest();
-    if (!snapshot) continue;  // in a moment
-    ++count;
-    groups += " |";
-    append_pair(groups, "name", share->name());
-    append_scores(groups, *snapshot);
-    append_pair(groups, "fps", frames_a_second(*snapshot));
+void run_shared(Context& context, Words, Reply& reply) {
+  std::vector<std::pair<std::string, std::shared_ptr<const Snapshot>>> shown;
+  for (const auto& share : context.service.shares->all())
+    if (auto snapshot = share->newest())
+      shown.emplace_back(share->name(), std::move(snapshot));  // else in a moment
+  reply.add("count", static_cast<std::int64_t>(shown.size()));
+  for (const auto& [name, snapshot] : shown) {
+    reply.add_group();
+    reply.add("name", name);
+    add_scores(reply, *snapshot);
+    reply.add("fps", frames_a_second(*snapshot));
   }
-  session.out += "ok";
-  append_pair(session.out, "count", count);
-  session.out += groups;
 }
 
-void run_watch(Session& session, Words arguments) {
+void run_watch(Context& context, Words arguments, Reply& reply) {
   Words words = arguments.subspan(1);
   std::optional<std::int64_t> since;
   if (!words.empty() && words[0].starts_with("since=")) {
@@ -136,19 +132,18 @@ void run_watch(Session& session, Words arguments) {
     words = words.subspan(1);
   }
   const std::vector<Field> fields = parse_watched_fields(words);
-  session.memory.check(View::most_held(fields), "a view of these fields");
-  Watched& subject = watched(session, arguments[0]);
+  context.memory.check(View::most_held(fields), "a view of these fields");
+  Watched& subject = watched(context, arguments[0]);
   const auto snapshot = subject.newest();
-  if (!snapshot) refuse_unknown(session, arguments[0]);
-  std::string& out = session.out;
-  out += "ok";
-  append_scores(out, *snapshot);
-  append_pair(out, "over", snapshot->over);
-  append_pair(out, "lives", snapshot->lives);
-  append_pair(out, "reward", snapshot->reward);
-  append_pair(out, "action", action_name(snapshot->action));
-  append_pair(out, "height", snapshot->height());
-  if (since != snapshot->frame) subject.append(out, session.raw, fields, *snapshot);
+  if (!snapshot) refuse_unknown(context, arguments[0]);
+  add_scores(reply, *snapshot);
+  reply.add("over", snapshot->over);
+  reply.add("lives", snapshot->lives);
+  reply.add("reward", snapshot->reward);
+  reply.add("action", action_name(snapshot->action));
+  reply.add("height", snapshot->height());
+  if (since == snapshot->frame) return;
+  reply.add_fields([&](std::string& out, std::string& raw) { subject.append(out, raw, fields, *snapshot); });
 }
 
 }  // namespace racebeam

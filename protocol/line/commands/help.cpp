@@ -185,7 +185,6 @@ HelpText help_on(std::string_view name) {
 }
 
 void append_help(std::string& out, const HelpText& help, int columns) {
-  out += "ok ";
   if (columns <= 0) {
     out += help.head;
     bool listed = help.head.ends_with(':');

@@ -10,20 +10,12 @@
 #include <string_view>
 #include <vector>
 
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
 #include "protocol/line/play_settings.hpp"
 #include "protocol/line/words.hpp"
 
 namespace racebeam::test {
-
-struct ReplyRow {
-  std::string_view command;
-  std::string_view first, groups;  // KEY:TYPE or KEY?:TYPE, with blanks between them
-  std::string_view shows;          // where the fields are: first, asked, groups, or nowhere
-  std::string_view echoes;         // the table whose names are keys, too
-};
-
-#include "tests/protocol/description/reply_rows.inc"
 
 class ReplyCheck {
  public:
@@ -38,8 +30,8 @@ class ReplyCheck {
     if (words[0] == "error") return check_error(words);
     if (words[0] != "ok") fail("begins with neither ok nor error");
     const std::string_view name = asked[0] == "exit" ? "quit" : asked[0] == "?" ? "help" : asked[0];
-    const auto row = std::ranges::find(kReplies, name, &ReplyRow::command);
-    if (row == kReplies.end()) fail("answers a command that is not described");
+    const auto row = std::ranges::find(commands(), name, &Command::name);
+    if (row == commands().end()) fail("answers a command that is not described");
     if (name != "help") check_groups(*row, Words(words).subspan(1));
   }
 
@@ -55,7 +47,7 @@ class ReplyCheck {
     if (std::ranges::find(names, words[1]) == names.end()) fail("has a code that is not described");
   }
 
-  void check_groups(const ReplyRow& row, Words words) const {
+  void check_groups(const Command& row, Words words) const {
     for (bool first = true; first || !words.empty(); first = false) {
       const auto end = std::ranges::find(words, std::string_view("|"));
       const auto count = static_cast<std::size_t>(end - words.begin());
@@ -64,9 +56,9 @@ class ReplyCheck {
     }
   }
 
-  void check_group(const ReplyRow& row, Words words, bool first) const {
+  void check_group(const Command& row, Words words, bool first) const {
     std::vector<std::string_view> described;
-    split(first ? row.first : row.groups, described);
+    split(first ? row.reply : row.groups, described);
     const bool shows = first ? row.shows == "first" || row.shows == "asked" : row.shows == "groups";
     std::set<std::string_view> there;
     for (const std::string_view word : words) {
@@ -80,7 +72,7 @@ class ReplyCheck {
     }
   }
 
-  void check_pair(const ReplyRow& row, Words described, bool shows, std::string_view key,
+  void check_pair(const Command& row, Words described, bool shows, std::string_view key,
                   std::string_view value) const {
     for (std::string_view name : described) {
       const std::string_view type = cut_behind(name, ':');
