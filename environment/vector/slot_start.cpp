@@ -142,9 +142,7 @@ bool Slot::has_fire() const {
   return settings_.fire_at_reset && std::ranges::find(actions_, kFire) != actions_.end();
 }
 
-void Slot::run_noops(int frames) {
-  play_noops(environment_, frames);
-}
+void Slot::run_noops(int frames) { play_noops(environment_, frames); }
 
 void Slot::run_noops_and_fire(bool fire) {
   run_noops(noops_.draw() + 1 - fire);

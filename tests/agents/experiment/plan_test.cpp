@@ -88,7 +88,8 @@ TEST_CASE("Mistakes in a plan are named with their line") {
   check("environment = \"noop_max=1001\"\n", "test.toml:3: environment: noop_max is '1001'");
   check("environment = \"autoreset=1\"\n",
         "test.toml:3: environment: autoreset is next-step; an episode that is played");
-  check("training_environment = \"autoreset=1\"\n", "test.toml:3: training_environment: autoreset is next-step");
+  check("training_environment = \"autoreset=1\"\n",
+        "test.toml:3: training_environment: autoreset is next-step");
   check("training_environment = \"seed=1\"\n", "test.toml:3: training_environment: seed is not accepted");
   check("training_environment = \"max_episode_frames=0\"\n",
         "test.toml:3: training_environment: max_episode_frames is 0");

@@ -173,7 +173,9 @@ class BadInput(unittest.TestCase):
                 ):
                     AtariVectorEnv("beamfall", 2, life_loss=lives, **{flag: True})
         for lives in (3, np.zeros(2)):
-            self.assertRaisesRegex(Error, "life_loss is", AtariVectorEnv, "beamfall", 2, life_loss=lives, episodic_life=True)
+            self.assertRaisesRegex(
+                Error, "life_loss is", AtariVectorEnv, "beamfall", 2, life_loss=lives, episodic_life=True
+            )
         AtariVectorEnv("beamfall", 2, life_loss="restart", episodic_life=True)
         with self.assertWarnsRegex(DeprecationWarning, "lives is the old name of life_loss"):
             AtariVectorEnv("beamfall", 2, lives="end")

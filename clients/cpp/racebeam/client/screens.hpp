@@ -38,9 +38,9 @@ class Palette {
   std::array<std::uint32_t, 256> colours_{};
 };
 
-/// A stack of screens that the client makes, as the server does for the field `grey84x84xN`: the last screens,
-/// oldest first, and zeros before the first one. For `observe("grey84x84x1:delta")`, whose replies are shorter
-/// than those of a stack.
+/// A stack of screens that the client makes, as the server does for the field `grey84x84xN`: the last
+/// screens, oldest first, and zeros before the first one. For `observe("grey84x84x1:delta")`, whose replies
+/// are shorter than those of a stack.
 class ScreenStack {
  public:
   /// @param depth screens of the stack, at least 1
