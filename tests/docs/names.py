@@ -13,6 +13,8 @@ FOLDERS = (
     "emulator",
     "games",
     "environment",
+    "include",
+    "library",
     "recording",
     "protocol",
     "server",

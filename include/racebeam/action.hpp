@@ -1,0 +1,52 @@
+// The 18 actions of a player, which are the positions of a joystick with and without its button.
+// All of it is values and constant tables, which any number of threads may use at the same time.
+//
+//     const racebeam::Action action = racebeam::Action::kUpFire;
+//     std::cout << racebeam::name_of(action) << '\n';  // UPFIRE
+//     const auto found = racebeam::action_named("RIGHT");
+//     return found == racebeam::Action::kRight ? 0 : 1;
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "racebeam/config.hpp"
+
+namespace RACEBEAM_NAMESPACE {
+
+// The numbers are those of the Arcade Learning Environment.
+enum class Action : std::uint8_t {
+  kNoop,
+  kFire,
+  kUp,
+  kRight,
+  kLeft,
+  kDown,
+  kUpRight,
+  kUpLeft,
+  kDownRight,
+  kDownLeft,
+  kUpFire,
+  kRightFire,
+  kLeftFire,
+  kDownFire,
+  kUpRightFire,
+  kUpLeftFire,
+  kDownRightFire,
+  kDownLeftFire
+};
+
+inline constexpr int kActions = 18;
+
+RACEBEAM_API std::string_view name_of(Action action) noexcept;                    // "UPFIRE"
+RACEBEAM_API std::optional<Action> action_named(std::string_view name) noexcept;  // nothing if there is none
+
+// What both players do in one step.
+struct Controls {
+  Action a = Action::kNoop, b = Action::kNoop;
+  float strength_a = 1, strength_b = 0;  // how fast a paddle is turned, where the game has paddles: 0 to 1
+  int frames = 0;                        // how long; 0: Settings::frame_skip
+};
+
+}  // namespace RACEBEAM_NAMESPACE

@@ -1,0 +1,64 @@
+// The settings of an Environment, which do not change after it was made.
+// They are plain values: each thread fills its own, and an environment copies what it is given.
+//
+//     racebeam::Settings settings;
+//     settings.seed = 7;
+//     settings.frame_skip = 4;  // each step lasts four frames
+//     settings.sticky = 0;      // and does what the agent says
+//     racebeam::Environment environment(racebeam::Image::load("builtin:beamfall"), settings);
+//     environment.step(racebeam::Action::kFire);
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "racebeam/config.hpp"
+
+namespace RACEBEAM_NAMESPACE {
+
+// Which rule computes rewards, lives and the end.
+enum class Rules {
+  kAle012,  // that of the Arcade Learning Environment 0.12, with its errors
+  kFixed    // the corrected rule, where an error is known (docs/rules.md)
+};
+
+// Which screens the caller reads. A screen that was not drawn is drawn when it is read, which costs more.
+enum class Screens {
+  kOnDemand,  // few: rewards and RAM are enough
+  kLast,      // the one after each step
+  kLastTwo,   // previous_screen(), too
+  kEvery      // those of all frames, in on_frame()
+};
+
+// What executes the game's instructions. The bytes are the same.
+enum class Cpu {
+  kAuto,  // the translator, where the computer can run it
+  kInterpreter,
+  kTranslator
+};
+
+struct Settings {
+  // What is played. The defaults are those of the Arcade Learning Environment.
+  std::uint32_t seed = 0;               // of sticky actions
+  std::uint32_t system_seed = 4753849;  // of RAM and timer at power-on
+  int frame_skip = 1;                   // frames of a step
+  int frame_skip_max = 0;               // above frame_skip: each step draws its frames from this range
+  float sticky = 0.25F;                 // probability that a frame repeats the action of the frame before
+  Rules rules = Rules::kAle012;
+  int paddle_min = -1, paddle_max = -1;  // how far paddles turn; -1: the game's own limits
+
+  // When an episode is truncated.
+  int max_episode_frames = 0;  // 0: no limit
+  bool truncate_on_life_loss = false;
+
+  // What is observed.
+  int reward_min = std::numeric_limits<int>::min(), reward_max = std::numeric_limits<int>::max();
+  bool color_averaging = false;  // a screen blends the last two frames
+  bool sound = false;            // each step makes audio()
+
+  // What only affects the speed.
+  Screens screens = Screens::kLast;
+  Cpu cpu = Cpu::kAuto;
+};
+
+}  // namespace RACEBEAM_NAMESPACE

@@ -1,0 +1,137 @@
+// Many machines that step together on threads, for agents that learn: screens are resized and stacked.
+// One thread at a time may use a VectorEnvironment, which has threads of its own for its machines.
+//
+//     const auto image = racebeam::Image::load("builtin:beamfall");
+//     racebeam::VectorEnvironment environments(image, racebeam::Game::recognise(image), 8);
+//     racebeam::VectorResults results = environments.make_results();
+//     environments.reset(results);
+//     std::vector<int> actions(environments.size());
+//     for (int step = 0; step < 100; ++step) {
+//       for (std::size_t i = 0; i < actions.size(); ++i)
+//         actions[i] = results.observations[i * environments.observation_size()] % 2;  // the policy
+//       environments.step(actions, results);
+//     }
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "racebeam/action.hpp"
+#include "racebeam/config.hpp"
+#include "racebeam/game.hpp"
+#include "racebeam/image.hpp"
+#include "racebeam/settings.hpp"
+#include "racebeam/snapshot.hpp"
+
+namespace RACEBEAM_NAMESPACE {
+
+// What happens to a machine whose episode is over, as in Gymnasium.
+enum class Autoreset {
+  kNextStep,  // its next step resets it and ignores the action
+  kSameStep,  // the same step resets it, and final_observations has what was seen last
+  kDisabled   // its steps do nothing until reset()
+};
+
+// What a lost life does.
+enum class LifeLoss {
+  kIgnored,
+  kReported,   // the step counts as terminated, and the episode continues
+  kContinues,  // the episode ends, and the next one continues the game
+  kRestarts    // the episode ends, and the next one is a new game
+};
+
+struct VectorSettings {
+  // What is played. frame_skip and the limits of rewards and frames apply to a step. frame_skip_max,
+  // truncate_on_life_loss and color_averaging must not be set; `screens` of this member has no effect.
+  Settings machine{
+      .frame_skip = 4, .sticky = 0, .max_episode_frames = 108000, .reward_min = -1, .reward_max = 1};
+  std::optional<int> mode, difficulty;  // nothing: the game's defaults
+  bool minimal_actions = true;          // false: all 18
+  LifeLoss life_loss = LifeLoss::kIgnored;
+  Autoreset autoreset = Autoreset::kNextStep;
+  int noop_max = 30;          // an episode begins with fewer frames of NOOP than this, at random
+  bool fire_at_reset = true;  // and with FIRE, if the game has it
+
+  // What is observed: the last screens, oldest first.
+  int stack = 4;                // 0: no observations
+  int width = 84, height = 84;  // at most twice the machine's; 0: the machine's
+  bool rgb = false;             // red, green and blue of each pixel instead of one grey
+  bool max_pool = true;         // each pixel is the brighter of the last two frames
+
+  // What only affects the speed.
+  std::size_t batch_size = 0;  // how many machines one receive() returns; 0: all
+  unsigned threads = 0;        // 0: one for each processor that the process may use
+};
+
+// Memory of the caller, into which results are written. The machines follow each other in every array. What
+// is left empty is not written.
+struct VectorArrays {
+  std::span<std::uint8_t> observations{};        // observation_size() bytes for each machine
+  std::span<std::uint8_t> final_observations{};  // with Autoreset::kSameStep, of the episodes that ended
+  std::span<std::uint8_t> ram{};                 // 128 bytes for each machine
+  std::span<std::int32_t> rewards{}, lives{}, episode_frames{};  // rewards of player A
+  std::span<std::uint8_t> terminated{}, truncated{};             // 0 or 1
+  std::span<std::int32_t> machines{};                            // the numbers of the machines, from 0
+};
+
+// The same with memory of its own.
+struct VectorResults {
+  std::vector<std::uint8_t> observations, final_observations, ram;
+  std::vector<std::int32_t> rewards, lives, episode_frames;
+  std::vector<std::uint8_t> terminated, truncated;
+  std::vector<std::int32_t> machines;
+
+  operator VectorArrays() {
+    return {observations,   final_observations, ram,       rewards, lives,
+            episode_frames, terminated,         truncated, machines};
+  }
+};
+
+class RACEBEAM_API VectorEnvironment {
+ public:
+  // Powers machines on: `count` of one game, or one for each cartridge. Machine n has the seed of the
+  // settings plus n. Throws Error for settings or an image that cannot be used.
+  VectorEnvironment(const Image& image, const Game& game, std::size_t count,
+                    const VectorSettings& settings = {});
+  explicit VectorEnvironment(std::span<const Cartridge> cartridges, const VectorSettings& settings = {});
+  ~VectorEnvironment();
+  VectorEnvironment(VectorEnvironment&&) noexcept;
+  VectorEnvironment& operator=(VectorEnvironment&&) noexcept;
+
+  std::size_t size() const;
+  std::size_t batch_size() const;
+  std::size_t observation_size() const;                    // bytes: stack x height x width [x 3]
+  std::vector<Action> actions(std::size_t machine) const;  // what the indices of step() mean
+  VectorResults make_results() const;                      // of batch_size() machines
+
+  // Steps every machine: actions[n] is an index into actions(n). Throws Error, before anything is run, for an
+  // index or an array of another size.
+  void step(std::span<const int> actions, const VectorArrays& out);
+
+  // Begins new episodes of all machines, or of those whose byte in `chosen` is not 0. A seed of 0 or more
+  // powers its machine on anew; with a negative one, or none, the random numbers continue.
+  void reset(const VectorArrays& out, std::span<const std::int64_t> seeds = {},
+             std::span<const std::uint8_t> chosen = {});
+
+  // Writes what the machines show now, for example after a restore.
+  void observe(const VectorArrays& out) const;
+
+  // A step in two halves, so that the caller works with some machines while others play. send() begins a step
+  // of the machines that it names, and receive() waits for the batch_size() that finish first.
+  void send(std::span<const int> actions, std::span<const std::int32_t> machines);
+  void receive(const VectorArrays& out);
+
+  // As those of Environment. A snapshot has the stack of screens, too.
+  Snapshot save(std::size_t machine, bool with_random = false);
+  void restore(std::size_t machine, const Snapshot& snapshot);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace RACEBEAM_NAMESPACE

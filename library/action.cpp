@@ -1,0 +1,17 @@
+#include "racebeam/action.hpp"
+
+#include "games/game/actions.hpp"
+
+namespace racebeam::v0 {
+
+static_assert(kActions == racebeam::kActions);
+
+std::string_view name_of(Action action) noexcept { return action_name(static_cast<int>(action)); }
+
+std::optional<Action> action_named(std::string_view name) noexcept {
+  const auto number = action_number(name);
+  if (!number || *number >= kActions) return std::nullopt;  // RESET is not an agent's
+  return static_cast<Action>(*number);
+}
+
+}  // namespace racebeam::v0
