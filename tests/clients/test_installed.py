@@ -16,6 +16,11 @@ from harness import BINARY, SKIPPED  # noqa: E402
 
 BUILD = pathlib.Path(os.environ["RACEBEAM_BUILD"])
 CONSUMER = SOURCE / "tests/clients/consumer"
+HEADERS = sorted((SOURCE / "include/racebeam").glob("*.hpp*")) + [SOURCE / "clients/cpp/racebeam/client.hpp"]
+CXX = os.environ.get("CXX", "c++")
+OURS = re.compile(r"_Z(?:T[ISV])?NK?8racebeam")
+INTERFACE = re.compile(r"_ZNK?8racebeam2v0|_ZT[ISV]N8racebeam2v0")
+STRICT = ("-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Werror")
 VERSION = subprocess.run([BINARY, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
 SCORE = f"{VERSION} 82 400\n"  # as in protocol/PROTOCOL.md, "States"
 PLAIN = {key: value for key, value in os.environ.items() if not key.startswith("CMAKE")}
@@ -33,6 +38,17 @@ def run(*command, **variables):
     if done.returncode != 0:
         raise AssertionError(f"{' '.join(map(str, command))}\n{done.stdout}")
     return done.stdout
+
+
+def name_of(header):
+    """The name of a header where it is installed."""
+    return f"racebeam/{header.name.removesuffix('.in')}"
+
+
+def usage_of(header):
+    """The program that the comment at the top of a header shows, without what is around it."""
+    comment = header.read_text().partition("#pragma once")[0]
+    return "\n".join(re.findall(r"^///?     (.*)$|^//$", comment, re.MULTILINE)).strip()
 
 
 class Installed(unittest.TestCase):
@@ -60,12 +76,61 @@ class Installed(unittest.TestCase):
     def test_a_program_is_built_by_pkg_config(self):
         for package, name in (("racebeam", "in_process"), ("racebeam-client", "on_a_server")):
             with self.subTest(package):
-                told = run("pkg-config", "--cflags", "--libs", package, PKG_CONFIG_PATH=str(self.pkgconfig)).split()
-                program = self.prefix / name
-                run(os.environ.get("CXX", "c++"), CONSUMER / f"{name}.cpp", "-o", program, *told)
-                self.assertEqual(run(program), SCORE)
+                program = self.compiled(name, (CONSUMER / f"{name}.cpp").read_text(), *self.flags(package))
+                self.assertEqual(run(program, LD_LIBRARY_PATH=str(self.libraries)), SCORE)
                 version = run("pkg-config", "--modversion", package, PKG_CONFIG_PATH=str(self.pkgconfig))
                 self.assertEqual(version.strip(), VERSION)
+
+    def flags(self, package):
+        return run("pkg-config", "--cflags", "--libs", package, PKG_CONFIG_PATH=str(self.pkgconfig)).split()
+
+    def compiled(self, name, text, *flags):
+        """A program, compiled with warnings as errors."""
+        source = self.prefix / f"{name}.cpp"
+        source.write_text(text)
+        run(CXX, *STRICT, source, "-o", source.with_suffix(""), *flags)
+        return source.with_suffix("")
+
+    def test_each_header_stands_by_itself(self):
+        for header in HEADERS:
+            with self.subTest(header.name):
+                package = "racebeam-client" if header.name == "client.hpp" else "racebeam"
+                text = f"#include <{name_of(header)}>\n#include <{name_of(header)}>\nint main() {{}}\n"
+                (self.prefix / "header.cpp").write_text(text)
+                run(CXX, *STRICT, "-fsyntax-only", self.prefix / "header.cpp", *self.flags(package))
+
+    def test_each_header_shows_a_program_that_runs(self):
+        for header in HEADERS:
+            with self.subTest(header.name):
+                package, first = (
+                    ("racebeam-client", "client") if header.name == "client.hpp" else ("racebeam", "racebeam")
+                )
+                usage = usage_of(header)
+                self.assertTrue(usage)
+                text = f"#include <iostream>\n#include <racebeam/{first}.hpp>\nint main() {{\n{usage}\n}}\n"
+                run(self.compiled("usage", text, *self.flags(package)), LD_LIBRARY_PATH=str(self.libraries))
+
+    def test_each_header_says_which_threads_may_use_it(self):
+        for header in HEADERS:
+            with self.subTest(header.name):
+                self.assertRegex(header.read_text().partition("     ")[0], "[Tt]hread")
+
+    def test_only_public_headers_are_installed(self):
+        installed = {path.relative_to(self.prefix / "include").as_posix() for path in self.prefix.rglob("*.hpp")}
+        public = {name for name in installed if not name.startswith("racebeam/client/")}
+        self.assertEqual(public, {name_of(header) for header in HEADERS})
+
+    def test_only_the_interface_is_exported(self):
+        """Of the static library too: a shared library that is linked with it exports no more."""
+        table = run("readelf", "--syms", "--wide", self.libraries / "libracebeam.a")
+        seen = set(re.findall(r"(?:GLOBAL|WEAK) +DEFAULT +\d+ (\S+)", table))
+        ours = {name for name in seen if OURS.match(name)}
+        self.assertIn("_ZN8racebeam2v07versionEv", ours)
+        self.assertEqual({name for name in ours if not INTERFACE.match(name)}, set())
+        for library in self.libraries.glob("libracebeam.so"):
+            exported = {line.split()[-1] for line in run("nm", "-D", "--defined-only", library).splitlines()}
+            self.assertIn("_ZN8racebeam2v07versionEv", exported)
+            self.assertEqual({name for name in exported if not INTERFACE.match(name)}, set())
 
     def test_the_programs_of_its_page_are_built(self):
         blocks = dict(
@@ -82,7 +147,7 @@ class Installed(unittest.TestCase):
         self.assertRegex(run(agent / "built/agent"), r"^\d+\n$")
 
     def test_another_version_of_gcc_can_link_it(self):
-        sections = run("objdump", "-h", self.libraries / "libracebeam_emulator.a")
+        sections = run("objdump", "-h", self.libraries / "libracebeam.a")
         self.assertIn(".text", sections)
         self.assertNotIn(".gnu.lto", sections)
 

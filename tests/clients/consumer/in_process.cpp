@@ -1,19 +1,18 @@
 // Plays Beamfall in this process, and prints the version, the sum of the rewards and the frames.
 #include <iostream>
-
-#include "environment/environment.hpp"
-#include "games/catalogue.hpp"
-#include "version.hpp"
+#include <racebeam/racebeam.hpp>
 
 int main() {
-  const auto image = racebeam::load_image("builtin:beamfall");
   racebeam::Settings settings;
-  settings.random_seed = 7;
+  settings.seed = 7;
   settings.frame_skip = 4;
   settings.sticky = 0;
-  racebeam::Environment machine(image, racebeam::recognise(*image).game, settings);
-  constexpr int kFire = 1;
+  racebeam::Environment environment(racebeam::Image::load("builtin:beamfall"), settings);
   int score = 0;
-  for (int act = 0; act < 100; ++act) score += machine.act(kFire);
-  std::cout << RACEBEAM_VERSION_STRING << ' ' << score << ' ' << machine.frame_number() << '\n';
+  for (int step = 0; step < 100; ++step) score += environment.step(racebeam::Action::kFire);
+  try {
+    environment.set_mode(-1);  // an exception passes from a shared library to its program
+  } catch (const racebeam::Error&) {
+    std::cout << RACEBEAM_VERSION_STRING << ' ' << score << ' ' << environment.episode_frames() << '\n';
+  }
 }
