@@ -5,10 +5,8 @@ import importlib.metadata
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import package
@@ -20,9 +18,6 @@ import racebeam._core
 from racebeam.extras import install_hint
 
 FOLDER = pathlib.Path(racebeam.__file__).parent
-
-
-OPTIONAL = ("gymnasium", "ale_py", "stable_baselines3", "jax", "torch", "torchrl", "tianshou", "ray")
 
 
 def python(script, *words, folder=None, **environment):
@@ -196,25 +191,6 @@ class Program(unittest.TestCase):
             PATH="/nowhere",
         )
         self.assertIn("the program racebeam is neither beside this package nor on the PATH", done.stdout)
-
-
-class Readme(unittest.TestCase):
-    def test_the_examples_of_the_documents_run(self):
-        for document in ("README.md", "docs/python.md", "clients/python/README.md"):
-            text = (package.SOURCE / document).read_text()
-            for number, example in enumerate(re.findall(r"(?ms)^```python\n(.*?)^```", text)):
-                with self.subTest(document=document, example=number):
-                    needs = {module for module in OPTIONAL if re.search(rf"\b(import|from) {module}\b", example)}
-                    needs |= {"gymnasium"} if re.search(r"Atari\w*Env", example) else set()
-                    needs |= {"moviepy"} if "RecordVideo" in example else set()
-                    if not all(map(has, needs)) or ("Pong" in example and "pong" not in package.roms()):
-                        continue
-                    with tempfile.TemporaryDirectory() as folder:
-                        if "my_game" in example:
-                            shutil.copy(package.SOURCE / "games/catalogue/beamfall.toml", f"{folder}/my_game.toml")
-                            shutil.copy(package.SOURCE / "games/homebrew/beamfall.bin", f"{folder}/my_game.bin")
-                        done = python(example, folder=folder)
-                    self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 if __name__ == "__main__":
