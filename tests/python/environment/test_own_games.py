@@ -2,14 +2,17 @@
 
 import contextlib
 import copy
+import os
 import pathlib
 import pickle
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 import warnings
 
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")
