@@ -187,13 +187,14 @@ TEST_CASE("Baselines are 37, in the plan's order, with their own seeds") {
 TEST_CASE("There is a Const for each action of the plan's set") {
   const auto names = [](const std::string& set) {
     const Plan plan = parse_plan(
-        "games = [\"beamfall\"]\nagents = [\"const\"]\nenvironment = \"action_set=" + set + "\"\n", "");
+        "games = [\"updraft\"]\nagents = [\"const\"]\nenvironment = \"action_set=" + set + "\"\n", "");
     std::vector<std::string> list;
     for (const Unit& unit : units_of(plan)) list.push_back(unit.agent_name);
     return list;
   };
   std::vector<std::string> minimal;
-  for (const int action : find_game("beamfall")->minimal_actions)
+  const std::shared_ptr<const Game> updraft = find_game("updraft");
+  for (const int action : updraft->minimal_actions)
     minimal.push_back(agent_name(*find_agent_kind("const"), action));
   REQUIRE(minimal.size() < 18);
   CHECK(names("minimal") == minimal);

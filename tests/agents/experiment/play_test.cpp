@@ -102,17 +102,18 @@ TEST_CASE("Logs with no-ops and minimal actions are played again, and other acti
   PlaySettings play = short_episodes();
   play.noop_max = 30;
   play.action_set = ActionSet::kMinimal;
-  const std::vector<int>& minimal = beamfall().game->minimal_actions;
+  const Cartridge updraft{load_image("builtin:updraft"), find_game("updraft")};
+  const std::vector<int>& minimal = updraft.game->minimal_actions;
   FixedPolicy agent(minimal[0], 0, 7, minimal);
-  EpisodeLog log = log_of_episode(agent, play, 7);
+  EpisodeLog log = log_of_episode(agent, play, 7, updraft);
   for (const int action : log.actions) REQUIRE(std::ranges::find(minimal, action) != minimal.end());
-  const Replay played = Replayer(1, CpuKind::kAuto).play(log, beamfall());
+  const Replay played = Replayer(1, CpuKind::kAuto).play(log, updraft);
   CHECK(played.end == log.end);
   CHECK(played.hashes == log.hashes);
   int other = 0;
   while (std::ranges::find(minimal, other) != minimal.end()) ++other;
   log.actions[3] = static_cast<std::uint8_t>(other);
-  CHECK_THROWS_WITH(Replayer(1, CpuKind::kAuto).play(log, beamfall()),
+  CHECK_THROWS_WITH(Replayer(1, CpuKind::kAuto).play(log, updraft),
                     Catch::Contains("which is not in the set minimal"));
 }
 

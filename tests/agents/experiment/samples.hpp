@@ -49,13 +49,14 @@ inline PlaySettings short_episodes(int frames = 3000) {
   return play;
 }
 
-inline EpisodeLog log_of_episode(Agent& agent, const PlaySettings& play, std::uint32_t seed) {
-  Stage stage(beamfall(), play, Drawing::kNone);
+inline EpisodeLog log_of_episode(Agent& agent, const PlaySettings& play, std::uint32_t seed,
+                                 const Cartridge& cartridge = beamfall()) {
+  Stage stage(cartridge, play, Drawing::kNone);
   stage.begin(seed);
   const Episode episode = racebeam::play(agent, stage);
   EpisodeLog log;
-  log.game = "beamfall";
-  log.image_md5 = beamfall().image->md5;
+  log.game = cartridge.game->name;
+  log.image_md5 = cartridge.image->md5;
   log.settings = words_of(stage.settings(), stage.machine());
   log.origin = {"beamfall-random-1", "random", 1, 1, seed, "0.1.0"};
   log.end = episode.end;
