@@ -3,7 +3,9 @@
 #include <time.h>
 
 #include <algorithm>
+#include <iterator>
 #include <new>
+#include <numeric>
 
 #include "agents/experiment/play.hpp"
 #include "agents/features/game_facts.hpp"
@@ -17,6 +19,7 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr std::size_t kMostProbes = 60, kMostActions = 4;
 constexpr Seconds kLongestProbe{0.5};
+constexpr double kMostWaiting = 5;  // on a busy machine, a probe ends after so many times its share
 constexpr int kShare = 60;  // of the screens that facts are discovered from, one in so many is sampled
 
 struct Enough {};  // ends an episode
@@ -30,7 +33,8 @@ Seconds processor_time() {
 
 // What an agent did in a game.
 struct Sums {
-  double frames = 0, decisions = 0, episodes = 0, seconds = 0, discovery_seconds = 0;
+  double decisions = 0, seconds = 0, discovery_seconds = 0;
+  std::vector<double> whole, cut;  // frames of episodes that were played to their end, and of others
 };
 
 // An agent, for as long as it is measured.
@@ -77,30 +81,27 @@ class Probe {
     const std::unique_ptr<Agent> agent = make(action);
     stage_.machine().set_drawing(agent->drawing());
     agent->set_learning(trains_);
-    const auto start = processor_time();
-    const auto end = Clock::now() + time;
+    const Seconds start = processor_time();
+    const auto end = Clock::now() + time * kMostWaiting;
+    const auto enough = [&] { return processor_time() - start >= time || Clock::now() >= end; };
     std::int64_t decisions = 0, frames = 0;
     const PlayOptions options{.watch = [&](std::int64_t now, std::int64_t frames_now) {
       decisions = now;
       frames = frames_now;
-      if (Clock::now() >= end) throw Enough();
+      if (enough()) throw Enough();
     }};
     try {
-      for (std::uint32_t seed = 1; Clock::now() < end && !agent->diverged(); ++seed) {
+      for (std::uint32_t seed = 1; !enough() && !agent->diverged(); ++seed) {
         stage_.begin(seed);
         racebeam::play(*agent, stage_, options);
-        add(std::exchange(decisions, 0), std::exchange(frames, 0), 1);
+        sums_.decisions += static_cast<double>(std::exchange(decisions, 0));
+        sums_.whole.push_back(static_cast<double>(std::exchange(frames, 0)));
       }
     } catch (const Enough&) {
-      add(decisions, frames, 0);
+      sums_.decisions += static_cast<double>(decisions);
+      sums_.cut.push_back(static_cast<double>(frames));
     }
     sums_.seconds += (processor_time() - start).count();
-  }
-
-  void add(std::int64_t decisions, std::int64_t frames, double episodes) {
-    sums_.decisions += static_cast<double>(decisions);
-    sums_.frames += static_cast<double>(frames);
-    sums_.episodes += episodes;
   }
 
   const PlanAgent& agent_;
@@ -112,12 +113,23 @@ class Probe {
   Sums sums_;
 };
 
-// An episode that was cut short counts its frames. A search plays better than what can be measured in a
-// moment, so that its episodes are taken to be as long as they may be.
+double mean_of(const std::vector<double>& numbers) {
+  return std::accumulate(numbers.begin(), numbers.end(), 0.0) / static_cast<double>(numbers.size());
+}
+
+// An episode that was cut short counts if it was longer than the mean of the others by then.
+double mean_length(std::vector<double> lengths, const std::vector<double>& cut) {
+  const double mean = mean_of(lengths);
+  std::ranges::copy_if(cut, std::back_inserter(lengths), [mean](double frames) { return frames > mean; });
+  return mean_of(lengths);
+}
+
+// A search plays better than what can be measured in a moment, so that its episodes are taken to be as long
+// as they may be.
 PlayRate rate_of(const Plan& plan, const PlanAgent& agent, const Sums& sums) {
   const double longest = plan.play.machine.max_episode_frames;
-  const bool is_known = sums.episodes > 0 && agent.kind->role != Role::kPlanner;
-  return {.episode_frames = is_known ? std::min(sums.frames / sums.episodes, longest) : longest,
+  const bool is_known = !sums.whole.empty() && agent.kind->role != Role::kPlanner;
+  return {.episode_frames = is_known ? std::min(mean_length(sums.whole, sums.cut), longest) : longest,
           .decisions_per_second = sums.decisions / sums.seconds,
           .discovery_seconds = sums.discovery_seconds};
 }
