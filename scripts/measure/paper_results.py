@@ -516,6 +516,9 @@ class Document:
         if not rows:
             self.say("Not run yet.")
             return
+        unverified = [self.title(name) for name, found in self.figures.items() if not found["verified"]]
+        if unverified:
+            self.say(f"Not verified yet: {', '.join(unverified)}.")
         self.add(
             rows_of(
                 [
