@@ -168,13 +168,30 @@ class Playing(unittest.TestCase):
     def test_a_lost_life_ends_the_episode_of_dqn_and_rewards_are_clipped(self):
         env = racebeam.AtariEnv("beamfall", preset="dqn2015")
         _, info = env.reset(seed=3)
-        rewards, truncated = set(), False
-        while not truncated:
+        rewards, terminated = set(), False
+        while not terminated:
             _, reward, terminated, truncated, after = env.step(1)
             rewards.add(reward)
-            self.assertFalse(terminated)
+            self.assertFalse(truncated)
         self.assertEqual(after["lives"], info["lives"] - 1)
         self.assertEqual(rewards, {0.0, 1.0})
+
+    def test_a_lost_life_has_the_effect_that_was_chosen(self):
+        def after_loss(**arguments):
+            env = racebeam.AtariEnv("beamfall", frameskip=20, repeat_action_probability=0.0, **arguments)
+            _, info = env.reset(seed=3)
+            lives = now = info["lives"]
+            while now == lives:
+                *_, terminated, truncated, info = env.step(1)
+                now = info["lives"]
+            return terminated, truncated, env.reset()[1]["lives"] - lives
+
+        self.assertEqual(after_loss(), (False, False, 0))
+        self.assertEqual(after_loss(life_loss="told"), (True, False, 0))
+        self.assertEqual(after_loss(life_loss="end"), (True, False, -1))
+        self.assertEqual(after_loss(life_loss="restart"), (True, False, 0))
+        with self.assertWarnsRegex(DeprecationWarning, "life_loss_ends is the old name of life_loss"):
+            self.assertEqual(after_loss(life_loss_ends=True), (False, True, 0))
 
     def test_the_first_frames_of_dqn_differ(self):
         env = racebeam.AtariEnv("beamfall", preset="dqn2015")

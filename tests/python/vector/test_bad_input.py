@@ -42,7 +42,7 @@ class BadInput(unittest.TestCase):
             "noop_max": (-1, 1001),
             "repeat_action_probability": (-0.1, 1.1, float("nan"), "x"),
             "autoreset_mode": ("Never", None, 3),
-            "lives": ("hurts",),
+            "life_loss": ("hurts",),
             "start": ("ale",),
             "stack_start": ("x",),
             "obs_type": ("sound",),
