@@ -20,9 +20,9 @@ racebeam::Autoreset internal(Autoreset autoreset) {
 
 racebeam::LifeLoss internal(LifeLoss life_loss) {
   switch (life_loss) {
-    case LifeLoss::kReported: return racebeam::LifeLoss::kTold;
-    case LifeLoss::kContinues: return racebeam::LifeLoss::kEnds;
-    case LifeLoss::kRestarts: return racebeam::LifeLoss::kResets;
+    case LifeLoss::kTold: return racebeam::LifeLoss::kTold;
+    case LifeLoss::kEnd: return racebeam::LifeLoss::kEnds;
+    case LifeLoss::kRestart: return racebeam::LifeLoss::kResets;
     default: return racebeam::LifeLoss::kIgnored;
   }
 }

@@ -36,12 +36,12 @@ enum class Autoreset {
   kDisabled   // its steps do nothing until reset()
 };
 
-// What a lost life does.
+// What a lost life does, in the words of the line protocol. An episode that ends by it is terminated.
 enum class LifeLoss {
   kIgnored,
-  kReported,   // the step counts as terminated, and the episode continues
-  kContinues,  // the episode ends, and the next one continues the game
-  kRestarts    // the episode ends, and the next one is a new game
+  kTold,    // the step counts as terminated, and the episode continues
+  kEnd,     // the episode ends, and the next one continues the game
+  kRestart  // the episode ends, and the next one is a new game
 };
 
 struct VectorSettings {
