@@ -20,7 +20,9 @@ using Seconds = std::chrono::duration<double>;
 constexpr std::size_t kMostProbes = 60, kMostActions = 4;
 constexpr Seconds kLongestProbe{0.5};
 constexpr double kMostWaiting = 5;  // on a busy machine, a probe ends after so many times its share
-constexpr int kShare = 60;  // of the screens that facts are discovered from, one in so many is sampled
+constexpr double kWarmUp = 0.3;     // of the time of a probe
+// Of the screens that facts are discovered from, one in so many is sampled, but for those of a trajectory.
+constexpr int kMostShare = 60, kLeastScreens = 600;
 
 struct Enough {};  // ends an episode
 
@@ -42,6 +44,7 @@ class Probe {
  public:
   Probe(const Plan& plan, const PlanGame& game, const PlanAgent& agent, const Cartridge& cartridge)
       : agent_(agent),
+        share_(share_of(plan)),
         cartridge_(cartridge),
         play_(play_settings(plan, agent)),
         trains_(agent.length.training_episodes > 0 || agent.length.training_frames > 0),
@@ -56,11 +59,15 @@ class Probe {
   }
 
  private:
+  static int share_of(const Plan& plan) {
+    return std::clamp(plan.background_screens / kLeastScreens, 1, kMostShare);
+  }
+
   static SampleSettings samples_of(const Plan& plan, const PlanGame& game) {
     SampleSettings samples = sample_settings(plan, game);
     samples.background_csv.clear();
-    samples.background_screens = std::max(samples.background_screens / kShare, 1);
-    samples.class_screens = std::max(samples.class_screens / kShare, 1);
+    samples.background_screens = std::max(samples.background_screens / share_of(plan), 1);
+    samples.class_screens = std::max(samples.class_screens / share_of(plan), 1);
     return samples;
   }
 
@@ -72,39 +79,44 @@ class Probe {
     if (!agent_.kind->each_action) {
       const auto again = processor_time();
       agent = agent_.kind->make({agent_.values, action, 1, cartridge_, play_, &facts_});
-      sums_.discovery_seconds = std::max((took - (processor_time() - again)).count(), 0.0) * kShare;
+      sums_.discovery_seconds = std::max((took - (processor_time() - again)).count(), 0.0) * share_;
     }
     return agent;
   }
 
+  // The first part of the time warms up: code is translated, and caches are filled.
   void play(int action, Seconds time) {
     const std::unique_ptr<Agent> agent = make(action);
     stage_.machine().set_drawing(agent->drawing());
     agent->set_learning(trains_);
     const Seconds start = processor_time();
     const auto end = Clock::now() + time * kMostWaiting;
-    const auto enough = [&] { return processor_time() - start >= time || Clock::now() >= end; };
+    Seconds counted = start;
     std::int64_t decisions = 0, frames = 0;
-    const PlayOptions options{.watch = [&](std::int64_t now, std::int64_t frames_now) {
-      decisions = now;
+    const PlayOptions options{.watch = [&](std::int64_t, std::int64_t frames_now) {
       frames = frames_now;
-      if (enough()) throw Enough();
+      ++decisions;
+      const Seconds now = processor_time();
+      if (now - start >= time || Clock::now() >= end) throw Enough();
+      if (counted > start || now - start < time * kWarmUp) return;
+      counted = now;
+      decisions = 0;
     }};
     try {
-      for (std::uint32_t seed = 1; !enough() && !agent->diverged(); ++seed) {
+      for (std::uint32_t seed = 1; !agent->diverged(); ++seed) {
         stage_.begin(seed);
         racebeam::play(*agent, stage_, options);
-        sums_.decisions += static_cast<double>(std::exchange(decisions, 0));
         sums_.whole.push_back(static_cast<double>(std::exchange(frames, 0)));
       }
     } catch (const Enough&) {
-      sums_.decisions += static_cast<double>(decisions);
       sums_.cut.push_back(static_cast<double>(frames));
     }
-    sums_.seconds += (processor_time() - start).count();
+    sums_.decisions += static_cast<double>(decisions);
+    sums_.seconds += (processor_time() - counted).count();
   }
 
   const PlanAgent& agent_;
+  const int share_;
   const Cartridge cartridge_;
   const PlaySettings play_;
   const bool trains_;
