@@ -161,11 +161,11 @@ PlaySettings play_settings(const Plan& plan, const PlanAgent& agent) {
 PlaySettings training_settings(const Plan& plan, const PlanAgent& agent) {
   PlaySettings play = plan.training;
   play.machine.frame_skip = agent.frame_skip;
-  play.machine.truncate_on_life_loss = false;
+  if (lives_end(plan)) set_life_loss(play, LifeLoss::kIgnored);
   return play;
 }
 
-bool lives_end(const Plan& plan) { return plan.training.machine.truncate_on_life_loss; }
+bool lives_end(const Plan& plan) { return plan.training.life_loss == LifeLoss::kEnds; }
 
 std::uint32_t agent_seed(const Plan& plan, const Unit& unit) { return seed_from(plan, unit, "agent", 0); }
 

@@ -84,7 +84,7 @@ std::vector<int> actions_of_agents(const PlanGame& game, const AgentKind& kind);
 std::vector<Unit> units_of(const Plan& plan);  // in the plan's order: games, agents, trials
 
 PlaySettings play_settings(const Plan& plan, const PlanAgent& agent);
-// A lost life does not end these episodes: agents are told that one ended, and the game goes on (lives_end).
+// With life_loss=end, agents are told that an episode ended, and the game goes on (lives_end).
 PlaySettings training_settings(const Plan& plan, const PlanAgent& agent);
 bool lives_end(const Plan& plan);  // whether a lost life ends an episode of training for the agent
 SampleSettings sample_settings(const Plan& plan, const PlanGame& game);

@@ -42,11 +42,11 @@ constexpr std::array kPresets = {
                {.trials = 24, .training_frames = 200000000, .evaluation_episodes = 100}},
     PlanPreset{"atari100k",
                "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=108000 noop_max=30",
-               "preset=dqn2015 max_episode_frames=108000",
+               "preset=dqn2015 life_loss=end max_episode_frames=108000",
                {.trials = 5, .training_frames = 400000, .evaluation_episodes = 100}},
     PlanPreset{"dqn2015",
                "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=18000 noop_max=30",
-               "preset=dqn2015",
+               "preset=dqn2015 life_loss=end",
                {.trials = 1, .training_frames = 200000000, .evaluation_episodes = 30}},
 };
 
@@ -156,7 +156,10 @@ class PlanReader {
     const toml::node& node = *top_.node(key);
     top_.guard(node, key, [&] {
       read_words(text, settings);
-      check_episode_settings(settings);
+      PlaySettings played = settings;
+      if (&settings == &plan_.training && played.life_loss == LifeLoss::kEnds)
+        set_life_loss(played, LifeLoss::kIgnored);
+      check_episode_settings(played);
     });
     if (has_seed(text))
       top_.refuse(node, key, "seed is not accepted here; all seeds follow from the plan's key 'seed'");

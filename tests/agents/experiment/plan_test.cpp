@@ -90,6 +90,10 @@ TEST_CASE("Mistakes in a plan are named with their line") {
         "test.toml:3: environment: autoreset is next-step; an episode that is played");
   check("training_environment = \"autoreset=1\"\n",
         "test.toml:3: training_environment: autoreset is next-step");
+  check("training_environment = \"life_loss=told\"\n",
+        "test.toml:3: training_environment: an episode is played");
+  check("environment = \"life_loss=end\"\n",
+        "test.toml:3: environment: an episode is played with life_loss=");
   check("training_environment = \"seed=1\"\n", "test.toml:3: training_environment: seed is not accepted");
   check("training_environment = \"max_episode_frames=0\"\n",
         "test.toml:3: training_environment: max_episode_frames is 0");
@@ -209,6 +213,13 @@ TEST_CASE("A plan with other settings of training reads back the same") {
     CHECK(text_of(parse_plan(text, "again")) == text);
   }
   CHECK(text_of(parse_plan(kStart, "")).find("training_environment") == std::string::npos);
+  const auto training = [](const std::string& words) {
+    return parse_plan("training_environment = \"" + words + "\"\n" + std::string(kStart), "");
+  };
+  CHECK(lives_end(training("life_loss=end")));
+  const Plan restarts = training("life_loss=restart");
+  CHECK_FALSE(lives_end(restarts));
+  CHECK(training_settings(restarts, restarts.agents[0]).machine.truncate_on_life_loss);
   const Plan plan =
       parse_plan("preset = \"dqn2015\"\ntraining_environment = \"\"\n" + std::string(kStart), "");
   CHECK_FALSE(lives_end(plan));
