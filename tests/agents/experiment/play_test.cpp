@@ -74,7 +74,7 @@ TEST_CASE("An episode begins as a machine that was constructed with its seed") {
 
 TEST_CASE("Settings that a log could not repeat are refused") {
   PlaySettings play = short_episodes();
-  play.autoreset = true;
+  play.autoreset = Autoreset::kNextStep;
   CHECK_THROWS_AS(Stage(beamfall(), play, Drawing::kNone), InvalidInput);
 }
 
