@@ -10,8 +10,8 @@ and core-hours, the median and the 95th percentile over --runs simulations. --wi
 for which 95 % of the simulations end in time.
 
 The lengths of units are those of `racebeam experiment PLAN --dry-run --unmeasured`, which takes all episodes to be as
-long as they may be. With --pilot, a folder of results, they come from its times.csv: seconds of a frame, and frames of an episode,
-by agent. A unit gets those of a game of the pilot, drawn at random.
+long as they may be. With --pilot, a folder of results, they come from its times.csv: seconds of a frame, and frames of
+an episode, by agent. A unit gets those of a game of the pilot, drawn at random.
 """
 
 from __future__ import annotations

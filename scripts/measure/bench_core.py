@@ -6,18 +6,17 @@ Settings:
   none     rewards and RAM only (ALE draws nevertheless: it cannot avoid that)
   states   a reset, and a state saved and restored
 
-Each side is a process. Both are pinned to one processor, and play chunks of the same random legal actions in
-turns, so that other work of the machine disturbs both. The processor time of the acts is measured, without
-resets. A setting begins with two chunks that are not measured: they fill caches and translate code.
+Each side is a process. Both are pinned to one processor, and play chunks of the same random legal actions. They take
+turns, so that other work of the machine disturbs both. The processor time of the acts is measured, without resets. A
+setting begins with two chunks that are not measured: they fill caches and translate code.
 
 The ratio of a game is the median of its chunks' ratios. Both sides of a chunk do the same work within a moment,
 so that a ratio is right even if the machine's speed drifts. A disturbance affects a few chunks, which a median
 ignores and a mean would not. The best times of both sides would come from different scenes of the game.
 
-After each timed chunk, the script compares frames, rewards, resets, RAM and (if observed) the screen. Then it
-plays the same actions again on new machines, not timed, and compares a checksum of screen, RAM, reward, end and
-lives after every act. A game that differs has no figures, and the run fails; scripts/conformance locates the
-difference.
+After each timed chunk, the script compares frames, rewards, resets, RAM and (if observed) the screen. Then it plays the
+same actions again on new machines, without timing them. It compares a checksum of screen, RAM, reward, end and lives
+after every act. A game that differs has no figures, and the run fails; scripts/conformance locates the difference.
 """
 
 import argparse

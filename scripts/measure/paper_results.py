@@ -5,7 +5,8 @@
 
 FOLDER has PLAN.json for plans of PLANS, as scripts/measure/plan_figures.py gathers them; docs/results/figures unless it
 is named. A plan without figures is said to be not run yet. Where only some games of `baselines` were run again,
-baselines-partial.json has these: its plan is that of `baselines` with fewer games. Published scores are those of evaluation/.
+baselines-partial.json has these: its plan is that of `baselines` with fewer games. Published scores are those of
+evaluation/.
 """
 
 import argparse
@@ -272,7 +273,11 @@ class Document:
         if self.lacks("baselines"):
             return
         found = self.figures["baselines"]
-        random, const, perturb = found["scores"]["random"], best(found, "const"), best(self.shown("baselines"), "perturb")
+        random, const, perturb = (
+            found["scores"]["random"],
+            best(found, "const"),
+            best(self.shown("baselines"), "perturb"),
+        )
         rows = []
         for game in found["games"]:
             theirs = self.paper.get(game, {})

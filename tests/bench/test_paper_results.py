@@ -94,7 +94,8 @@ class PaperResults(unittest.TestCase):
         results(self.folder / "baselines-partial", agents, scores)
         for name in ("baselines-partial", "baselines"):
             plan = self.folder / name / "plan.toml"
-            plan.write_text(plan.read_text().replace("[agent.perturb]\nframe_skip = 5", "[agent.perturb]\nframe_skip = 1"))
+            text = plan.read_text().replace("[agent.perturb]\nframe_skip = 5", "[agent.perturb]\nframe_skip = 1")
+            plan.write_text(text)
         text = " ".join(self.text().split())
         self.assertIn("has been run again in 1 of 1 games. The other games have a dash.", text)
         self.assertIn("Perturb's score is within a fifth of the paper's in 1 of 1 games.", text)

@@ -343,9 +343,7 @@ class Experiment(unittest.TestCase):
         status, printed, _ = run("experiment", str(self.plan), "--dry-run")
         self.assertEqual(status, 0)
         games = (ROOT / "evaluation/racebeam_evaluation/data/atari57.csv").read_text().splitlines()[1:]
-        self.assertEqual(
-            re.findall(r"(?m)^missing image: (\w+)$", printed), [line.split(",")[0] for line in games]
-        )
+        self.assertEqual(re.findall(r"(?m)^missing image: (\w+)$", printed), [line.split(",")[0] for line in games])
 
     def test_a_background_is_discovered_drawn_and_read_again(self):
         into = self.place / "pictures"

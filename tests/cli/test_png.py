@@ -189,7 +189,12 @@ class Png(unittest.TestCase):
             ("no reply on standard input has the field grey", self.replies("look screen"), "--field", "grey"),
             ("ram is not a picture", self.replies("look ram"), "--field", "ram"),
             ("the value of screen is not a whole screen in hex, rle, base64 or zlib", self.replies("look screen")[:-9]),
-            ("the value of screen has 868 bytes, which is not a whole screen", self.replies("look screen"), "--encoding", "hex"),
+            (
+                "the value of screen has 868 bytes, which is not a whole screen",
+                self.replies("look screen"),
+                "--encoding",
+                "hex",
+            ),
             ("the input ends within the bytes", self.replies("look screen:raw")[:-9]),
             ("a reply says raw=", b"ok screen=33600 raw=999999999\n"),
         ):

@@ -20,7 +20,7 @@ def _is_there(module):
 
 
 def require(*modules):
-    """Returns if the package and the modules are all there, and new memory is zero, which the reference relies on; else
+    """Returns if the package and the modules are all there, and new memory is zero, which the reference relies on. Else
     the program begins again so that they are, once, or ends as skipped."""
     missing = [name for name in ("racebeam._core", *modules) if not _is_there(name)]
     python = VENV / "bin/python"

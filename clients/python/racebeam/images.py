@@ -143,8 +143,8 @@ def _find_by_name(folder: pathlib.Path, game: str) -> str | None:
 def _find_in(folder: pathlib.Path, game: str) -> str | None:
     """Finds an image of the game in a folder.
 
-    Identifies the file again when the cache has it, because a file can change within one tick of the file system's
-    clock without a visible sign.
+    Identifies the file again even if the cache has it. A file can change within one tick of the file system's clock
+    without a visible sign.
     """
     named = _find_by_name(folder, game)
     if named is not None:

@@ -47,11 +47,11 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
     lost life ends an episode, and the next one continues the game.
 
     `infos` have "lives". Where an episode ends, they have "terminal_observation" and "TimeLimit.truncated". Where a
-    game ends, also in the frames before the next life is played, they have "episode": the sum of the unclipped rewards
-    "r", the frames "l" and the seconds "t".
+    game ends, also in the frames before the next life is played, they have "episode". It has the sum of the unclipped
+    rewards "r", the frames "l" and the seconds "t".
 
-    For the same seeds, rewards, ends and lives are those of make_atari_env() over AtariEnv, if `noop_max` is 0 and
-    `repeat_action_probability` is 0; random numbers are drawn differently. Some pixels differ: here a pixel is the
+    For the same seeds, rewards, ends and lives are those of make_atari_env() over AtariEnv, if `noop_max` and
+    `repeat_action_probability` are 0. Otherwise the random numbers differ. Some pixels differ: here a pixel is the
     maximum of two frames in grey, there the maximum in each colour.
 
     Args:

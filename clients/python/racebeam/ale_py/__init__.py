@@ -25,7 +25,7 @@ and infos are equal to the byte for the same seeds and actions. These are the di
 12. A closed AtariEnv raises ClosedEnvironmentError.
 13. AtariVectorEnv takes the arguments that racebeam.AtariVectorEnv adds to those of ale_py. Seeds may have any integer
     type from 0, or be a list. autoreset_mode may be DISABLED, and render() works. Each object has its own metadata.
-14. In AtariVectorEnv, an action that is out of range is an IndexError, and a step in a child process after a fork is a
+14. In AtariVectorEnv, an action that is out of range is an IndexError. A step in a child process after a fork is a
     RuntimeError; ale_py hangs. A wrong argument is an Error, an InvalidInput or an UnknownGame; ale_py takes some, and
     ends the process for others. After close(), ClosedEnvironmentError is raised; ale_py goes on.
 15. The internals of ALEVectorInterface and xla() are missing: AutoresetMode, VectorXLAReset and VectorXLAStep. xla()
@@ -37,7 +37,7 @@ and infos are equal to the byte for the same seeds and actions. These are the di
     at 16, noop_max and frameskip at 1000. ale_py takes more.
 19. AtariVectorEnv with max_num_frames_per_episode=0 has no limit; ale_py truncates each step.
 20. If img_width and img_height divide the screen evenly, such as 80 x 105 of 160 x 210, a mean that ends in .5 may be
-    rounded differently: a pixel may differ by 1.
+    rounded differently. A pixel may then differ by 1.
 """
 
 from __future__ import annotations

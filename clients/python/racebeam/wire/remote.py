@@ -22,8 +22,8 @@ class RemoteInterface(RemotePlay):
     interface sends it. Threads take turns; only `close` interrupts the call of another thread.
 
     Every method raises what the method of ALEInterface raises. It also raises ConnectionError if the server is gone,
-    TimeoutError if it does not answer in time, RuntimeError in a child process after a fork, and Refused for a limit of
-    the server.
+    and TimeoutError if it does not answer in time. It raises RuntimeError in a child process after a fork, and Refused
+    for a limit of the server.
 
     Args:
         server: Address of the server, as `racebeam.connect` takes it.
