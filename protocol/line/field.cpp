@@ -10,13 +10,13 @@ namespace racebeam {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
-using Scratch = std::vector<std::uint8_t>;
+using ByteBuffer = std::vector<std::uint8_t>;
 
 constexpr std::string_view kGreyStack = "greyWxHxN", kRgbStack = "rgbWxHxN";
 constexpr int kDeepest = 16;
 
 using Number = std::int64_t (*)(const Environment&, const Outcome&);
-using BytesOf = Bytes (*)(const Environment&, Scratch&);
+using BytesOf = Bytes (*)(const Environment&, ByteBuffer&);
 
 consteval Encoding encoding_named(std::string_view name) {
   return static_cast<Encoding>(&description::row_named(description::kEncodings, name) -
@@ -55,24 +55,24 @@ constexpr std::array kFields = {
     number("episode_frame", NUMBER(e.episode_frame_number())),
     number("acts", NUMBER(o.acts)),
     number("frames", NUMBER(o.frames)),
-    bytes("ram", [](const Environment& e, Scratch&) -> Bytes { return e.ram(); }),
+    bytes("ram", [](const Environment& e, ByteBuffer&) -> Bytes { return e.ram(); }),
     bytes("tia",
-          [](const Environment& e, Scratch& scratch) -> Bytes {
+          [](const Environment& e, ByteBuffer& scratch) -> Bytes {
             e.tia_values(scratch);
             return scratch;
           }),
     bytes(
-        "screen", [](const Environment& e, Scratch&) { return e.screen(); }, Drawing::kLast),
+        "screen", [](const Environment& e, ByteBuffer&) { return e.screen(); }, Drawing::kLast),
     bytes(
         "rgb",
-        [](const Environment& e, Scratch& scratch) -> Bytes {
+        [](const Environment& e, ByteBuffer& scratch) -> Bytes {
           e.screen_rgb(scratch);
           return scratch;
         },
         Drawing::kLast),
     bytes(
         "grey",
-        [](const Environment& e, Scratch& scratch) -> Bytes {
+        [](const Environment& e, ByteBuffer& scratch) -> Bytes {
           e.screen_grey(scratch);
           return scratch;
         },
@@ -80,12 +80,12 @@ constexpr std::array kFields = {
     bytes(kGreyStack, nullptr, Drawing::kLastTwo),
     bytes(kRgbStack, nullptr, Drawing::kLastTwo),
     bytes("palette",
-          [](const Environment& e, Scratch& scratch) -> Bytes {
+          [](const Environment& e, ByteBuffer& scratch) -> Bytes {
             scratch.clear();
             for (const auto [r, g, b] : palette(e.format())) scratch.insert(scratch.end(), {r, g, b});
             return scratch;
           }),
-    bytes("audio", [](const Environment& e, Scratch&) -> Bytes { return e.audio(); }),
+    bytes("audio", [](const Environment& e, ByteBuffer&) -> Bytes { return e.audio(); }),
 };
 
 #undef NUMBER
@@ -208,7 +208,7 @@ std::vector<Field> parse_fields(Words words) {
 std::size_t text_size(const std::vector<Field>& fields, const Environment& machine) {
   constexpr std::size_t kNumber = 8;
   std::size_t size = 0;
-  Scratch scratch;
+  ByteBuffer scratch;
   for (const Field& field : fields) {
     const std::size_t bytes = field.stack        ? bytes_of(*field.stack)
                               : field.row->bytes ? field.row->bytes(machine, scratch).size()
