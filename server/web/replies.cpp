@@ -17,7 +17,7 @@ std::size_t raw_size(std::string_view line) {
 
 }  // namespace
 
-Reply cut_reply(std::string_view& output) {
+CutReply cut_reply(std::string_view& output) {
   const std::string_view line = output.substr(0, output.find('\n'));
   output.remove_prefix(line.size() + 1);
   const std::string_view raw = output.substr(0, raw_size(line));

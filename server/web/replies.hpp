@@ -5,12 +5,12 @@
 
 namespace racebeam {
 
-struct Reply {
+struct CutReply {
   std::string_view line;  // without its LF
   std::string_view raw;   // the bytes that follow the line, of fields with the encoding raw
 };
 
 // Removes the first reply from `output`, which has whole replies, at least one.
-Reply cut_reply(std::string_view& output);
+CutReply cut_reply(std::string_view& output);
 
 }  // namespace racebeam

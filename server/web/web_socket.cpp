@@ -113,7 +113,7 @@ std::size_t WebSocket::complete_line(std::span<char> space, std::size_t count) {
 
 Task<> WebSocket::write(std::string_view replies, const std::function<void(std::size_t)>& sent) {
   while (!replies.empty()) {
-    const Reply reply = cut_reply(replies);
+    const CutReply reply = cut_reply(replies);
     co_await send(reply.line, false, sent);
     if (!reply.raw.empty()) co_await send(reply.raw, true, sent);
   }

@@ -51,7 +51,7 @@ TEST_CASE("Origins that were allowed are compared as a whole") {
 TEST_CASE("Output is cut into replies, with the bytes that follow a line") {
   std::string_view output = "ok reward=1\nok ram=4 raw=4\n\n\nokerror bad-value x is raw=9\nok\n";
   const auto check = [&](std::string_view line, std::string_view raw) {
-    const Reply reply = cut_reply(output);
+    const CutReply reply = cut_reply(output);
     CHECK(reply.line == line);
     CHECK(reply.raw == raw);
   };
