@@ -264,7 +264,7 @@ class RemoteGame:
     @exclusive
     @check_types
     def setMode(self, mode: int) -> None:
-        """Selects a mode, which begins a new episode.
+        """Selects a mode, which takes effect at the next reset.
 
         Args:
             mode: One of the modes of the game.
@@ -277,7 +277,7 @@ class RemoteGame:
     @exclusive
     @check_types
     def setDifficulty(self, difficulty: int) -> None:
-        """Selects a difficulty, which begins a new episode.
+        """Selects a difficulty, which takes effect at the next frame.
 
         Args:
             difficulty: One of the difficulties of the game.
