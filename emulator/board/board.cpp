@@ -20,6 +20,7 @@ constexpr std::uint64_t kSpecialRegisters = bit(VBLANK) | bit(HMCLR);
 
 std::size_t ram_beside_state(const Scheme& scheme) { return scheme.ram > kRamInState ? scheme.ram : 0; }
 
+constexpr std::uint8_t kNop = 0xEA;
 constexpr unsigned kRiot = 0x80;  // the address bit that selects the RIOT
 constexpr int kLineLimit = 290, kLineLimitPal = 342;
 constexpr std::uint64_t kHash = 0x9E3779B97F4A7C15;
@@ -165,7 +166,6 @@ Collisions Board::replay(const RecordedStep& step, FrameBuffer& picture, const F
   return state.tia.collisions;
 }
 
-// An opcode that was fetched from a collision register depends on what a write in the same cycle drew ahead.
 bool Board::needs_exact_step() const {
   const bool untouched = last_access_ == kNever && log->size() == 0;
   return !exact_mode_ && (fetched_latches_ || (!untouched && !picture_is_exact_));
@@ -197,11 +197,20 @@ const std::uint8_t* Board::locate_code(std::uint16_t pc, std::uint8_t latch, std
 
 // The opcode is read before its cycles are counted, the operand after that (docs/spec/cpu.md, 3).
 const std::uint8_t* Board::fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
-  fetched_latches_ |= (pc & 0x1088) == 0;
+  if ((pc & 0x1088) == 0 && !exact_mode_) return give_up_step(pc);
   const std::uint8_t opcode = fetched_[0] = read(pc, latch, cycle);
   latch = opcode;
   for (unsigned i = 1; i < kOpcodes[opcode].length; ++i)
     fetched_[i] = latch = read(static_cast<std::uint16_t>(pc + i), latch, cycle + kOpcodes[opcode].cycles);
+  code = {fetched_.data(), pc, 0, nullptr};
+  return fetched_.data();
+}
+
+// An opcode that was fetched from a collision register depends on what a write in the same cycle drew ahead.
+// The step ends before it is executed: what it would draw, the exact step may never reach.
+const std::uint8_t* Board::give_up_step(std::uint16_t pc) {
+  fetched_latches_ = stop = true;
+  fetched_[0] = kNop;
   code = {fetched_.data(), pc, 0, nullptr};
   return fetched_.data();
 }

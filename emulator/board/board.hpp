@@ -38,7 +38,7 @@ class Board {
   std::vector<std::uint8_t> cartridge_ram;  // what does not fit into the state; empty for most schemes
   WriteLog* log = nullptr;                  // of the step that runs
   CodeWindow code;    // where the CPU fetches; empty after the map has changed or the frame has closed
-  bool stop = false;  // the frame has closed: the CPU stops after this instruction
+  bool stop = false;  // the CPU stops after this instruction: the frame has closed, or must be run again
 
   // Accesses of the CPU where there is no plain memory. `latch` is the data bus before the access.
   std::uint8_t read(std::uint16_t address, std::uint8_t latch,
@@ -125,6 +125,7 @@ class Board {
 
   std::uint64_t selected_banks() const { return std::bit_cast<std::uint64_t>(state.cartridge.bank); }
   const std::uint8_t* fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
+  const std::uint8_t* give_up_step(std::uint16_t pc);
 
   struct KnownWindow {  // in three words
     std::uint64_t banks = 0;
@@ -147,7 +148,7 @@ class Board {
       0;  // cycle of the last TIA access that was not a plain write: the picture is drawn so far
   bool exact_mode_ = false;       // each access is played on its own
   bool picture_is_exact_ = true;  // of the last step, even if it ran in another mode
-  bool fetched_latches_ = false;  // an opcode was read from a collision register
+  bool fetched_latches_ = false;  // an opcode was to be read from a collision register, and the step ended
 };
 
 }  // namespace racebeam

@@ -61,6 +61,58 @@ Bytes fetches_what_the_bus_holds(std::uint8_t n) {
           0x02, 0x85, 0x02, 0xA2, 0x01, 0x9A, 0xEA, 0xEA, 0x20, 0x0E, 0x00};
 }
 
+void wait(Bytes& program, unsigned cycles) {
+  if (cycles % 2 == 1) program.insert(program.end(), {0x04, 0x80});
+  program.insert(program.end(), (cycles - 3 * (cycles % 2)) / 2, 0xEA);
+}
+
+// Runs `STA PF1` from the last bytes of RAM, `delay` cycles after CXCLR. PF1 has this value already, so that
+// the write only ends a span of drawing. The next opcode is the register of missile 0's collisions: RTI if it
+// has met player 0 by then, else BRK. One of them leads to JAM, the other draws on. Both objects are at
+// `place`.
+Bytes fetches_collisions(unsigned place, unsigned delay, bool jams_if_met) {
+  Bytes program = {0xA9, 0x85, 0x85, 0xFE, 0xA9, 0x0E, 0x85, 0xFF,  // STA PF1 at $FE
+                   0x85, 0x09, 0x85, 0x1D,                          // COLUBK, ENAM0
+                   0xA9, 0xF1, 0x85, 0xFC, 0xA9, 0x80, 0x85, 0xFB,  // what RTI pulls: $F180
+                   0xA2, 0xF9, 0x9A, 0xA9, 0x37, 0x85, 0x04,        // NUSIZ0
+                   0xA9, 0xFF, 0x85, 0x1B, 0xA9, 0xC0, 0x85, 0x0E,  // GRP0, PF1
+                   0xA0, 0x40, 0x85, 0x02, 0x88, 0xD0, 0xFB};       // 64 lines
+  wait(program, place);
+  program.insert(program.end(),
+                 {0x85, 0x10, 0x85, 0x12, 0x85, 0x02, 0x85, 0x2C});  // RESP0, RESM0, WSYNC, CXCLR
+  wait(program, delay);
+  program.insert(program.end(), {0x4C, 0xFE, 0x00});
+  program.resize(0x1000, 0xEA);
+  const Bytes draws_on = {0x85, 0x02, 0x4C, 0x80, 0xF1};
+  const int jam = jams_if_met ? 0x180 : 0x190, other = 0x310 - jam;
+  std::ranges::copy(draws_on, program.begin() + other);
+  program[other + 3] = static_cast<std::uint8_t>(other);
+  program[jam] = 0x12;
+  program[0xFFE] = 0x90;  // what BRK jumps to: $F190
+  program[0xFFF] = 0xF1;
+  return program;
+}
+
+TEST_CASE("A frame that jams where collisions are fetched as code shows nothing after the beam") {
+  int jammed = 0, drew_on = 0;
+  for (unsigned place = 2; place < 6; ++place) {
+    for (unsigned delay = 2; delay < 60; ++delay) {
+      CAPTURE(place, delay);
+      Machine machine(fetches_collisions(place, delay, true));
+      machine.console.reset();
+      machine.console.step();
+      const State& state = machine.console.state();
+      (state.cpu.jammed ? jammed : drew_on) += 1;
+      if (!state.cpu.jammed) continue;
+      const std::ptrdiff_t drawn = (3 * state.cycle - state.tia.origin) / 228 + 1;
+      const auto after = machine.console.picture().subspan(160 * drawn);
+      REQUIRE(std::ranges::count(after, 0) == std::ssize(after));
+    }
+  }
+  REQUIRE(jammed > 0);
+  REQUIRE(drew_on > 0);
+}
+
 TEST_CASE(
     "Reads and writes of RAM from outside leave the byte on the bus, from which an opcode may be fetched") {
   constexpr std::uint8_t kJam = 0x12, kRolA = 0x2A;
