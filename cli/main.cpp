@@ -30,8 +30,8 @@
 #include "cli/commands/with.hpp"
 #include "cli/connect/connect.hpp"
 #include "cli/connect/watch.hpp"
-#include "games/similar.hpp"
 #include "system/printable.hpp"
+#include "system/similar.hpp"
 
 namespace {
 

@@ -13,7 +13,8 @@
 #include "protocol/encoding/text.hpp"
 #include "protocol/line/action.hpp"
 #include "protocol/line/line_reader.hpp"
-#include "protocol/line/words.hpp"
+#include "protocol/request_error.hpp"
+#include "system/words.hpp"
 
 namespace racebeam::fuzz {
 namespace {
@@ -112,6 +113,8 @@ void may_refuse(Read read) {
   try {
     read();
   } catch (const RequestError& error) {
+    require(*error.what() != '\0', "an error has a message");
+  } catch (const InvalidInput& error) {
     require(*error.what() != '\0', "an error has a message");
   }
 }

@@ -9,9 +9,9 @@
 
 #include "emulator/cartridge/cartridge.hpp"
 #include "games/files/game_file.hpp"
-#include "games/similar.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
+#include "system/similar.hpp"
 
 namespace racebeam {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "games/similar.hpp"
 #include "library/internals.hpp"
+#include "system/similar.hpp"
 
 namespace racebeam::v0 {
 namespace {

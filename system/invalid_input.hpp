@@ -12,4 +12,11 @@ class InvalidInput : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+// A word that is not accepted in its place, whatever its value: an unknown key, one without '=', or one given
+// twice.
+class InvalidArguments : public InvalidInput {
+ public:
+  using InvalidInput::InvalidInput;
+};
+
 }  // namespace racebeam

@@ -6,7 +6,7 @@
 #include "environment/environment.hpp"
 #include "environment/input/noops.hpp"
 #include "environment/input/play_noops.hpp"
-#include "protocol/line/play_settings.hpp"
+#include "environment/settings/play_settings.hpp"
 
 namespace racebeam {
 

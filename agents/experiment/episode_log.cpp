@@ -7,8 +7,8 @@
 
 #include "agents/base/sealed_file.hpp"
 #include "games/game/actions.hpp"
-#include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
@@ -32,7 +32,7 @@ std::uint64_t hash_at(std::string_view bytes) {
   return hash;
 }
 
-// Takes the text of a log apart. Throws RequestError or InvalidInput.
+// Takes the text of a log apart. Throws InvalidInput.
 class LogReader {
  public:
   explicit LogReader(std::string_view contents) : left_(contents) {}
@@ -152,7 +152,7 @@ EpisodeLog log_of(const std::string& name, std::string_view bytes) {
   const std::string contents = unseal(kKind, name, bytes);
   try {
     return LogReader(contents).read();
-  } catch (const std::exception& error) {  // RequestError, InvalidInput
+  } catch (const InvalidInput& error) {
     throw InvalidInput("episode log " + name + ": " + error.what());
   }
 }

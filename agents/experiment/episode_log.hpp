@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/line/play_settings.hpp"
+#include "environment/settings/play_settings.hpp"
 
 namespace racebeam {
 

@@ -7,7 +7,7 @@
 
 #include "agents/experiment/plan.hpp"
 #include "agents/experiment/results.hpp"
-#include "protocol/line/images.hpp"
+#include "games/images.hpp"
 
 namespace racebeam {
 

@@ -4,8 +4,8 @@
 #include <charconv>
 
 #include "agents/base/sealed_file.hpp"
-#include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

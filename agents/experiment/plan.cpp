@@ -7,8 +7,8 @@
 #include "agents/experiment/plan_keys.hpp"
 #include "agents/experiment/play.hpp"
 #include "emulator/state/state_hash.hpp"
-#include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

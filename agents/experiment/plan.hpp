@@ -11,7 +11,7 @@
 
 #include "agents/features/background.hpp"
 #include "agents/kinds/agent_table.hpp"
-#include "protocol/line/images.hpp"
+#include "games/images.hpp"
 
 namespace racebeam {
 

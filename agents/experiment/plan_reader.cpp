@@ -11,10 +11,10 @@
 #include "agents/experiment/plan_keys.hpp"
 #include "agents/experiment/play.hpp"
 #include "games/files/toml_section.hpp"
-#include "games/similar.hpp"
-#include "protocol/line/words.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
+#include "system/similar.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
@@ -63,15 +63,6 @@ std::string list_of(const Rows& rows) {
   return list;
 }
 
-// A request error of the line protocol, as an error of this input.
-void as_invalid_input(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const RequestError& error) {
-    throw InvalidInput(error.what());
-  }
-}
-
 class PlanReader {
  public:
   PlanReader(std::string_view text, const std::string& file, const Images& images)
@@ -80,9 +71,7 @@ class PlanReader {
   Plan read() {
     top_.allow(kTopKeys);
     plan_.name = top_.text("name").value_or("experiment");
-    if (top_.node("name"))
-      top_.guard(*top_.node("name"), "name",
-                 [&] { as_invalid_input([&] { checked_name(plan_.name, "plan"); }); });
+    if (top_.node("name")) top_.guard(*top_.node("name"), "name", [&] { checked_name(plan_.name, "plan"); });
     if (top_.node("seed"))
       plan_.seed = static_cast<std::uint32_t>(*top_.number("seed", 0, kMostNumberOfPlan));
     plan_.phrase = top_.text("phrase").value_or("");
@@ -135,7 +124,7 @@ class PlanReader {
   static void read_words(const std::string& text, PlaySettings& settings) {
     std::vector<std::string_view> words;
     split(text, words);
-    as_invalid_input([&] { read_settings(words, settings); });
+    read_settings(words, settings);
   }
 
   void read_environment() {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/line/words.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 

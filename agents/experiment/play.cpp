@@ -4,8 +4,8 @@
 
 #include "agents/base/episode_start.hpp"
 #include "games/game/actions.hpp"
-#include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
@@ -98,11 +98,7 @@ PlaySettings settings_of(const EpisodeLog& log) {
   PlaySettings settings;
   std::vector<std::string_view> words;
   split(log.settings, words);
-  try {
-    read_settings(words, settings);
-  } catch (const RequestError& error) {
-    throw InvalidInput(error.what());
-  }
+  read_settings(words, settings);
   return settings;
 }
 

@@ -13,8 +13,8 @@
 
 #include "agents/base/agent.hpp"
 #include "agents/experiment/episode_log.hpp"
+#include "environment/settings/play_settings.hpp"
 #include "games/catalogue.hpp"
-#include "protocol/line/play_settings.hpp"
 
 namespace racebeam {
 

@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "agents/experiment/cost.hpp"
-#include "protocol/line/images.hpp"
+#include "games/images.hpp"
 
 namespace racebeam {
 

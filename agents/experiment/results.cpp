@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "protocol/line/words.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

@@ -7,9 +7,9 @@
 #include "agents/experiment/log_judge.hpp"
 #include "agents/experiment/plan_rows.hpp"
 #include "agents/experiment/row_tally.hpp"
-#include "protocol/line/words.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "agents/experiment/results.hpp"
-#include "protocol/line/images.hpp"
+#include "games/images.hpp"
 
 namespace racebeam {
 

@@ -9,9 +9,9 @@
 #include "agents/experiment/phrase_seeds.hpp"
 #include "agents/experiment/row_tally.hpp"
 #include "games/files/toml_section.hpp"
-#include "protocol/line/words.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

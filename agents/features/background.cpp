@@ -4,8 +4,8 @@
 
 #include "agents/base/episode_start.hpp"
 #include "agents/base/random.hpp"
-#include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "agents/features/screen.hpp"
+#include "environment/settings/play_settings.hpp"
 #include "games/catalogue.hpp"
-#include "protocol/line/play_settings.hpp"
 
 namespace racebeam {
 

@@ -5,9 +5,9 @@
 
 #include "agents/base/file_lock.hpp"
 #include "agents/base/sealed_file.hpp"
-#include "protocol/line/words.hpp"
 #include "recording/atomic_file.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

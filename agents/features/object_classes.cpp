@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

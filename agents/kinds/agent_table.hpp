@@ -12,8 +12,8 @@
 
 #include "agents/base/agent.hpp"
 #include "environment/input/action_set.hpp"
+#include "environment/settings/play_settings.hpp"
 #include "games/catalogue.hpp"
-#include "protocol/line/play_settings.hpp"
 
 namespace racebeam {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "emulator/translator/translator.hpp"
-#include "protocol/line/images.hpp"
+#include "games/images.hpp"
 
 namespace racebeam {
 

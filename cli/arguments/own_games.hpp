@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "games/catalogue.hpp"
-#include "protocol/line/images.hpp"
+#include "games/images.hpp"
 
 namespace racebeam {
 

@@ -11,8 +11,8 @@
 
 #include "cli/arguments/subcommand.hpp"
 #include "games/files/toml.hpp"
-#include "protocol/line/words.hpp"
 #include "system/input_file.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "protocol/line/words.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

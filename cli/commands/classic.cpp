@@ -10,10 +10,10 @@
 #include "cli/commands/classic_settings.hpp"
 #include "cli/commands/png_file.hpp"
 #include "games/catalogue.hpp"
-#include "protocol/line/words.hpp"
 #include "server/connections/rl_glue_connection.hpp"
 #include "server/operation/log.hpp"
 #include "server/server.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

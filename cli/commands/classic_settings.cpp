@@ -5,9 +5,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "protocol/line/words.hpp"
 #include "server/operation/log.hpp"
 #include "system/input_file.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

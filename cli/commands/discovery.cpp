@@ -6,10 +6,10 @@
 
 #include "agents/base/sealed_file.hpp"
 #include "cli/arguments/options.hpp"
-#include "games/similar.hpp"
 #include "recording/atomic_file.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
+#include "system/similar.hpp"
 
 namespace racebeam {
 namespace {

@@ -16,9 +16,9 @@
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/options.hpp"
 #include "cli/commands/interruption.hpp"
-#include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
 #include "system/resources.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "cli/arguments/subcommand.hpp"
 #include "games/catalogue.hpp"
-#include "games/similar.hpp"
 #include "system/folded.hpp"
+#include "system/similar.hpp"
 
 namespace racebeam {
 namespace {

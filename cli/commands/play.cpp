@@ -17,7 +17,7 @@
 #include "cli/connect/page_address.hpp"
 #include "cli/connect/player.hpp"
 #include "games/catalogue.hpp"
-#include "games/similar.hpp"
+#include "system/similar.hpp"
 
 namespace racebeam {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/line/images.hpp"
+#include "games/images.hpp"
 
 namespace racebeam {
 

@@ -14,7 +14,7 @@
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/options.hpp"
 #include "cli/commands/interruption.hpp"
-#include "protocol/line/play_settings.hpp"
+#include "environment/settings/play_settings.hpp"
 #include "system/input_file.hpp"
 #include "system/printable.hpp"
 
@@ -121,7 +121,7 @@ void print_finding(const std::string& line) {
 std::uint32_t rerun_seed(const VerifyOptions& options) {
   try {
     return parse_seed(options.rerun_seed);
-  } catch (const RequestError& error) {
+  } catch (const InvalidInput& error) {
     throw UsageError(std::string("--rerun-seed: ") + error.what());
   }
 }

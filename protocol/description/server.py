@@ -37,22 +37,14 @@ def error_codes(protocol):
     )
 
 
+END = "}  // namespace racebeam::description\n"
+
 STRUCTS = """#pragma once
 
-#include <algorithm>
 #include <array>
 #include <string_view>
 
 namespace racebeam::description {
-
-struct Setting {
-  std::string_view name, accepted, summary;
-  bool is_deprecated;
-};
-
-struct Preset {
-  std::string_view name, words, source;
-};
 
 struct Field {
   std::string_view name, summary;
@@ -79,20 +71,23 @@ struct Error {
   std::string_view name, meaning;
 };
 
-// The row of this name. Without it, the program does not compile.
-template <typename Rows>
-consteval const auto& row_named(const Rows& rows, std::string_view name) {
-  for (const auto& row : rows)
-    if (row.name == name) return row;
-  throw "there is no row of this name";
-}
+"""
 
-// Whether two tables have the same names, in the same order.
-template <typename One, typename Other>
-consteval bool same_names(const One& one, const Other& other) {
-  return std::ranges::equal(one, other, [](const auto& a, const auto& b) { return a.name == b.name; });
-}
+SETTING_STRUCTS = """#pragma once
 
+#include <array>
+#include <string_view>
+
+namespace racebeam::description {
+
+struct Setting {
+  std::string_view name, accepted, summary;
+  bool is_deprecated;
+};
+
+struct Preset {
+  std::string_view name, words, source;
+};
 """
 
 
@@ -109,10 +104,11 @@ def all_choices(protocol):
         yield from ((one.key, one.choices) for one in command.arguments if not one.choices_of)
 
 
-def tables(protocol):
+def setting_tables(protocol):
+    """The tables of which environment/settings makes its own."""
     return "\n".join(
         (
-            HEAD + STRUCTS.rstrip("\n") + "\n",
+            HEAD + SETTING_STRUCTS,
             array(
                 "Setting",
                 "kSettings",
@@ -126,6 +122,15 @@ def tables(protocol):
                 "kPresets",
                 (braced(quoted(row.name), quoted(row.sets), quoted(row.summary_text)) for row in protocol.presets),
             ),
+            END,
+        )
+    )
+
+
+def tables(protocol):
+    return "\n".join(
+        (
+            HEAD + STRUCTS.rstrip("\n") + "\n",
             array(
                 "Field",
                 "kFields",
@@ -158,7 +163,7 @@ def tables(protocol):
             ),
             array("std::string_view", "kReplyKeys", (f"    {quoted(key)},\n" for key in reply_keys(protocol))),
             array("Error", "kErrors", (braced(quoted(row.code), quoted(row.summary_text)) for row in protocol.errors)),
-            "}  // namespace racebeam::description\n",
+            END,
         )
     )
 
@@ -205,6 +210,7 @@ def command_rows(protocol):
 
 def files(protocol):
     return {
+        "environment/settings/setting_tables.hpp": setting_tables(protocol),
         "protocol/description/error_code.hpp": error_codes(protocol),
         "protocol/description/tables.hpp": tables(protocol),
         "protocol/description/command_rows.inc": command_rows(protocol),

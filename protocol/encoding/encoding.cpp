@@ -10,18 +10,19 @@
 #include "protocol/description/tables.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/encoding/text.hpp"
+#include "system/named_rows.hpp"
 
 namespace racebeam {
 namespace {
 
 consteval EncodingRow row(Encoding encoding, std::string_view name) {
-  return {encoding, name, description::row_named(description::kEncodings, name).summary};
+  return {encoding, name, row_named(description::kEncodings, name).summary};
 }
 
 constexpr std::array kEncodings = {row(Encoding::kHex, "hex"),     row(Encoding::kRunLength, "rle"),
                                    row(Encoding::kDelta, "delta"), row(Encoding::kBase64, "base64"),
                                    row(Encoding::kZlib, "zlib"),   row(Encoding::kRaw, "raw")};
-static_assert(description::same_names(kEncodings, description::kEncodings));
+static_assert(same_names(kEncodings, description::kEncodings));
 
 using Bytes = std::span<const std::uint8_t>;
 

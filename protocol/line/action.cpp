@@ -4,8 +4,9 @@
 #include <string>
 
 #include "games/game/actions.hpp"
-#include "games/similar.hpp"
-#include "protocol/line/words.hpp"
+#include "protocol/request_error.hpp"
+#include "system/similar.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "protocol/line/context.hpp"
+#include "protocol/request_error.hpp"
+#include "system/named_rows.hpp"
 
 namespace racebeam {
 namespace {
@@ -34,7 +36,7 @@ const Command* CommandTable::known(std::string_view name) const {
 
 const Command& CommandTable::find(std::string_view name) const {
   if (const Command* const found = known(name)) return *found;
-  refuse_name(ErrorCode::kUnknownCommand, "command", name, names_of(commands));
+  throw RequestError(ErrorCode::kUnknownCommand, unknown_name("command", name, names_of(commands)));
 }
 
 void refuse_without_token(std::string_view name) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "protocol/line/words.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "protocol/line/session_recording.hpp"
+#include "protocol/request_error.hpp"
 
 namespace racebeam {
 namespace {

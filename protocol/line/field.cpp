@@ -5,6 +5,8 @@
 
 #include "emulator/tia/palette.hpp"
 #include "protocol/description/tables.hpp"
+#include "protocol/request_error.hpp"
+#include "system/named_rows.hpp"
 
 namespace racebeam {
 namespace {
@@ -19,18 +21,17 @@ using Number = std::int64_t (*)(const Environment&, const Outcome&);
 using BytesOf = Bytes (*)(const Environment&, ByteBuffer&);
 
 consteval Encoding encoding_named(std::string_view name) {
-  return static_cast<Encoding>(&description::row_named(description::kEncodings, name) -
-                               description::kEncodings.data());
+  return static_cast<Encoding>(&row_named(description::kEncodings, name) - description::kEncodings.data());
 }
 
 consteval FieldRow number(std::string_view name, Number of) {
-  const description::Field& row = description::row_named(description::kFields, name);
+  const description::Field& row = row_named(description::kFields, name);
   return {name, row.summary, row.of_request, of, nullptr, Encoding::kHex};
 }
 
 // `of` is null for stacks, which a slot makes.
 consteval FieldRow bytes(std::string_view name, BytesOf of, Drawing looks_at = Drawing::kNone) {
-  const description::Field& row = description::row_named(description::kFields, name);
+  const description::Field& row = row_named(description::kFields, name);
   return {name, row.summary, row.of_request, nullptr, of, encoding_named(row.encoding), looks_at};
 }
 
@@ -90,7 +91,7 @@ constexpr std::array kFields = {
 
 #undef NUMBER
 
-static_assert(description::same_names(kFields, description::kFields));
+static_assert(same_names(kFields, description::kFields));
 
 int size_within(std::string_view text, std::string_view what, int least, int most) {
   return static_cast<int>(number_within(text, what, least, most));
@@ -147,13 +148,13 @@ Field parse_field(std::string_view word) {
   if (row == kFields.end() || (!stack && (name == kGreyStack || name == kRgbStack))) {
     auto known = names_of(kFields);
     known.emplace_back("none");
-    refuse_name(ErrorCode::kBadArguments, "field", name, known);
+    refuse_name("field", name, known);
   }
   if (!encoded) return {&*row, row->usual, stack, std::move(written)};
   if (row->number)
     throw RequestError(ErrorCode::kBadArguments, written + " is a number, and has no encoding");
   const auto chosen = encoding_of(encoding);
-  if (!chosen) refuse_name(ErrorCode::kBadArguments, "encoding", encoding, names_of(encodings()));
+  if (!chosen) refuse_name("encoding", encoding, names_of(encodings()));
   return {&*row, *chosen, stack, std::move(written)};
 }
 

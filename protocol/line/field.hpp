@@ -10,7 +10,7 @@
 
 #include "environment/vector/slot.hpp"
 #include "protocol/encoding/encoding.hpp"
-#include "protocol/line/words.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 

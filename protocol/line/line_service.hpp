@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "emulator/translator/translator.hpp"
-#include "protocol/line/images.hpp"
+#include "games/images.hpp"
 #include "protocol/line/old_words.hpp"
 #include "protocol/line/share.hpp"
 #include "protocol/running/disposal.hpp"

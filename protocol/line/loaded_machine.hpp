@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "environment/settings/play_settings.hpp"
 #include "environment/vector/slot.hpp"
 #include "games/catalogue.hpp"
 #include "protocol/line/action.hpp"
 #include "protocol/line/field.hpp"
 #include "protocol/line/machine_memory.hpp"
-#include "protocol/line/play_settings.hpp"
 #include "protocol/running/pacer.hpp"
 
 namespace racebeam {

@@ -6,10 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "environment/settings/play_settings.hpp"
 #include "protocol/line/context.hpp"
-#include "protocol/line/play_settings.hpp"
 #include "protocol/line/reply.hpp"
 #include "protocol/line/session_recording.hpp"
+#include "protocol/request_error.hpp"
 
 namespace racebeam {
 namespace {

@@ -121,6 +121,8 @@ void Session::guarded(Step step) {
     step();
   } catch (const RequestError& error) {
     refuse(error.code(), error.what());
+  } catch (const InvalidArguments& error) {
+    refuse(ErrorCode::kBadArguments, error.what());
   } catch (const InvalidInput& error) {
     refuse(ErrorCode::kBadValue, error.what());
   } catch (const std::bad_alloc&) {

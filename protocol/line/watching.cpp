@@ -1,4 +1,5 @@
 #include "protocol/line/watching.hpp"
+#include "protocol/request_error.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "games/catalogue.hpp"
-#include "games/similar.hpp"
+#include "system/similar.hpp"
 #include "tests/games/scratch.hpp"
 
 using namespace racebeam;

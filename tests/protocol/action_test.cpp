@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "protocol/request_error.hpp"
+#include "system/invalid_input.hpp"
 
 using namespace racebeam;
 using Catch::Matchers::Contains;
@@ -16,6 +17,8 @@ std::string refusal(const std::string& word, const AllowedActions& actions = kAl
     parse_action(word, actions);
   } catch (const RequestError& refused) {
     return std::string(name_of(refused.code())) + ": " + refused.what();
+  } catch (const InvalidInput& refused) {
+    return std::string("bad-value: ") + refused.what();
   }
   return "accepted";
 }

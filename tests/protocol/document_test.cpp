@@ -9,10 +9,10 @@
 #include <string_view>
 
 #include "emulator/tia/registers/register_values.hpp"
+#include "environment/settings/play_settings.hpp"
 #include "protocol/encoding/encoding.hpp"
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
-#include "protocol/line/play_settings.hpp"
 #include "protocol/request_error.hpp"
 
 using namespace racebeam;

@@ -8,11 +8,12 @@
 #include <map>
 #include <set>
 
+#include "environment/settings/play_settings.hpp"
 #include "protocol/encoding/encoding.hpp"
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
-#include "protocol/line/play_settings.hpp"
 #include "recording/recorder.hpp"
+#include "system/named_rows.hpp"
 #include "tests/protocol/duel.hpp"
 #include "tests/protocol/effect_cases.hpp"
 

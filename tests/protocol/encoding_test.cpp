@@ -7,7 +7,7 @@
 
 #include "protocol/encoding/base64.hpp"
 #include "protocol/encoding/text.hpp"
-#include "protocol/line/words.hpp"
+#include "system/words.hpp"
 
 using namespace racebeam;
 

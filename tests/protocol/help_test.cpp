@@ -5,10 +5,10 @@
 #include <map>
 #include <regex>
 
+#include "environment/settings/play_settings.hpp"
 #include "protocol/encoding/encoding.hpp"
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
-#include "protocol/line/play_settings.hpp"
 #include "tests/protocol/duel.hpp"
 
 using namespace racebeam;

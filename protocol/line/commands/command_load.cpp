@@ -4,13 +4,14 @@
 
 #include "emulator/cartridge/cartridge.hpp"
 #include "emulator/tia/registers/register_values.hpp"
-#include "games/similar.hpp"
+#include "environment/settings/play_settings.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/line/context.hpp"
-#include "protocol/line/play_settings.hpp"
 #include "protocol/line/reply.hpp"
 #include "protocol/line/session_recording.hpp"
+#include "protocol/request_error.hpp"
 #include "system/invalid_input.hpp"
+#include "system/similar.hpp"
 
 namespace racebeam {
 namespace {

@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "environment/settings/play_settings.hpp"
 #include "protocol/line/context.hpp"
-#include "protocol/line/play_settings.hpp"
 #include "protocol/line/reply.hpp"
+#include "system/named_rows.hpp"
 
 namespace racebeam {
 namespace {
@@ -72,8 +73,7 @@ OpenSettings read_open_settings(const Context& context, Words words) {
     if (word.find('=') == std::string_view::npos) refuse_word(word);
     const auto [key, value] = key_value(word);
     const auto row = std::ranges::find(open_rows(), key, &OpenRow::name);
-    if (row == open_rows().end())
-      refuse_name(ErrorCode::kBadArguments, "setting", key, names_of(open_rows()));
+    if (row == open_rows().end()) refuse_name("setting", key, names_of(open_rows()));
     if (std::ranges::find(given, key) != given.end()) refuse_twice(key);
     given.push_back(key);
     if (row->of_frames) of_frames = key;

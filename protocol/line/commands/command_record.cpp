@@ -3,15 +3,16 @@
 #include <array>
 #include <optional>
 
-#include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/encoding/encoding.hpp"
 #include "protocol/line/context.hpp"
 #include "protocol/line/reply.hpp"
 #include "protocol/line/session_recording.hpp"
+#include "protocol/request_error.hpp"
 #include "recording/footage.hpp"
 #include "recording/png.hpp"
 #include "recording/recorder.hpp"
+#include "system/similar.hpp"
 
 namespace racebeam {
 namespace {

@@ -1,10 +1,11 @@
 // hello, help, stats, quit
 #include <utility>
 
+#include "environment/settings/play_settings.hpp"
 #include "protocol/line/commands/help.hpp"
 #include "protocol/line/context.hpp"
-#include "protocol/line/play_settings.hpp"
 #include "protocol/line/reply.hpp"
+#include "system/named_rows.hpp"
 
 namespace racebeam {
 namespace {

@@ -6,10 +6,10 @@
 #include <span>
 
 #include "games/game/actions.hpp"
-#include "games/similar.hpp"
 #include "protocol/line/context.hpp"
 #include "protocol/line/reply.hpp"
 #include "protocol/line/watching.hpp"
+#include "system/similar.hpp"
 
 namespace racebeam {
 namespace {

@@ -6,12 +6,13 @@
 #include "environment/saved/saved_state_format.hpp"
 #include "environment/saved_state.hpp"
 #include "environment/vector/saved_slot_format.hpp"
-#include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/line/commands/branch.hpp"
 #include "protocol/line/context.hpp"
 #include "protocol/line/reply.hpp"
+#include "protocol/request_error.hpp"
 #include "system/invalid_input.hpp"
+#include "system/similar.hpp"
 
 namespace racebeam {
 namespace {

@@ -4,14 +4,16 @@
 #include <array>
 #include <utility>
 
-#include "games/similar.hpp"
+#include "environment/settings/play_settings.hpp"
 #include "protocol/description/tables.hpp"
 #include "protocol/encoding/encoding.hpp"
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
 #include "protocol/line/old_words.hpp"
-#include "protocol/line/play_settings.hpp"
+#include "protocol/request_error.hpp"
 #include "system/folded.hpp"
+#include "system/named_rows.hpp"
+#include "system/similar.hpp"
 
 namespace racebeam {
 namespace {

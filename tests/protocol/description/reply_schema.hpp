@@ -10,10 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include "environment/settings/play_settings.hpp"
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
-#include "protocol/line/play_settings.hpp"
-#include "protocol/line/words.hpp"
+#include "system/named_rows.hpp"
+#include "system/words.hpp"
 
 namespace racebeam::test {
 

@@ -60,13 +60,16 @@ class Rows(unittest.TestCase):
         self.assertIn("run_rewind, ", files["protocol/description/command_rows.inc"])
 
     def test_a_setting_and_an_error_code_reach_the_program_and_the_document(self):
-        for text in (
-            '[[setting]]\nname = "tint"\ntype = "int"\naccepted = "0 to 9"\ndefault = "0"\nsummary = "colours"\n',
-            '[[error]]\ncode = "too-dark"\nmeaning = "nothing is seen"\n',
+        for text, table in (
+            (
+                '[[setting]]\nname = "tint"\ntype = "int"\naccepted = "0 to 9"\ndefault = "0"\nsummary = "colours"\n',
+                "environment/settings/setting_tables.hpp",
+            ),
+            ('[[error]]\ncode = "too-dark"\nmeaning = "nothing is seen"\n', "protocol/description/tables.hpp"),
         ):
             files = changed(text)
             self.assertIn("protocol/PROTOCOL.md", files)
-            self.assertIn("protocol/description/tables.hpp", files)
+            self.assertIn(table, files)
             self.assertEqual(folders(files), set())
 
     def test_what_is_true_or_false_is_known_where_0_would_be_true(self):

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "protocol/encoding/base64.hpp"
-#include "protocol/line/words.hpp"
+#include "system/words.hpp"
 #include "tests/protocol/duel.hpp"
 
 using namespace racebeam;

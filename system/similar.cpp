@@ -1,4 +1,4 @@
-#include "games/similar.hpp"
+#include "system/similar.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "protocol/line/play_settings.hpp"
+#include "environment/settings/play_settings.hpp"
 
 #include <unistd.h>
 
@@ -11,7 +11,8 @@
 #include <system_error>
 
 #include "emulator/cartridge/cartridge.hpp"
-#include "protocol/description/tables.hpp"
+#include "environment/settings/setting_tables.hpp"
+#include "system/named_rows.hpp"
 
 namespace racebeam {
 namespace {
@@ -43,8 +44,7 @@ int whole(std::string_view value, std::string_view what, std::int64_t least, std
 bool flag(std::string_view value, std::string_view what) { return number_within(value, what, 0, 1) == 1; }
 
 [[noreturn]] void refuse(std::string_view what, std::string_view value, std::string_view accepted) {
-  throw RequestError(ErrorCode::kBadValue,
-                     std::string(what) + " is " + quote(value) + "; it takes " + std::string(accepted));
+  throw InvalidInput(std::string(what) + " is " + quote(value) + "; it takes " + std::string(accepted));
 }
 
 void set_seed(PlaySettings& settings, std::string_view value) {
@@ -134,7 +134,7 @@ using Set = void (*)(PlaySettings& settings, std::string_view value);
 using Append = void (*)(std::string& out, const PlaySettings& settings, const Environment& machine);
 
 consteval SettingRow setting(std::string_view name, Set set, Append append) {
-  const description::Setting& row = description::row_named(description::kSettings, name);
+  const description::Setting& row = row_named(description::kSettings, name);
   return {name, row.accepted, row.is_deprecated, row.summary, set, append};
 }
 
@@ -203,7 +203,7 @@ constexpr std::array kSettings = {
 #undef READ
 #undef ECHO
 
-static_assert(description::same_names(kSettings, description::kSettings));
+static_assert(same_names(kSettings, description::kSettings));
 
 constexpr auto kPresets = [] {
   std::array<PresetRow, description::kPresets.size()> rows;
@@ -227,7 +227,7 @@ const SettingRow& setting_row(std::string_view name, Words other_keys) {
   if (found != kSettings.end()) return *found;
   auto known = names_of(kSettings);
   known.insert(known.end(), other_keys.begin(), other_keys.end());
-  refuse_name(ErrorCode::kBadArguments, "setting", name, known);
+  refuse_name("setting", name, known);
 }
 
 }  // namespace

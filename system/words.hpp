@@ -1,4 +1,5 @@
-// Splits a request of the line protocol into words, and reads words: numbers, lists, key=value.
+// Splits a line into words, and reads words: numbers, lists, key=value. A word that is refused is an
+// InvalidInput, or an InvalidArguments, whose message quotes it.
 #pragma once
 
 #include <charconv>
@@ -11,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/request_error.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 
@@ -34,49 +35,42 @@ std::optional<Number> parse_number(std::string_view text) {
   return number;
 }
 
-// A whole number from `least` to `most`. Throws RequestError(kBadValue), which names it `what`.
+// A whole number from `least` to `most`. Throws InvalidInput, which names it `what`.
 std::int64_t number_within(std::string_view text, std::string_view what, std::int64_t least,
                            std::int64_t most);
 
 struct KeyValue {
   std::string_view key, value;
 };
-// Throws RequestError(kBadArguments) if there is no '='.
+// Throws InvalidArguments if there is no '='.
 KeyValue key_value(std::string_view word);
 
-// The value of key=value, if `command` accepts only this key. Throws RequestError(kBadArguments).
+// The value of key=value, if `command` accepts only this key. Throws InvalidArguments.
 std::string_view value_of(std::string_view word, std::string_view key, std::string_view command);
-
-template <typename Rows>
-std::vector<std::string_view> names_of(const Rows& rows) {  // the names of a table's rows
-  std::vector<std::string_view> names;
-  names.reserve(std::size(rows));
-  for (const auto& row : rows) names.push_back(row.name);
-  return names;
-}
 
 // A suggestion, if a name is similar, then what is accepted, which begins with a small letter: " did you mean
 // A? There are A B C", or " there are A B C".
 std::string advice(std::string_view given, Words known, std::string accepted);
 
 // "there is no KIND 'NAME'; did you mean A? There are A B C"
-[[noreturn]] void refuse_name(ErrorCode code, std::string_view kind, std::string_view name, Words known);
+std::string unknown_name(std::string_view kind, std::string_view name, Words known);
+[[noreturn]] void refuse_name(std::string_view kind, std::string_view name, Words known);  // InvalidArguments
 
-// The index of `value` in `accepted`. Throws RequestError(kBadValue): "WHAT is 'VALUE'; did you mean A? It
+// The index of `value` in `accepted`. Throws InvalidInput: "WHAT is 'VALUE'; did you mean A? It
 // takes A, B or C".
 std::size_t choice_of(std::string_view value, std::string_view what, Words accepted);
 
-[[noreturn]] void refuse_twice(std::string_view key);  // RequestError(kBadArguments)
+[[noreturn]] void refuse_twice(std::string_view key);  // InvalidArguments
 
 // Removes the first `mark` and the text after it from `text`. Returns the text after it; "" if there is no
 // mark.
 std::string_view cut_behind(std::string_view& text, char mark);
 
 // A name for something that a client saves: 1 to 64 letters, digits, '-' and '_'. Throws
-// RequestError(kBadValue).
+// InvalidInput.
 std::string_view checked_name(std::string_view text, std::string_view what);
 
-std::vector<std::uint8_t> bytes_of_hex(std::string_view digits);  // Throws RequestError(kBadValue)
+std::vector<std::uint8_t> bytes_of_hex(std::string_view digits);  // throws InvalidInput
 
 void append_number(std::string& out, std::int64_t number);
 void append_number(std::string& out, double number);               // the shortest text that reads back
@@ -86,7 +80,7 @@ void append_list(std::string& out, std::span<const int> numbers);  // 0,1,2
 void append_pair(std::string& out, std::string_view key, std::int64_t number);
 void append_pair(std::string& out, std::string_view key, std::string_view text);
 
-// For messages: the client's text, shortened if it is long.
+// For messages: the user's text, shortened if it is long.
 std::string quote(std::string_view text);
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-#include "protocol/line/images.hpp"
+#include "games/images.hpp"
 
 #include <stdexcept>
 #include <utility>

@@ -11,7 +11,7 @@
 #include "environment/input/action_set.hpp"
 #include "environment/vector/vector_environment.hpp"
 #include "games/game/given_properties.hpp"
-#include "protocol/line/words.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 
@@ -33,7 +33,7 @@ struct SettingRow {
   std::string_view accepted;  // for people
   bool is_deprecated;
   std::string_view summary;
-  void (*set)(PlaySettings& settings, std::string_view value);  // throws RequestError
+  void (*set)(PlaySettings& settings, std::string_view value);  // throws InvalidInput
   // Null if the replies have the key anyway.
   void (*append)(std::string& out, const PlaySettings& settings, const Environment& machine);
 };
@@ -46,7 +46,7 @@ struct PresetRow {
 };
 std::span<const PresetRow> preset_rows();
 
-// The words key=value of a request; a preset comes first, wherever it stands. Throws RequestError, which
+// The words key=value of a request; a preset comes first, wherever it stands. Throws InvalidArguments, which
 // lists `other_keys` with the settings: those that the request may have beside them.
 void read_settings(Words words, PlaySettings& settings, Words other_keys = {});
 
@@ -55,10 +55,10 @@ void append_settings(std::string& out, const PlaySettings& settings, const Envir
 
 std::string_view name_of(ActionSet set);
 std::string_view name_of(Autoreset autoreset);
-Autoreset autoreset_of(std::string_view name);  // throws RequestError
-LifeLoss life_loss_of(std::string_view name);   // throws RequestError
+Autoreset autoreset_of(std::string_view name);  // throws InvalidInput
+LifeLoss life_loss_of(std::string_view name);   // throws InvalidInput
 void set_life_loss(PlaySettings& settings, LifeLoss life_loss);
 bool truncates_on_life_loss(const PlaySettings& settings);  // as the old setting life_loss_ends asks
-std::uint32_t parse_seed(std::string_view text);            // throws RequestError
+std::uint32_t parse_seed(std::string_view text);            // throws InvalidInput
 
 }  // namespace racebeam

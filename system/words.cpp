@@ -1,10 +1,10 @@
-#include "protocol/line/words.hpp"
+#include "system/words.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 
-#include "games/similar.hpp"
+#include "system/similar.hpp"
 
 namespace racebeam {
 namespace {
@@ -39,22 +39,21 @@ std::int64_t number_within(std::string_view text, std::string_view what, std::in
   const auto number = parse_number<std::int64_t>(text);
   const bool is_minus_zero = number == 0 && text.starts_with('-');  // most likely the client's mistake
   if (number && !is_minus_zero && *number >= least && *number <= most) return *number;
-  throw RequestError(ErrorCode::kBadValue, std::string(what) + " is " + quote(text) +
-                                               "; it takes a whole number from " + std::to_string(least) +
-                                               " to " + std::to_string(most));
+  throw InvalidInput(std::string(what) + " is " + quote(text) + "; it takes a whole number from " +
+                     std::to_string(least) + " to " + std::to_string(most));
 }
 
 KeyValue key_value(std::string_view word) {
   const std::size_t equals = word.find('=');
   if (equals != std::string_view::npos) return {word.substr(0, equals), word.substr(equals + 1)};
-  throw RequestError(ErrorCode::kBadArguments, quote(word) + " is not of the form key=value");
+  throw InvalidArguments(quote(word) + " is not of the form key=value");
 }
 
 std::string_view value_of(std::string_view word, std::string_view key, std::string_view command) {
   if (word.size() > key.size() && word.starts_with(key) && word[key.size()] == '=')
     return word.substr(key.size() + 1);
-  throw RequestError(ErrorCode::kBadArguments, quote(word) + " is not accepted here; " +
-                                                   std::string(command) + " takes " + std::string(key) + "=");
+  throw InvalidArguments(quote(word) + " is not accepted here; " + std::string(command) + " takes " +
+                         std::string(key) + "=");
 }
 
 std::string advice(std::string_view given, Words known, std::string accepted) {
@@ -63,11 +62,14 @@ std::string advice(std::string_view given, Words known, std::string accepted) {
   return meant + ' ' + accepted;
 }
 
-void refuse_name(ErrorCode code, std::string_view kind, std::string_view name, Words known) {
+std::string unknown_name(std::string_view kind, std::string_view name, Words known) {
   std::string list = "there are";
   for (const std::string_view one : known) (list += ' ') += one;
-  throw RequestError(
-      code, "there is no " + std::string(kind) + ' ' + quote(name) + ';' + advice(name, known, list));
+  return "there is no " + std::string(kind) + ' ' + quote(name) + ';' + advice(name, known, list);
+}
+
+void refuse_name(std::string_view kind, std::string_view name, Words known) {
+  throw InvalidArguments(unknown_name(kind, name, known));
 }
 
 std::size_t choice_of(std::string_view value, std::string_view what, Words accepted) {
@@ -78,13 +80,10 @@ std::size_t choice_of(std::string_view value, std::string_view what, Words accep
     if (&one != &accepted.front()) list += &one == &accepted.back() ? " or " : ", ";
     list += one;
   }
-  throw RequestError(ErrorCode::kBadValue,
-                     std::string(what) + " is " + quote(value) + ';' + advice(value, accepted, list));
+  throw InvalidInput(std::string(what) + " is " + quote(value) + ';' + advice(value, accepted, list));
 }
 
-void refuse_twice(std::string_view key) {
-  throw RequestError(ErrorCode::kBadArguments, std::string(key) + " is given twice");
-}
+void refuse_twice(std::string_view key) { throw InvalidArguments(std::string(key) + " is given twice"); }
 
 std::string_view cut_behind(std::string_view& text, char mark) {
   const std::size_t at = text.find(mark);
@@ -97,8 +96,8 @@ std::string_view cut_behind(std::string_view& text, char mark) {
 std::string_view checked_name(std::string_view text, std::string_view what) {
   constexpr std::size_t kLongest = 64;
   if (!text.empty() && text.size() <= kLongest && std::ranges::all_of(text, is_name_letter)) return text;
-  throw RequestError(ErrorCode::kBadValue, quote(text) + " is not a name for a " + std::string(what) +
-                                               "; it takes 1 to 64 letters, digits, - and _");
+  throw InvalidInput(quote(text) + " is not a name for a " + std::string(what) +
+                     "; it takes 1 to 64 letters, digits, - and _");
 }
 
 std::vector<std::uint8_t> bytes_of_hex(std::string_view digits) {
@@ -109,8 +108,7 @@ std::vector<std::uint8_t> bytes_of_hex(std::string_view digits) {
     const auto [end, error] = std::from_chars(pair, pair + 2, bytes[i], 16);
     good = error == std::errc{} && end == pair + 2;
   }
-  if (!good)
-    throw RequestError(ErrorCode::kBadValue, quote(digits) + " are not hexadecimal bytes, two digits each");
+  if (!good) throw InvalidInput(quote(digits) + " are not hexadecimal bytes, two digits each");
   return bytes;
 }
 

@@ -1,0 +1,33 @@
+// Tables whose rows have a name.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+#include <vector>
+
+namespace racebeam {
+
+template <typename Rows>
+std::vector<std::string_view> names_of(const Rows& rows) {
+  std::vector<std::string_view> names;
+  names.reserve(std::size(rows));
+  for (const auto& row : rows) names.push_back(row.name);
+  return names;
+}
+
+// The row of this name. Without it, the program does not compile.
+template <typename Rows>
+consteval const auto& row_named(const Rows& rows, std::string_view name) {
+  for (const auto& row : rows)
+    if (row.name == name) return row;
+  throw "there is no row of this name";
+}
+
+// Whether two tables have the same names, in the same order.
+template <typename One, typename Other>
+consteval bool same_names(const One& one, const Other& other) {
+  return std::ranges::equal(one, other, [](const auto& a, const auto& b) { return a.name == b.name; });
+}
+
+}  // namespace racebeam
