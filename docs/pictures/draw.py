@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the pictures of the documents, from the tables in this file.
+"""Draws the pictures of the documents, from the tables in this file and in docs/rooms.toml.
 
     draw.py            writes NAME.svg for each picture
     draw.py --check    writes nothing; status 1 if a file is not what would be written
@@ -12,39 +12,45 @@ import pathlib
 import sys
 from html import escape
 
+import tomllib
+
 FOLDER = pathlib.Path(__file__).resolve().parent
 GRID = (204, 74, 60, 40)  # width and height of a box, gaps between columns and between rows; a picture may have its own
 MARGIN, HEAD = 16, 30
 COLOURS = {"code": ("#e8f0fb", "#3b6ea8"), "data": ("#fdf3dc", "#b0812b"), "outside": ("#f1f1f1", "#777777")}
+
+
+def needed(uses):
+    """Pairs of a folder and one that it uses, without those that follow from others. Each uses only those before it."""
+    far = {}
+    for key, row in uses.items():
+        far[key] = set(row).union(*(far[entry] for entry in row))
+    return [
+        (key, entry)
+        for key, row in uses.items()
+        for entry in row
+        if not any(entry in far[other] for other in row if other != entry)
+    ]
+
+
+ROOMS = tomllib.loads((FOLDER.parent / "rooms.toml").read_text())
 
 LIBRARIES = {
     "title": "The libraries: an arrow leads from a library to one that it uses",
     "grid": (196, 48, 30, 28),
     "boxes": {
         "cli": (1, 0, 1, "cli", ["the program racebeam"], "code"),
-        "server": (1, 1, 1, "server", ["sockets, streams, limits"], "code"),
         "agents": (0, 1, 1, "agents", ["learners, searches, scores"], "code"),
-        "protocol": (1, 2, 1, "protocol", ["lines in, lines out"], "code"),
-        "recording": (2, 3, 1, "recording", ["pictures, films, sound"], "code"),
+        "server": (2, 1, 1, "server", ["sockets, streams, limits"], "code"),
+        "protocol": (2, 2, 1, "protocol", ["lines in, lines out"], "code"),
         "library": (0, 3, 1, "library", ["include/racebeam/, for C++"], "code"),
+        "recording": (1, 3, 1, "recording", ["pictures, films, sound"], "code"),
         "environment": (1, 4, 1, "environment", ["acts, rewards, states"], "code"),
         "games": (1, 5, 1, "games", ["images, rules, modes"], "code"),
-        "emulator": (0, 6, 1, "emulator", ["the machine"], "code"),
-        "system": (2, 6, 1, "system", ["files, processors, memory"], "code"),
+        "emulator": (1, 6, 1, "emulator", ["the machine"], "code"),
+        "system": (1, 7, 1, "system", ["files, processors, words"], "code"),
     },
-    "arrows": [
-        ("cli", "server", ""),
-        ("cli", "agents", ""),
-        ("server", "protocol", ""),
-        ("agents", "protocol", ""),
-        ("protocol", "recording", ""),
-        ("protocol", "environment", ""),
-        ("recording", "environment", ""),
-        ("library", "environment", ""),
-        ("environment", "games", ""),
-        ("games", "emulator", ""),
-        ("games", "system", ""),
-    ],
+    "arrows": [(user, used, "") for user, used in needed(ROOMS["folders"])],
 }
 
 FRAME = {

@@ -1,0 +1,94 @@
+"""The C++ sources include what the table of rooms allows (docs/rooms.toml)."""
+
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+import room_table
+from tree import ROOT
+
+sys.path.insert(0, str(ROOT / "docs/pictures"))
+import draw  # noqa: E402
+
+
+class ThisTree(unittest.TestCase):
+    def test_every_include_is_allowed_and_every_row_is_used(self):
+        self.assertEqual(room_table.faults(), [])
+
+    def test_each_row_uses_only_rows_above_it(self):
+        self.assertEqual(room_table.order_faults(), [])
+
+    def test_the_table_has_all_rooms(self):
+        self.assertEqual(room_table.missing(), [])
+
+    def test_the_document_has_the_rooms_of_the_table_in_their_order(self):
+        document = (ROOT / "docs/architecture.md").read_text()
+        for folder, rows in room_table.read()[1].items():
+            line = re.search(rf"^\| `{folder}/` \| (`.*) \|$", document, re.MULTILINE)
+            told = [name for name in re.findall(r"`([\w/]+)`", line[1]) if name in rows] if line else []
+            self.assertEqual(told, [room for room in rows if room != room_table.TOP], folder)
+
+
+TABLE = """
+[folders]
+low = []
+high = ["low"]
+[rooms.high]
+first = ["shared.hpp"]
+second = ["first"]
+"""
+
+
+class TheCheck(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        self.write(room_table.TABLE, TABLE)
+        self.write("low/base.hpp", "")
+        self.write("high/shared.hpp", "")
+        self.write("high/first/one.hpp", '#include "low/base.hpp"\n#include "high/shared.hpp"\n#include <low/no.hpp>\n')
+        self.write("high/second/two.cpp", '#include "high/first/one.hpp"\n')
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def test_what_is_allowed_is_accepted(self):
+        self.assertEqual(room_table.faults(self.root), [])
+        self.assertEqual(room_table.order_faults(self.root), [])
+        self.assertEqual(room_table.missing(self.root), ["high"])  # the table has no "top"
+
+    def test_an_include_that_is_not_allowed_is_named(self):
+        self.write("low/up.cpp", '  # include "high/shared.hpp"\n')
+        self.write("high/first/back.cpp", '#include "high/second/new.hpp"\n')
+        self.write("high/second/new.hpp", '#include "high/shared.hpp"\n')
+        self.assertEqual(
+            room_table.faults(self.root),
+            [
+                "low/up.cpp includes high/shared.hpp",
+                "high/first/back.cpp includes high/second/new.hpp",
+                "high/second/new.hpp includes high/shared.hpp",
+            ],
+        )
+
+    def test_a_row_that_nobody_needs_is_named(self):
+        self.write("high/second/two.cpp", "")
+        self.assertEqual(room_table.faults(self.root), ["docs/rooms.toml: nothing in second of high uses first"])
+
+    def test_a_circle_and_a_room_without_a_row_are_named(self):
+        self.write(room_table.TABLE, TABLE.replace('["shared.hpp"]', '["second"]'))
+        self.write("high/third/three.hpp", "")
+        self.assertEqual(room_table.order_faults(self.root), ["high: first uses second"])
+        self.assertEqual(room_table.missing(self.root), ["high", "high/third"])
+
+    def test_arrows_that_follow_from_others_are_not_drawn(self):
+        uses = {"a": [], "b": ["a"], "c": ["a", "b"], "d": ["a"]}
+        self.assertEqual(draw.needed(uses), [("b", "a"), ("c", "b"), ("d", "a")])
+
+
+if __name__ == "__main__":
+    unittest.main()
