@@ -1,22 +1,60 @@
-"""The workflow and the hooks name presets, scripts and tests that exist."""
+"""The workflow, the hooks and the scripts of continuous integration name what exists, and leave nothing out."""
 
 import json
+import os
 import re
+import subprocess
+import tempfile
 import unittest
 
 from tree import ROOT
 
-FILES = (".github/workflows/ci.yml", ".pre-commit-config.yaml")
+WORKFLOW = ".github/workflows/ci.yml"
+FILES = (WORKFLOW, ".pre-commit-config.yaml", ".ci/run", ".ci/nightly")
+
+# Programs that are no steps of .ci/nightly, and why.
+LEFT_OUT = {
+    "scripts/bench": "it measures, on a quiet machine",
+    "scripts/build": "tests use it",
+    "scripts/demo": "tests/cli/test_demo.py runs it",
+    "scripts/evaluation": "a test of ctest",
+    "scripts/instructions": "a test of ctest",
+    "scripts/load": "it measures, on a quiet machine",
+    "scripts/reference": "scripts/test runs it",
+    "scripts/run-tests": "scripts/test runs it",
+    "scripts/setup": "it installs",
+    "scripts/signature": "it prints a digest, which a person compares",
+    "scripts/version": "tests/cli/test_version.py runs it",
+    "scripts/wheel": "a test of ctest",
+    "scripts/check/api": "a test of ctest",
+    "scripts/check/classic-conformance": "it needs the program of ALE 0.6.0",
+    "scripts/check/java-agent": "it needs a checkout of ALE 0.6.0",
+    "scripts/check/python-exactness": "it takes hours, and tests run a part of it each day",
+    "scripts/check/rules-table": "a test of ctest",
+    "scripts/check/subjects": ".ci/run checks each commit",
+    "scripts/check/translated": "it prints a listing",
+    "scripts/check/vectors": "it needs the published vectors",
+    "scripts/check/verify-with-ale": "it needs the results of an experiment",
+}
+
+
+def read(file):
+    return (ROOT / file).read_text()
 
 
 def presets():
-    named = json.loads((ROOT / "CMakePresets.json").read_text())
+    named = json.loads(read("CMakePresets.json"))
     return {preset["name"] for preset in named["configurePresets"] if not preset.get("hidden")}
+
+
+def nightly_steps():
+    listed = subprocess.run([ROOT / ".ci/nightly", "--list"], capture_output=True, text=True, check=True).stdout
+    return dict(line.split(maxsplit=1) for line in listed.splitlines())
 
 
 class Workflow(unittest.TestCase):
     def named(self, pattern):
-        found = [name for file in FILES for name in re.findall(pattern, (ROOT / file).read_text())]
+        found = [name for file in FILES for name in re.findall(pattern, read(file))]
         self.assertTrue(found, pattern)
         return set(found)
 
@@ -24,8 +62,110 @@ class Workflow(unittest.TestCase):
         self.assertEqual(self.named(r"--preset ([\w-]+)") - presets(), set())
 
     def test_its_scripts_exist(self):
-        names = self.named(r"(?<![\w/])((?:scripts|\.ci|tests)/[\w./-]+)")
+        names = self.named(r"(?<![\w/])((?:scripts|\.ci|tests)/[\w./-]*\w)")
         self.assertEqual({name for name in names if not (ROOT / name).is_file()}, set())
+
+    def test_its_jobs_are_the_steps_of_the_night(self):
+        jobs = re.findall(r"^ {10}- ([a-z -]+)$", read(WORKFLOW), re.MULTILINE)
+        self.assertEqual(sorted(" ".join(jobs).split()), sorted(nightly_steps()))
+
+    def test_actions_are_named_by_their_commit(self):
+        uses = re.findall(r"uses: (.*)", read(WORKFLOW))
+        self.assertTrue(uses)
+        for action in uses:
+            self.assertRegex(action, r"^[\w/-]+@[0-9a-f]{40} # v[\d.]+$")
+
+
+class Nightly(unittest.TestCase):
+    def test_it_runs_every_program_or_says_why_not(self):
+        programs = {
+            path.relative_to(ROOT).as_posix()
+            for folder in ("scripts", "scripts/check")
+            for path in (ROOT / folder).iterdir()
+            if path.is_file() and os.access(path, os.X_OK)
+        }
+        run = set(re.findall(r"scripts/[\w/-]+", " ".join(nightly_steps().values())))
+        run |= {"scripts/check/pythons"}  # by a function
+        self.assertEqual(programs - run, set(LEFT_OUT))
+
+    def test_a_step_that_is_not_there_is_refused(self):
+        run = subprocess.run([ROOT / ".ci/nightly", "moon"], capture_output=True, text=True)
+        self.assertEqual((run.returncode, run.stderr), (2, "nightly: there is no step 'moon'; --list has them\n"))
+
+
+class Steps(unittest.TestCase):
+    def end_of(self, *lines):
+        script = "set -euo pipefail\nsource .ci/steps.bash\n" + "\n".join(lines) + "\nfinish"
+        run = subprocess.run(["bash", "-c", script], cwd=ROOT, capture_output=True, text=True)
+        return run.returncode, re.sub(r"\d+ s\b", "N s", run.stdout).splitlines()
+
+    def test_all_steps_are_run_and_counted(self):
+        status, lines = self.end_of(
+            "run one echo '3 passed, 0 failed, 1 skipped'",
+            "run two bash -c 'echo 4 passed, 1 failed, 0 skipped; exit 1'",
+            "run three bash -c 'exit 77'",
+            "run four echo well",
+        )
+        self.assertEqual(status, 1)
+        self.assertEqual(
+            lines[-4:],
+            [
+                "ci: left out: three",
+                "ci: failed: two",
+                "ci: 4 steps in N s: 2 passed, 1 failed, 1 left out",
+                "7 passed, 1 failed, 1 skipped",
+            ],
+        )
+        self.assertIn("ci: the end of two:", lines)
+
+    def test_it_is_green_if_nothing_failed(self):
+        status, lines = self.end_of("run one echo well", "run two bash -c 'exit 77'")
+        self.assertEqual((status, lines[-1]), (0, "0 passed, 0 failed, 0 skipped"))
+
+
+class Subjects(unittest.TestCase):
+    def refusal(self, subject):
+        with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+            file.write(f"{subject}\n\nThe reason. It may be long, and end with a stop.\n")
+            file.flush()
+            command = [ROOT / "scripts/check/subjects", "--message", file.name]
+            run = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual(run.returncode, 1 if run.stdout else 0)
+        return run.stdout
+
+    def test_a_component_and_72_characters(self):
+        for subject in ("tia: x", "docs/spec, tests: HMOVE in the last cycle", "a: " + "x" * 69):
+            self.assertEqual(self.refusal(subject), "", subject)
+        self.assertIn("it has 73 characters, more than 72", self.refusal("a: " + "x" * 70))
+        for subject in ("Mend the TIA", "tia:x", "Tia: x", "tia: ", "tia: an end.", ""):
+            self.assertIn("it is not 'component: what it does'", self.refusal(subject), subject)
+
+
+class Changed(unittest.TestCase):
+    def touched(self, table, *files):
+        script = f"source .ci/changed.bash; most_touched {table} otherwise"
+        run = subprocess.run(["bash", "-c", script], cwd=ROOT, input="\n".join(files), capture_output=True, text=True)
+        return run.stdout.strip()
+
+    def test_the_paths_select_the_step(self):
+        self.assertEqual(self.touched("step_paths", "server/server.cpp", "docs/a.md"), "thread")
+        self.assertEqual(
+            self.touched("step_paths", "recording/gif.cpp", "server/server.cpp", "recording/a.cpp"), "address"
+        )
+        self.assertEqual(self.touched("step_paths", "emulator/cpu/cpu.cpp"), "clang")
+        self.assertEqual(self.touched("step_paths", "docs/a.md"), "otherwise")
+        self.assertEqual(self.touched("step_paths"), "otherwise")
+
+    def test_every_fuzz_target_has_its_paths(self):
+        targets = {path.name for path in (ROOT / "fuzz/corpora").iterdir()}
+        table = re.findall(r"^  \[(\w+)\]='", read(".ci/changed.bash").split("fuzz_paths=(")[1], re.MULTILINE)
+        self.assertEqual(set(table), targets)
+        self.assertEqual(self.touched("fuzz_paths", "recording/gif.cpp"), "media")
+
+    def test_the_paths_exist(self):
+        for pattern in re.findall(r"\]='(.*)'$", read(".ci/changed.bash"), re.MULTILINE):
+            files = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True).stdout
+            self.assertRegex(files, f"(?m){pattern}" if files else "")
 
 
 if __name__ == "__main__":

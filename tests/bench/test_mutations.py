@@ -1,0 +1,53 @@
+"""The small mistakes of scripts/check/mutants."""
+
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/measure"))
+import mutations  # noqa: E402
+
+
+def edits(line):
+    return set(mutations.edits_of(line))
+
+
+class Edits(unittest.TestCase):
+    def test_limits_and_conditions_are_turned(self):
+        turned = {"  if (a <= b && !c) return;", "  if (a < b || !c) return;", "  if (a < b && c) return;"}
+        self.assertEqual(edits("  if (a < b && !c) return;"), turned)
+        self.assertEqual(edits("  return a == b;"), {"  return a != b;"})
+        self.assertEqual(edits("  return std::min(a, b);"), {"  return std::max(a, b);", "  return std::min(b, a);"})
+
+    def test_a_number_is_one_too_large_and_arguments_are_exchanged(self):
+        self.assertEqual(edits("  const int most = 15;"), {"  const int most = 16;"})
+        self.assertEqual(edits("  return call(a, b.c);"), {"  return call(b.c, a);"})
+        self.assertEqual(edits("  return x0 - 0x1F;"), {"  return x0 + 0x1F;"})
+
+    def test_a_statement_is_dropped_but_no_declaration(self):
+        for line in ("  call(a);", "  a.b->c[i] = d;", "  ++count;", "  count_ += more;"):
+            self.assertIn("", edits(line), line)
+        for line in ("  return a;", "  const int a = b;", "  using std::min;", "  throw Error(a);"):
+            self.assertNotIn("", edits(line), line)
+
+    def test_texts_comments_and_angle_brackets_are_no_code(self):
+        self.assertEqual(edits('  return "a < b";  // 7 && 8'), set())
+        self.assertEqual(edits("  return std::vector<int>(a);"), set())
+        self.assertEqual(mutations.mutants("#include <a>\n// a < 1\nstatic_assert(a < 1);\n"), [])
+
+
+class Mutants(unittest.TestCase):
+    SOURCE = "int f(int a) {\n  return a + 1;\n}\n"
+
+    def test_each_changes_one_line(self):
+        found = mutations.mutants(self.SOURCE)
+        self.assertEqual([mutant.line for mutant in found], [2, 2])
+        self.assertEqual(
+            [mutant.apply(self.SOURCE) for mutant in found],
+            ["int f(int a) {\n  return a - 1;\n}\n", "int f(int a) {\n  return a + 2;\n}\n"],
+        )
+        self.assertEqual(str(found[0]), "2: return a + 1;\n    return a - 1;")
+
+
+if __name__ == "__main__":
+    unittest.main()
