@@ -137,7 +137,7 @@ class Subjects(unittest.TestCase):
         for subject in ("tia: x", "docs/spec, tests: HMOVE in the last cycle", "a: " + "x" * 69):
             self.assertEqual(self.refusal(subject), "", subject)
         self.assertIn("it has 73 characters, more than 72", self.refusal("a: " + "x" * 70))
-        for subject in ("Mend the TIA", "tia:x", "Tia: x", "tia: ", "tia: an end.", ""):
+        for subject in ("Mend the TIA", "tia:x", "Tia: x", "tia: ", "tia: an end."):
             self.assertIn("it is not 'component: what it does'", self.refusal(subject), subject)
 
 
