@@ -209,6 +209,7 @@ void AtomicFolder::add(const std::string& name, std::span<const std::uint8_t> by
     write_all(descriptor, 0, text_of(bytes), file);
   } catch (...) {
     budget_.give_back(bytes.size());
+    if (descriptor < 0) throw;  // a file of that name may be there, and stays
     ::close(descriptor);
     ::unlink(file.c_str());
     throw;

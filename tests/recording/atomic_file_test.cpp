@@ -1,13 +1,16 @@
 #include "recording/atomic_file.hpp"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "tests/games/scratch.hpp"
+#include "tests/support/skip.hpp"
 
 using namespace racebeam;
 
@@ -17,6 +20,36 @@ std::string contents(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
+}
+
+int mode_of(const std::string& path) { return static_cast<int>(std::filesystem::status(path).permissions()); }
+
+std::ptrdiff_t files_in(const Scratch& folder) {
+  return std::distance(std::filesystem::directory_iterator(folder.path("")), {});
+}
+
+// While it exists, files cannot grow beyond so many bytes: as on a full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+std::span<const std::uint8_t> bytes_of(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 }  // namespace
@@ -89,4 +122,165 @@ TEST_CASE("A file that cannot be written stays as it was") {
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path("")), {}) == 1);
   CHECK_THROWS_WITH(replace_file(folder.path("none/table.csv"), "new", Durable::kLater),
                     Catch::StartsWith("cannot make table.csv: "));
+}
+
+TEST_CASE("A part of another owner is not taken for one that a kill left behind") {
+  const Scratch folder;
+  const std::string part = folder.write(".table.csv.part", "of another user");
+  std::filesystem::permissions(part, std::filesystem::perms(01644));
+  if (::chown(part.c_str(), 12345, static_cast<gid_t>(-1)) != 0)
+    return test::leave_out("only root can give a file to another user");
+  std::filesystem::permissions(part, std::filesystem::perms(01644));
+  replace_file(folder.path("table.csv"), "new", Durable::kLater);
+  CHECK(contents(folder.path("table.csv")) == "new");
+  CHECK(contents(part) == "of another user");
+}
+
+TEST_CASE("A hundred names are tried for a part, and then none is made") {
+  const Scratch folder;
+  folder.write(".table.csv.part", "precious");
+  for (int number = 1; number < 99; ++number)
+    folder.write(".table.csv.part" + std::to_string(number), "precious");
+  replace_file(folder.path("table.csv"), "new", Durable::kLater);
+  CHECK(files_in(folder) == 100);
+  folder.write(".table.csv.part99", "precious");
+  CHECK_THROWS_WITH(replace_file(folder.path("table.csv"), "newer", Durable::kLater),
+                    Catch::StartsWith("cannot make table.csv: "));
+  CHECK(contents(folder.path("table.csv")) == "new");
+}
+
+TEST_CASE("A file that does not fit leaves what was there before") {
+  const Scratch folder;
+  const std::string path = folder.path("table.csv");
+  replace_file(path, "old", Durable::kLater);
+  for (const Durable durable : {Durable::kLater, Durable::kNow}) {
+    const FullDisk disk(10);
+    CHECK_THROWS_WITH(replace_file(path, "eleven byte", durable), "cannot write table.csv: File too large");
+    CHECK(contents(path) == "old");
+    CHECK(files_in(folder) == 1);
+    replace_file(path, "ten bytes.", durable);
+    CHECK(contents(path) == "ten bytes.");
+    replace_file(path, "old", durable);
+  }
+}
+
+TEST_CASE("A budget of the disk gives all that it has, and counts what comes back") {
+  DiskBudget budget(10);
+  budget.take(10);
+  CHECK_THROWS_WITH(budget.take(1), "the recording has reached its limit of 10 bytes");
+  CHECK(budget.taken() == 10);
+  budget.give_back(4);
+  CHECK_THROWS_AS(budget.take(5), BudgetSpent);
+  budget.take(4);
+  budget.take(0);
+  CHECK(budget.taken() == 10);
+  CHECK_FALSE(budget.is_given_up());
+  const auto given_up = std::make_shared<std::atomic<bool>>(false);
+  const DiskBudget other(10, given_up);
+  CHECK_FALSE(other.is_given_up());
+  *given_up = true;
+  CHECK(other.is_given_up());
+}
+
+TEST_CASE("A file appears at its commit, with its tail, for everybody to read") {
+  const Scratch folder;
+  DiskBudget budget(20);
+  const mode_t before = ::umask(0077);
+  AtomicFile file(folder.path("film.avi"), budget, "tail");
+  ::umask(before);
+  CHECK(budget.taken() == 4);
+  file.write("head");
+  file.write(bytes_of("body"));
+  file.overwrite(0, bytes_of("HE"));
+  CHECK(budget.taken() == 12);
+  CHECK_FALSE(std::filesystem::exists(folder.path("film.avi")));
+  CHECK(mode_of(file.temporary()) == 0644);
+  file.commit();
+  CHECK(contents(folder.path("film.avi")) == "HEadbodytail");
+  CHECK(mode_of(folder.path("film.avi")) == 0644);
+  CHECK(files_in(folder) == 1);
+}
+
+TEST_CASE("A file that was not committed leaves nothing, and a file that exists is not replaced") {
+  const Scratch folder;
+  DiskBudget budget(100);
+  AtomicFile(folder.path("film.avi"), budget).write("all");
+  CHECK(files_in(folder) == 0);
+  AtomicFile late(folder.path("film.avi"), budget);
+  folder.write("film.avi", "first");
+  CHECK_THROWS_WITH(AtomicFile(folder.path("film.avi"), budget), "film.avi exists; choose another name");
+  CHECK_THROWS_WITH(late.commit(), Catch::StartsWith("cannot create film.avi: "));
+  CHECK(contents(folder.path("film.avi")) == "first");
+  std::filesystem::create_symlink("nothing", folder.path("link.avi"));
+  CHECK_THROWS_WITH(AtomicFile(folder.path("link.avi"), budget), "link.avi exists; choose another name");
+}
+
+TEST_CASE("A limit of the disk holds to the byte, and a write beyond it writes nothing") {
+  const Scratch folder;
+  DiskBudget budget(10);
+  CHECK_THROWS_AS(AtomicFile(folder.path("film.avi"), budget, "eleven byte"), BudgetSpent);
+  CHECK(files_in(folder) == 0);
+  CHECK(budget.taken() == 0);
+  AtomicFile file(folder.path("film.avi"), budget, "end");
+  file.write("1234567");
+  CHECK_THROWS_AS(file.write("8"), BudgetSpent);
+  CHECK(budget.taken() == 10);
+  file.commit();
+  CHECK(contents(folder.path("film.avi")) == "1234567end");
+}
+
+TEST_CASE("Bytes that the disk did not take are given back, and are not in the file") {
+  const Scratch folder;
+  DiskBudget budget(100);
+  AtomicFile file(folder.path("film.avi"), budget, "end");
+  file.write("1234");
+  {
+    const FullDisk disk(10);
+    CHECK_THROWS_WITH(file.write("5678"), "cannot write film.avi: File too large");
+    CHECK(budget.taken() == 7);
+    file.write("567");  // and the end is at 10
+  }
+  file.commit();
+  CHECK(contents(folder.path("film.avi")) == "1234567end");
+}
+
+TEST_CASE("Bytes that another program writes are counted once") {
+  const Scratch folder;
+  DiskBudget budget(10);
+  AtomicFile file(folder.path("film.mp4"), budget);
+  file.count_growth();
+  CHECK(budget.taken() == 0);
+  std::ofstream(file.temporary(), std::ios::binary) << "1234567890";
+  file.count_growth();
+  file.count_growth();
+  CHECK(budget.taken() == 10);
+  std::ofstream(file.temporary(), std::ios::binary | std::ios::app) << "1";
+  CHECK_THROWS_AS(file.count_growth(), BudgetSpent);
+  CHECK(budget.taken() == 10);
+}
+
+TEST_CASE("A folder appears at its commit, with whole files") {
+  const Scratch folder;
+  DiskBudget budget(10);
+  {
+    AtomicFolder frames(folder.path("frames"), budget);
+    frames.add("1.png", bytes_of("12345"));
+    CHECK_THROWS_AS(frames.add("2.png", bytes_of("123456")), BudgetSpent);
+    CHECK_THROWS_WITH(frames.add("1.png", bytes_of("12345")), "cannot make 1.png: File exists");
+    CHECK(budget.taken() == 5);
+    {
+      const FullDisk disk(4);
+      CHECK_THROWS_WITH(frames.add("3.png", bytes_of("12345")), "cannot write 3.png: File too large");
+      CHECK(budget.taken() == 5);
+    }
+    frames.add("4.png", bytes_of("12345"));
+    CHECK_FALSE(std::filesystem::exists(folder.path("frames")));
+    frames.commit();
+  }
+  CHECK(contents(folder.path("frames/4.png")) == "12345");
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path("frames")), {}) == 2);
+  CHECK(mode_of(folder.path("frames")) == 0755);
+  CHECK_THROWS_WITH(AtomicFolder(folder.path("frames"), budget), "frames exists; choose another name");
+  { const AtomicFolder left(folder.path("left"), budget); }
+  CHECK(files_in(folder) == 1);
 }
