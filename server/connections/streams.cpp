@@ -59,8 +59,7 @@ void warn_of_srun() {
   if (std::getenv("SLURM_STEP_ID") == nullptr || !is_pipe(STDOUT_FILENO)) return;
   log_warning(
       "this is a step of a Slurm job: if srun forwards standard output, replies above 1,024 bytes take some "
-      "40 ms "
-      "more; --listen and a socket avoid that");
+      "40 ms more; a socket avoids that: --listen, or cluster/slurm/racebeam-srun COMMAND");
 }
 
 // Returns the pipe if it was missing, to be removed at the end.

@@ -103,6 +103,19 @@ class Slice(Slurm):
         self.check_results(range(8))
         self.nothing_is_left()
 
+    def test_a_server_on_a_node_for_an_agent_here(self):
+        done = subprocess.run(
+            [SCRIPTS / "racebeam-srun", *self.agent()],
+            cwd=self.jobs,
+            capture_output=True,
+            text=True,
+            env=self.cluster.environment,
+            timeout=slurm.PATIENCE,
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.check_results([0])
+        self.nothing_is_left()
+
     def test_the_protocol_on_the_standard_streams_of_srun(self):
         os.environ |= {name: self.cluster.environment[name] for name in ("SLURM_CONF", "PATH", "RACEBEAM_TEST")}
         with client.Session.start(str(SCRIPTS / "racebeam-srun"), "--log-level", "warning") as game:
