@@ -20,7 +20,7 @@ racebeam::Autoreset internal(Autoreset autoreset) {
 
 racebeam::LifeLoss internal(LifeLoss life_loss) {
   switch (life_loss) {
-    case LifeLoss::kTold: return racebeam::LifeLoss::kTold;
+    case LifeLoss::kReported: return racebeam::LifeLoss::kReported;
     case LifeLoss::kEnd: return racebeam::LifeLoss::kEnds;
     case LifeLoss::kRestart: return racebeam::LifeLoss::kResets;
     default: return racebeam::LifeLoss::kIgnored;

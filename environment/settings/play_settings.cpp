@@ -25,7 +25,8 @@ constexpr int kMostNoops = 1000;
 constexpr std::array<std::string_view, 3> kActionSets = {"full", "legal", "minimal"};
 constexpr std::array<std::string_view, 3> kAutoresets = {"next-step", "same-step",
                                                          "disabled"};  // as Autoreset
-constexpr std::array<std::string_view, 4> kLifeLosses = {"ignored", "told", "end", "restart"};  // as LifeLoss
+constexpr std::array<std::string_view, 4> kLifeLosses = {"ignored", "reported", "end",
+                                                         "restart"};       // as LifeLoss
 constexpr std::array<std::string_view, 2> kRules = {"ale-0.12", "fixed"};  // as Rules counts
 
 // Never 0. Not of std::random_device, which needs a C library of 2022 when it is linked statically, as in a

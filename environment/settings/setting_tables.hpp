@@ -25,7 +25,7 @@ inline constexpr std::array<Setting, 24> kSettings = {{
     {"mode", "see `modes`", "variation of the game", false},
     {"difficulty", "see `difficulties`", "difficulty switches", false},
     {"max_episode_frames", "0 to 2147483647", "frames after which an episode is truncated; 0: never", false},
-    {"life_loss", "ignored, told, end or restart", "what a lost life does", false},
+    {"life_loss", "ignored, reported, end or restart", "what a lost life does", false},
     {"life_loss_ends", "0 or 1", "1: as life_loss=restart, but the episode is truncated (deprecated: use life_loss)", true},
     {"noop_max", "0 to 1000", "an episode begins with 0 to noop_max - 1 frames of NOOP, drawn by seed", false},
     {"autoreset", "disabled, next-step or same-step", "what happens at the end of an episode", false},

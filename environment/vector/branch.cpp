@@ -26,9 +26,9 @@ void Branching::enter(const Environment::Saved& root) {
 void Branching::look_at_ends() {
   const bool lost = 0 < environment_.lives() && environment_.lives() < end_.lives;
   const Ends ends = ends_of(environment_, life_loss_);
-  const bool told = life_loss_ == LifeLoss::kTold && (lost || end_.terminated);
+  const bool reported = life_loss_ == LifeLoss::kReported && (lost || end_.terminated);
   life_ended_ |= life_loss_ == LifeLoss::kEnds && lost;
-  end_.terminated = ends.terminated || life_ended_ || told;
+  end_.terminated = ends.terminated || life_ended_ || reported;
   end_.truncated = ends.truncated;
   end_.lives = environment_.lives();
 }

@@ -104,7 +104,7 @@ void Slot::look_at_lives() {
   const Ends ends = ends_of(environment_, settings_.life_loss);
   const bool lost = outcome_.lives_lost > 0 && environment_.lives() > 0;
   const bool by_life = settings_.life_loss == LifeLoss::kEnds && (progress_.goes_on || lost);
-  progress_.terminated = ends.terminated || by_life || (settings_.life_loss == LifeLoss::kTold && lost);
+  progress_.terminated = ends.terminated || by_life || (settings_.life_loss == LifeLoss::kReported && lost);
   progress_.truncated = ends.truncated;
   progress_.goes_on = by_life && !environment_.game_over();
   progress_.finished = by_life || environment_.game_over();

@@ -33,9 +33,9 @@ enum class ResetOrder {
 // expect rewards of the state after it.
 enum class LifeLoss {
   kIgnored,
-  kTold,   // the step counts as terminated, but the episode continues (ALE's life_loss_info)
-  kEnds,   // the episode ends, and the next one continues the game with the next life, as in DQN
-  kResets  // the episode ends, and the next one is a new game (ALE's episodic_life)
+  kReported,  // the step counts as terminated, but the episode continues (ALE's life_loss_info)
+  kEnds,      // the episode ends, and the next one continues the game with the next life, as in DQN
+  kResets     // the episode ends, and the next one is a new game (ALE's episodic_life)
 };
 
 struct Ends {

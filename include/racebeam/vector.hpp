@@ -39,9 +39,9 @@ enum class Autoreset {
 // What a lost life does, in the words of the line protocol. An episode that ends by it is terminated.
 enum class LifeLoss {
   kIgnored,
-  kTold,    // the step counts as terminated, and the episode continues
-  kEnd,     // the episode ends, and the next one continues the game
-  kRestart  // the episode ends, and the next one is a new game
+  kReported,  // the step counts as terminated, and the episode continues
+  kEnd,       // the episode ends, and the next one continues the game
+  kRestart    // the episode ends, and the next one is a new game
 };
 
 struct VectorSettings {

@@ -50,6 +50,13 @@ class Argument:
         return self.word or self.key
 
     @property
+    def under_old_name(self):
+        """The argument with its old key, and with the values that the old key had."""
+        now = {value: old for old, value in self.old_values.items()}
+        choices = {now.get(value, value): meaning for value, meaning in self.choices.items()}
+        return dataclasses.replace(self, key=self.old, old="", about=f"old name of `{self.key}`", choices=choices)
+
+    @property
     def is_repeated(self):
         return self.type in SEVERAL
 
@@ -91,11 +98,7 @@ class Command(Row):
     @property
     def old_keys(self):
         """The old names of keys, as arguments, for programs that were written with them."""
-        return [
-            dataclasses.replace(argument, key=argument.old, about=f"old name of `{argument.key}`", old="")
-            for argument in self.keys
-            if argument.old
-        ]
+        return [argument.under_old_name for argument in self.keys if argument.old]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -197,11 +200,12 @@ class Protocol:
             for row in self.settings if command.echoes and command.arguments else ():
                 if row.deprecated:
                     yield OldWord(command.name, row.name, row.deprecated, is_same=False)
-                yield from old_values(command.name, row.name, row.old_values)
+                yield from old_values(command.name, row.name, row.name, row.old_values)
             for argument in command.keys:
                 if argument.old:
+                    yield from old_values(command.name, argument.old, argument.key, argument.old_values)
                     yield OldWord(command.name, argument.old, argument.key)
-                yield from old_values(command.name, argument.key, argument.old_values)
+                yield from old_values(command.name, argument.key, argument.key, argument.old_values)
         for old, now in self.old_fields.items():
             yield OldWord("field", old, now)
 
@@ -211,8 +215,8 @@ class Protocol:
         return [field for field in self.fields if field.shape and not field.is_stack]
 
 
-def old_values(command, key, values):
-    return [OldWord(command, f"{key}={old}", f"{key}={now}") for old, now in values.items()]
+def old_values(command, old_key, key, values):
+    return [OldWord(command, f"{old_key}={old}", f"{key}={now}") for old, now in values.items()]
 
 
 def expect(condition, sentence):

@@ -58,7 +58,7 @@ inline constexpr std::array<Field, 21> kFields = {{
 
 inline constexpr std::array<Choice, 17> kChoices = {{
     {"life_loss", "ignored", "a lost life has no effect"},
-    {"life_loss", "told", "the act or step that loses a life is `terminated`; the episode continues"},
+    {"life_loss", "reported", "the act or step that loses a life is `terminated`; the episode continues"},
     {"life_loss", "end", "a lost life ends the episode, `terminated`; the next one continues with the next life, as in DQN"},
     {"life_loss", "restart", "a lost life ends the episode, `terminated`; the next one is a new game"},
     {"autoreset", "disabled", "the machine does not change, and `act` or `step` answers `over=1`, until `reset` or `restart`"},
@@ -76,7 +76,7 @@ inline constexpr std::array<Choice, 17> kChoices = {{
     {"pool", "0", "each screen of a stack is the last frame"},
 }};
 
-inline constexpr std::array<OldWord, 12> kOldWords = {{
+inline constexpr std::array<OldWord, 14> kOldWords = {{
     {"load", "seed=0", "seed=random", true},
     {"load", "life_loss_ends", "life_loss", false},
     {"load", "autoreset=0", "autoreset=disabled", true},
@@ -85,7 +85,9 @@ inline constexpr std::array<OldWord, 12> kOldWords = {{
     {"export", "whole", "episode", true},
     {"open", "autoreset=0", "autoreset=disabled", true},
     {"open", "autoreset=1", "autoreset=next-step", true},
+    {"open", "lives=told", "life_loss=reported", true},
     {"open", "lives", "life_loss", true},
+    {"open", "life_loss=told", "life_loss=reported", true},
     {"field", "ends", "terminated truncated", true},
     {"field", "grey84", "grey84x84x1", true},
     {"field", "grey84xN", "grey84x84xN", true},

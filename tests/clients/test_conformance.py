@@ -64,7 +64,7 @@ class Coverage(unittest.TestCase):
         self.assertNotIn("command poke", coverage.missing(BINARY, steps, []))
         self.assertIn("error code busy", coverage.missing(BINARY, steps, []))
         self.assertNotIn("error code busy", coverage.missing(BINARY, steps, ["error busy"]))
-        self.assertIn("choice of open life_loss=told", coverage.missing(BINARY, [], []))
+        self.assertIn("choice of open life_loss=reported", coverage.missing(BINARY, [], []))
 
     def test_a_key_that_is_not_described_is_named(self):
         self.assertEqual(

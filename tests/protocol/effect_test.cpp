@@ -219,7 +219,7 @@ TEST_CASE("Each key of a reply tells something") {
   compare(
       "load duel_pal preset=dqn2015 rules=fixed seed=7 system_seed=1 frame_skip=2-4 mode=2 difficulty=3 "
       "max_episode_frames=9 "
-      "life_loss=told noop_max=3 reward_min=-7 reward_max=7 autoreset=1 color_averaging=1 sound=1 "
+      "life_loss=reported noop_max=3 reward_min=-7 reward_max=7 autoreset=1 color_averaging=1 sound=1 "
       "left=paddles right=paddles ystart=40",
       "load inline seed=8 image=" + counter_as_text(1), {"width", "scheme", "life_loss_ends"});
   other.ask("load beamfall as=pong");

@@ -112,7 +112,7 @@ TEST_CASE("help explains each value of a key that has a list of them") {
   CHECK_THAT(client.ask("help start"), Contains("; start=noops-fire: as in EnvPool: the no-ops, then FIRE") &&
                                            Contains("; start=noops: only the no-ops"));
   CHECK_THAT(client.ask("help told"),
-             Contains("; life_loss=told: the act or step that loses a life is terminated") &&
+             Contains("; life_loss=reported: the act or step that loses a life is terminated") &&
                  !Contains("life_loss=end:"));
 }
 

@@ -44,6 +44,10 @@ const std::map<std::string, Pair> kPairs = {
     {"export whole", {kStateBoth + "save a\n", "export a whole=1", "export a episode=1"}},
     {"open autoreset=0", {kMany, "open 1 autoreset=0" + kStep, "open 1 autoreset=disabled" + kStep}},
     {"open autoreset=1", {kMany, "open 1 autoreset=1" + kStep, "open 1 autoreset=next-step" + kStep}},
+    {"open lives=told",
+     {kMany, "open 1 steps=frames lives=told" + kStep, "open 1 steps=frames life_loss=reported" + kStep}},
+    {"open life_loss=told",
+     {kMany, "open 1 steps=frames life_loss=told" + kStep, "open 1 steps=frames life_loss=reported" + kStep}},
     {"open lives",
      {kMany, "open 1 steps=frames lives=end" + kStep, "open 1 steps=frames life_loss=end" + kStep}},
     {"field ends", {kStateBoth, "look ends lives", "look terminated truncated lives"}},
@@ -140,7 +144,7 @@ TEST_CASE("The log warns of each old word") {
 TEST_CASE("An old word and the new one are one key") {
   LineClient client;
   client.ask(kLoad);
-  CHECK(client.ask("open 1 lives=end life_loss=told") == "error bad-arguments life_loss is given twice");
+  CHECK(client.ask("open 1 lives=end life_loss=reported") == "error bad-arguments life_loss is given twice");
   CHECK(client.ask("open 1 lives=three") ==
-        "error bad-value life_loss is 'three'; it takes ignored, told, end or restart");
+        "error bad-value life_loss is 'three'; it takes ignored, reported, end or restart");
 }

@@ -111,7 +111,7 @@ class Interface(unittest.TestCase):
     def test_settings_that_are_not_those_of_a_VecEnv_are_refused(self):
         for settings, sentence in (
             ({"autoreset_mode": "NextStep"}, "autoreset_mode is 'NextStep'; VecEnv takes SameStep"),
-            ({"life_loss": "told"}, "VecEnv takes ignored, end, restart"),
+            ({"life_loss": "reported"}, "VecEnv takes ignored, end, restart"),
             ({"batch_size": 1}, "batch_size is 1; VecEnv takes 0"),
         ):
             with self.subTest(**settings), self.assertRaisesRegex(ValueError, sentence):

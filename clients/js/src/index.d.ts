@@ -151,7 +151,7 @@ export class Session {
     autoreset?: "next-step" | "disabled" | "same-step";
     steps?: "acts" | "frames";
     start?: "fire-noops" | "noops-fire" | "baselines" | "noops";
-    life_loss?: "ignored" | "told" | "end" | "restart";
+    life_loss?: "ignored" | "reported" | "end" | "restart";
     stack?: "zeros" | "repeats";
     pool?: 0 | 1 | boolean;
     lives?: "ignored" | "told" | "end" | "restart";

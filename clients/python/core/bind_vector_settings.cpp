@@ -26,7 +26,7 @@ void bind_words(nb::module_& module) {
       .value("BASELINES", ResetOrder::kBaselines);
   nb::enum_<LifeLoss>(module, "LifeLoss")
       .value("IGNORED", LifeLoss::kIgnored)
-      .value("TOLD", LifeLoss::kTold)
+      .value("REPORTED", LifeLoss::kReported)
       .value("END", LifeLoss::kEnds)
       .value("RESTART", LifeLoss::kResets);
   nb::enum_<StackStart>(module, "StackStart")

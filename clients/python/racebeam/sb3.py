@@ -31,9 +31,9 @@ def _check(settings: dict[str, Any]) -> None:
     mode = settings.get("autoreset_mode", AutoresetMode.SAME_STEP)
     if autoreset_of(mode) is not AutoresetMode.SAME_STEP:
         raise WrongValue(f"autoreset_mode is {mode!r}; VecEnv takes SameStep")
-    if settings.get("life_loss") == "told":
+    if settings.get("life_loss") == "reported":
         raise WrongValue(
-            "life_loss is 'told', with which an episode goes on after a step that is done; VecEnv takes ignored, "
+            "life_loss is 'reported', with which an episode goes on after a step that is done; VecEnv takes ignored, "
             "end, restart"
         )
     if settings.get("batch_size"):
@@ -59,7 +59,7 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
         num_envs: Number of environments. Default: 1, or the number of names in `game`.
         seed: Seed of the first environment, from which seeds count up. Default: random.
         **settings: Arguments of `AtariVectorEnv`, except `batch_size`. `autoreset_mode` must be SAME_STEP, and
-            `life_loss` must not be "told", since an episode ends where a step is done.
+            `life_loss` must not be "reported", since an episode ends where a step is done.
 
     Raises:
         gymnasium.error.Error: If an argument is wrong; also a TypeError or a ValueError.

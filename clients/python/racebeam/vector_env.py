@@ -70,7 +70,7 @@ class AtariVectorEnv(PlayedVector):
         maxpool: Whether a screen is the pixelwise maximum of the last two frames of a step.
         noop_max: Upper limit of the random number of NOOP frames that begin an episode: 0 to `noop_max` - 1.
         episodic_life: Same as `life_loss="restart"`; for compatibility with ale_py.
-        life_loss_info: Same as `life_loss="told"`; for compatibility with ale_py.
+        life_loss_info: Same as `life_loss="reported"`; for compatibility with ale_py.
         reward_clipping: Whether rewards are clipped to [-1, 1].
         use_fire_reset: Whether an episode begins with FIRE, if the game has this action.
         preset: Name of a preset of `racebeam.presets`, which supplies the arguments that are None.
@@ -78,7 +78,7 @@ class AtariVectorEnv(PlayedVector):
         difficulty: Difficulty of the game, or None for its default.
         obs_type: "rgb" or "grayscale" for screens of full size, or "ram" for the 128 bytes of RAM. Default: screens of
             `img_height` x `img_width`.
-        life_loss: Effect of a lost life. "ignored": none. "told": the step is terminated, and the episode goes on.
+        life_loss: Effect of a lost life. "ignored": none. "reported": the step is terminated, and the episode goes on.
             "end": the episode ends, and the next one continues the game, as in DQN. "restart": the episode ends, and
             the next one is a new game.
         start: How an episode begins: "fire-noops" as in ale_py, "noops-fire" as in EnvPool, or "baselines" as in

@@ -70,7 +70,7 @@ def merge_life_flags(life_loss: str | None, episodic_life: object, life_loss_inf
     Args:
         life_loss: The argument `life_loss` of `AtariVectorEnv`.
         episodic_life: The flag that means life_loss="restart".
-        life_loss_info: The flag that means life_loss="told".
+        life_loss_info: The flag that means life_loss="reported".
 
     Returns:
         The word for `life_loss`, or None if none of the three arguments was given.
@@ -82,7 +82,7 @@ def merge_life_flags(life_loss: str | None, episodic_life: object, life_loss_inf
         member("life_loss", life_loss, _core.LifeLoss)
     merged = life_loss
     for name, value, word in (
-        ("life_loss_info", life_loss_info, "told"),
+        ("life_loss_info", life_loss_info, "reported"),
         ("episodic_life", episodic_life, "restart"),  # takes precedence, as in ale_py
     ):
         if not flag(name, value):

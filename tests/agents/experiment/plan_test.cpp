@@ -90,7 +90,7 @@ TEST_CASE("Mistakes in a plan are named with their line") {
         "test.toml:3: environment: autoreset is next-step; an episode that is played");
   check("training_environment = \"autoreset=1\"\n",
         "test.toml:3: training_environment: autoreset is next-step");
-  check("training_environment = \"life_loss=told\"\n",
+  check("training_environment = \"life_loss=reported\"\n",
         "test.toml:3: training_environment: an episode is played");
   check("environment = \"life_loss=end\"\n",
         "test.toml:3: environment: an episode is played with life_loss=");

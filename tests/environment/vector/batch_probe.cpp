@@ -38,7 +38,7 @@ const Setters& setters() {
        }},
       {"life_loss_is_told",
        [](auto& s, double v) {
-         if (v != 0) s.slot.life_loss = LifeLoss::kTold;
+         if (v != 0) s.slot.life_loss = LifeLoss::kReported;
        }},
       {"all_legal_actions",
        [](auto& s, double v) {

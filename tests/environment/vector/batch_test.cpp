@@ -129,7 +129,7 @@ TEST_CASE("A reset with a seed leads where a new batch with that seed begins") {
 TEST_CASE("Rewards are told clipped and unclipped, and ends of lives beside ends of games") {
   auto settings = short_episodes();
   settings.slot.machine.sticky = 0;
-  settings.slot.life_loss = LifeLoss::kTold;
+  settings.slot.life_loss = LifeLoss::kReported;
   Batch batch(copies(2), settings);
   BatchResults results = batch.make_results();
   for (const std::size_t machine : {0, 1}) batch.slot(machine).environment().set_ram(test::kLives, 3);

@@ -74,7 +74,8 @@ TEST_CASE("A lost life does to the episode what was chosen") {
     lose_life(*slot, 2);
     return slot;
   };
-  for (const LifeLoss life_loss : {LifeLoss::kIgnored, LifeLoss::kTold, LifeLoss::kEnds, LifeLoss::kResets}) {
+  for (const LifeLoss life_loss :
+       {LifeLoss::kIgnored, LifeLoss::kReported, LifeLoss::kEnds, LifeLoss::kResets}) {
     const auto slot = after(life_loss);
     INFO(static_cast<int>(life_loss));
     CHECK(slot->outcome().terminated == (life_loss != LifeLoss::kIgnored));

@@ -30,7 +30,7 @@ TEST_CASE("A lost life has the effect that load asks for") {
   CHECK(Life("").lose() == "ok terminated=0 truncated=0 game_over=0 lives=2 acts=3 episode_frame=3");
   CHECK(Life("life_loss=ignored").lose() ==
         "ok terminated=0 truncated=0 game_over=0 lives=2 acts=3 episode_frame=3");
-  CHECK(Life("life_loss=told").lose() ==
+  CHECK(Life("life_loss=reported").lose() ==
         "ok terminated=1 truncated=0 game_over=0 lives=2 acts=3 episode_frame=3");
   CHECK(Life("life_loss=end").lose() ==
         "ok terminated=1 truncated=0 game_over=0 lives=2 acts=1 episode_frame=1");
@@ -45,8 +45,8 @@ TEST_CASE("With the old setting life_loss_ends a lost life truncates") {
 }
 
 TEST_CASE("The settings that a reply shows have the same effect when they are loaded again") {
-  for (const std::string words : {"life_loss=told", "life_loss=end", "life_loss=restart", "life_loss_ends=1",
-                                  "preset=dqn2015", "preset=dqn2015 life_loss_ends=0"}) {
+  for (const std::string words : {"life_loss=reported", "life_loss=end", "life_loss=restart",
+                                  "life_loss_ends=1", "preset=dqn2015", "preset=dqn2015 life_loss_ends=0"}) {
     INFO(words);
     Life first(words);
     const std::string shown = first.ask("settings");
@@ -87,7 +87,7 @@ TEST_CASE("With autoreset=same-step the act that loses a life begins the next ep
 }
 
 TEST_CASE("Machines of open whose steps are acts lose lives as the machine of load does") {
-  for (const std::string word : {"ignored", "told", "end", "restart"}) {
+  for (const std::string word : {"ignored", "reported", "end", "restart"}) {
     INFO(word);
     Life one("life_loss=" + word), many("");
     many.ask("open 1 autoreset=disabled life_loss=" + word);
@@ -98,7 +98,7 @@ TEST_CASE("Machines of open whose steps are acts lose lives as the machine of lo
     for (int step = 0; step < 3; ++step)
       CHECK("ok machines=1 |" + one.ask("act NOOP").substr(2) == many.ask("step NOOP"));
   }
-  Life both("life_loss=told");
+  Life both("life_loss=reported");
   both.ask("open 1");  // has that of load
   both.ask("poke 18 01");
   both.ask("save lost");
@@ -107,7 +107,7 @@ TEST_CASE("Machines of open whose steps are acts lose lives as the machine of lo
 }
 
 TEST_CASE("A branch ends with the life where the episode does") {
-  for (const std::string word : {"ignored", "told", "end", "restart"}) {
+  for (const std::string word : {"ignored", "reported", "end", "restart"}) {
     INFO(word);
     Life client("life_loss=" + word);
     client.ask("poke 18 01");

@@ -187,7 +187,7 @@ class Playing(unittest.TestCase):
             return terminated, truncated, env.reset()[1]["lives"] - lives
 
         self.assertEqual(after_loss(), (False, False, 0))
-        self.assertEqual(after_loss(life_loss="told"), (True, False, 0))
+        self.assertEqual(after_loss(life_loss="reported"), (True, False, 0))
         self.assertEqual(after_loss(life_loss="end"), (True, False, -1))
         self.assertEqual(after_loss(life_loss="restart"), (True, False, 0))
         with self.assertWarnsRegex(DeprecationWarning, "life_loss_ends is the old name of life_loss"):

@@ -39,7 +39,7 @@ ARGUMENTS = {
     "maxpool": (True, False),
     "continuous": (True, False),
     "autoreset_mode": ("NextStep", "SameStep", "Disabled"),
-    "lives": ("ignored", "told", "end", "restart"),
+    "lives": ("ignored", "reported", "end", "restart"),
     "preset": ("ale", "dqn2015"),
     "start": ("fire-noops", "noops-fire", "baselines"),
     "stack_start": ("zeros", "repeats"),

@@ -165,7 +165,7 @@ class BadInput(unittest.TestCase):
             envs.step(action)
 
     def test_a_lost_life_has_one_effect(self):
-        for flag, others in (("episodic_life", ("end", "told", "ignored")), ("life_loss_info", ("end", "restart"))):
+        for flag, others in (("episodic_life", ("end", "reported", "ignored")), ("life_loss_info", ("end", "restart"))):
             for lives in others:
                 with (
                     self.subTest(flag=flag, lives=lives),

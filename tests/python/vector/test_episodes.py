@@ -146,14 +146,15 @@ class Episodes(unittest.TestCase):
 
     def test_what_a_lost_life_does(self):
         frames = {}
-        for lives in ("ignored", "told", "end", "restart"):
+        for lives in ("ignored", "reported", "end", "restart"):
             envs = AtariVectorEnv("beamfall", 1, frameskip=60, life_loss=lives, noop_max=0)
             envs.reset(seed=1)
             shown = [envs.step([1]) for _ in range(40)]
             first = next(step for step, one in enumerate(shown) if one[2][0])
             frames[lives] = [int(one[4]["lives"][0]) for one in shown[first : first + 2]]
         self.assertEqual(
-            {lives: after for lives, (_, after) in frames.items()}, {"ignored": 4, "told": 3, "end": 3, "restart": 4}
+            {lives: after for lives, (_, after) in frames.items()},
+            {"ignored": 4, "reported": 3, "end": 3, "restart": 4},
         )
 
     def test_presets(self):

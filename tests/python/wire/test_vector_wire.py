@@ -51,7 +51,7 @@ SETTINGS = (
         "stack_start": "repeats",
     },
     {"preset": "dqn2015", "autoreset_mode": "Disabled", "maxpool": False, "frameskip": 60, "rules": "fixed"},
-    {"use_fire_reset": False, "start": "fire-noops", "life_loss": "told", "frameskip": 60, "seed": 0},
+    {"use_fire_reset": False, "start": "fire-noops", "life_loss": "reported", "frameskip": 60, "seed": 0},
 )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-LIFE_LOSSES = ("ignored", "told", "end", "restart")
+LIFE_LOSSES = ("ignored", "reported", "end", "restart")
 
 
 class LifeLoss:
@@ -25,7 +25,7 @@ class LifeLoss:
 
     def lives_before(self, ale: Any) -> int:
         """Returns the lives before a step, or 0 if they have no effect."""
-        return int(ale.lives()) if self.word in ("told", "end") else 0
+        return int(ale.lives()) if self.word in ("reported", "end") else 0
 
     def ends(self, ale: Any, ends: tuple[bool, bool], before: int, lives: int, episode_frame: int) -> tuple[bool, bool]:
         """Returns whether a step is terminated and truncated.
