@@ -13,6 +13,7 @@ import sys
 
 OPTION = re.compile(r"^  (?:-\w,)?(--[\w-]+)(.*)$", re.MULTILINE)
 SUBCOMMAND = re.compile(r"^  (\w+) {2,}(.+)$", re.MULTILINE)
+PROTOCOL = "racebeam-protocol"  # a page of section 7, from the description of the protocol
 MACHINE = re.compile(r"(--threads INT|--max-memory UINT\S* \[[^\]]*\])=\d+")  # defaults that depend on the machine
 GAMES = "racebeam games 2>/dev/null | awk 'NR > 1 { print $1 }'"
 FILES = {
@@ -57,7 +58,7 @@ def man_page(name, text, version, summary, others):
     _, _, rest = text.partition("Usage: ")
     usage, _, rest = rest.partition("\n")
     lines += [".SH SYNOPSIS", f".B {roff(usage)}", ".SH DESCRIPTION", ".nf", roff(rest.strip("\n")), ".fi"]
-    lines += [".SH SEE ALSO", ",\n".join(f".BR {roff(other)} (1)" for other in others)]
+    lines += [".SH SEE ALSO", ",\n".join(f".BR {roff(other)} ({7 if other == PROTOCOL else 1})" for other in others)]
     return "\n".join(lines) + "\n"
 
 
@@ -141,12 +142,12 @@ def main():
     summaries = subcommands(about)
     texts = {name: help_of(program, name) for name in summaries}
     commands = {name: options(text) for name, text in texts.items()}
-    pages = [f"racebeam-{name}" for name in summaries]
+    pages = [*(f"racebeam-{name}" for name in summaries), PROTOCOL]
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "racebeam.1").write_text(man_page("racebeam", about, version, about.partition("\n")[0], pages))
     for name, text in texts.items():
         (folder / f"racebeam-{name}.1").write_text(
-            man_page(f"racebeam-{name}", text, version, summaries[name], ["racebeam"])
+            man_page(f"racebeam-{name}", text, version, summaries[name], ["racebeam", PROTOCOL])
         )
     (folder / "racebeam.bash").write_text(bash(commands))
     (folder / "_racebeam").write_text(zsh(commands, summaries))

@@ -10,6 +10,7 @@ add_custom_command(
 add_custom_target(program_texts ALL DEPENDS ${texts}/racebeam.1)
 
 install(DIRECTORY ${texts}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program FILES_MATCHING PATTERN "*.1")
+install(FILES ${CMAKE_SOURCE_DIR}/protocol/racebeam-protocol.7 DESTINATION ${CMAKE_INSTALL_MANDIR}/man7 COMPONENT program)
 install(FILES ${texts}/racebeam.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME racebeam
   COMPONENT program)
 install(FILES ${texts}/_racebeam DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)

@@ -113,6 +113,12 @@ class Setting(Row):
     old_values: dict[str, str] = dataclasses.field(default_factory=dict)
     deprecated: str = ""
 
+    @property
+    def values(self):
+        """The words that are accepted, where that is a list of them."""
+        words = list(self.choices) or re.split(r", | or ", self.accepted)
+        return words if len(words) > 1 and not any(" " in word for word in words) else []
+
 
 @dataclasses.dataclass(frozen=True)
 class Preset(Row):
@@ -184,6 +190,7 @@ class OldWord:
 @dataclasses.dataclass(frozen=True)
 class Protocol:
     version: int
+    since: str
     commands: tuple[Command, ...]
     aliases: dict[str, str]
     settings: tuple[Setting, ...]
@@ -303,6 +310,7 @@ def read(path=SOURCE):
     settings = {setting.name: setting for setting in rows("setting", Setting, document)}
     protocol = Protocol(
         version=document["protocol"],
+        since=document["since"],
         commands=tuple(completed(command, settings) for command in rows("command", Command, document)),
         aliases=document["aliases"],
         settings=tuple(settings.values()),

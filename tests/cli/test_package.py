@@ -103,8 +103,9 @@ class Package(unittest.TestCase):
             {path.name for path in pages.iterdir()}, {"racebeam.1", *(f"racebeam-{name}.1" for name in names)}
         )
         self.assertIn(r"\-\-frame\-skip", (pages / "racebeam-serve.1").read_text())
+        protocol = self.root / "usr/share/man/man7/racebeam-protocol.7"
         if shutil.which("groff"):
-            for page in pages.iterdir():
+            for page in (*pages.iterdir(), protocol):
                 done = subprocess.run(["groff", "-man", "-ww", "-Tutf8", page], capture_output=True, text=True)
                 self.assertEqual((done.returncode, done.stderr), (0, ""), page)
                 self.assertIn("racebeam", done.stdout)

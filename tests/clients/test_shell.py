@@ -102,5 +102,38 @@ class Agents(unittest.TestCase):
         self.assertRegex(done.stdout, r"^ok game=beamfall .*\nok reward=\d+ .*\n$")
 
 
+class Completion(unittest.TestCase):
+    """What Tab offers after racebeam_ask."""
+
+    SCRIPT = """source "$1/completion.bash"; COMP_LINE=$2 COMP_POINT=${#2}; COMP_WORDBREAKS=$' \\t\\n"\\'@><=;|&(:'
+    _racebeam_complete; printf '%s\\n' "${COMPREPLY[@]}" """
+
+    def offered(self, typed):
+        done = run("bash", "-c", self.SCRIPT, "bash", SHELL, f"racebeam_ask {typed}")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout.split()
+
+    def test_commands(self):
+        self.assertEqual(self.offered("obs"), ["observe"])
+        self.assertIn("load", self.offered(""))
+
+    def test_keys_and_their_values(self):
+        self.assertEqual(self.offered("load beamfall noop"), ["noop_max="])
+        self.assertEqual(self.offered("load beamfall seed=3 life_loss=re"), ["reported", "restart"])
+        self.assertEqual(self.offered("load beamfall preset=dq"), ["dqn2015"])
+        self.assertEqual(self.offered("open 4 autoreset=s"), ["same-step"])
+
+    def test_fields_and_their_encodings(self):
+        self.assertEqual(self.offered("observe reward scr"), ["screen"])
+        self.assertEqual(self.offered("watch room screen:de"), ["delta"])
+        self.assertEqual(self.offered("observe no"), ["none"])
+
+    def test_what_help_explains(self):
+        self.assertEqual(self.offered("help life"), ["life_loss"])
+
+    def test_nothing_after_an_unknown_command(self):
+        self.assertEqual(self.offered("dance re"), [])
+
+
 if __name__ == "__main__":
     main()

@@ -19,6 +19,7 @@ generate = importlib.util.module_from_spec(importlib.util.spec_from_loader("gene
 loader.exec_module(generate)
 
 CLIENTS = ("python", "java", "js", "lua", "cpp", "shell")
+COMPLETION = "clients/shell/completion.bash"
 
 
 def changed(text):
@@ -46,13 +47,16 @@ class Rows(unittest.TestCase):
         for path, text in files.items():
             self.assertIn("shadow", text, path)
         self.assertIn("| `shadow` | what was | delta |\n", files["protocol/PROTOCOL.md"])
+        self.assertIn(".B shadow\nwhat was\n", files["protocol/racebeam-protocol.7"])
 
-    def test_a_command_has_a_method_in_every_client_with_methods(self):
+    def test_a_command_has_a_method_in_every_client_and_completes_in_bash(self):
         files = changed(
             '[[command]]\nname = "rewind"\nneeds = "game"\nsummary = "go back"\nreturns = "first"\n'
             'arguments = [{ word = "count", text = "N", type = "int" }]\n'
         )
-        self.assertEqual(folders(files), set(CLIENTS) - {"shell"})
+        self.assertEqual(folders(files), set(CLIENTS))
+        self.assertIn("[rewind]=''", files["clients/shell/completion.bash"])
+        self.assertIn(".B rewind N\ngo back\n", files["protocol/racebeam-protocol.7"])
         self.assertIn("def rewind(self, count: int) -> Values:", files["clients/python/racebeam/wire/commands.py"])
         self.assertIn(
             "public Group rewind(long count) throws", files["clients/java/src/main/java/racebeam/Commands.java"]
@@ -70,7 +74,8 @@ class Rows(unittest.TestCase):
             files = changed(text)
             self.assertIn("protocol/PROTOCOL.md", files)
             self.assertIn(table, files)
-            self.assertEqual(folders(files), set())
+            self.assertIn("protocol/racebeam-protocol.7", files)
+            self.assertEqual(set(files) & {path for path in files if path.startswith("clients/")}, {COMPLETION})
 
     def test_what_is_true_or_false_is_known_where_0_would_be_true(self):
         for text in (
@@ -79,7 +84,7 @@ class Rows(unittest.TestCase):
             '[command.reply]\n"tint?" = "flag"\n',
         ):
             files = changed(text)
-            self.assertEqual(folders(files), {"lua"})
+            self.assertEqual(folders(files), {"lua", "shell"})
             self.assertIn(", tint = true", files["clients/lua/racebeam/field_table.lua"])
 
     def test_what_is_deprecated_is_marked(self):
