@@ -111,7 +111,7 @@ TEST_CASE("help explains each value of a key that has a list of them") {
   LineClient client;
   CHECK_THAT(client.ask("help start"), Contains("; start=noops-fire: as in EnvPool: the no-ops, then FIRE") &&
                                            Contains("; start=noops: only the no-ops"));
-  CHECK_THAT(client.ask("help told"),
+  CHECK_THAT(client.ask("help reported"),
              Contains("; life_loss=reported: the act or step that loses a life is terminated") &&
                  !Contains("life_loss=end:"));
 }
