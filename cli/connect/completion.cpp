@@ -60,6 +60,22 @@ std::string_view before_last(std::string_view word, std::string_view signs) {
   return word.substr(0, at == std::string_view::npos ? 0 : at + 1);
 }
 
+// "A", "B" and "C" of "A, B or C". None if one of them is more than a word, such as "1 to 50".
+Texts words_of_list(std::string_view text) {
+  Texts words{""};
+  for (const std::string_view word : split(text, ' ')) {
+    if (word == "or") {
+      words.emplace_back();
+    } else if (!words.back().empty()) {
+      return {};
+    } else {
+      words.back() = word.substr(0, word.find(','));
+      if (word.ends_with(',')) words.emplace_back();
+    }
+  }
+  return words;
+}
+
 constexpr std::array<std::string_view, 4> kTakesStates = {"restore", "drop", "export", "branch"};
 
 }  // namespace
@@ -106,9 +122,10 @@ void Completion::add_alternatives(std::string_view command, std::string_view tok
   const std::size_t equals = token.find('=');
   const std::string key(equals == std::string_view::npos ? "" : token.substr(0, equals + 1));
   if (is_upper(key)) {  // KEY=VALUE
+    const std::string_view typed = before_last(word, "=");
     for (const std::string& name : named(command, "KEY", word)) found.push_back(name + '=');
-    if (word.starts_with("preset="))
-      for (const std::string& name : listed("hello", "presets")) found.push_back("preset=" + name);
+    for (std::string& pair : after(typed, values_of(typed.substr(0, typed.find('=')))))
+      found.push_back(std::move(pair));
     return;
   }
   for (const std::string_view one : split(token.substr(key.size()), '|')) {
@@ -145,6 +162,17 @@ std::vector<std::string> Completion::named(std::string_view command, std::string
   for (const client::Group& group : client::Reply("ok " + ask_("shared"), [](auto&, auto) {}).rest())
     if (group.has("name")) names.push_back(group.text("name"));
   return names;
+}
+
+// Those of a setting. help has them in brackets: "life_loss (ignored, reported, end or restart): ...".
+std::vector<std::string> Completion::values_of(std::string_view key) const {
+  if (key.empty()) return {};
+  if (key == "preset") return listed("hello", "presets");
+  const std::string told = ask_("help " + std::string(key)), head = std::string(key) + " (";
+  const std::size_t begin = told.find(head);
+  if (begin == told.npos) return {};
+  return words_of_list(
+      std::string_view(told).substr(begin + head.size(), told.find(')', begin) - begin - head.size()));
 }
 
 // The words of a value that are separated by commas.

@@ -28,6 +28,7 @@ class Completion {
                         std::vector<std::string>& found) const;
   std::vector<std::string> named(std::string_view command, std::string_view placeholder,
                                  std::string_view word) const;
+  std::vector<std::string> values_of(std::string_view key) const;
   std::vector<std::string> listed(const std::string& request, std::string_view key) const;
 
   Ask ask_;

@@ -274,7 +274,7 @@ class Typed(unittest.TestCase):
         if not self.edits():
             self.skipTest("built without libedit")
         shown = self.run_typed(
-            "load beam\tseed=7 stic\t0 preset=dq\t\n",
+            "load beam\tseed=7 stic\t0 life_loss=rep\tpreset=dq\t\n",
             "act fi\t\n",
             "act FIRE/righ\t\n",
             "save here\n",
@@ -286,6 +286,7 @@ class Typed(unittest.TestCase):
         )
         for reply in (
             "sticky=0 mode=0",
+            "life_loss=reported",
             "preset=dqn2015",
             "ok state=here",
             "ok fields of observe and look:",

@@ -112,6 +112,12 @@ TEST_CASE("help marks each old word") {
   }
 }
 
+TEST_CASE("help tells a word that is only an old one from a field") {
+  LineClient client;
+  CHECK(client.ask("help ends") == "ok an old word: field ends is deprecated: use terminated truncated");
+  CHECK_THAT(client.ask("help lives"), Contains("; old: open lives is deprecated: use life_loss"));
+}
+
 TEST_CASE("The log warns of an old word once, whatever session uses it") {
   Logged server;
   for (int session = 0; session < 2; ++session) {

@@ -137,9 +137,10 @@ void add_choices(std::string_view name, HelpText& text) {
 // Adds the old words that are `name`, or a pair with that key. Returns whether there are any.
 bool add_old(std::string_view name, HelpText& text) {
   const std::size_t before = text.entries.size();
+  const std::string_view mark = before == 0 ? "" : "old: ";
   for (const OldWord& row : description::kOldWords) {
     if (row.old.substr(0, row.old.find('=')) == name || &row == old_field(name))
-      text.entries.push_back("old: " + deprecation_of(row));
+      text.entries.push_back(joined({mark, deprecation_of(row)}));
   }
   return text.entries.size() > before;
 }
@@ -182,6 +183,7 @@ HelpText help_on(std::string_view name) {
       find_in(codes(), name, "the code of an error:", text);
   const bool taken = add_commands(name, text);
   add_choices(name, text);
+  if (text.entries.empty()) text.head = "an old word:";
   if (add_old(name, text) || taken || found) return text;
   refuse(name, kTopics, commands(), setting_rows(), field_rows(), preset_rows(), encodings(), codes());
 }
