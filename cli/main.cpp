@@ -79,11 +79,17 @@ std::string explain_no_subcommand(const CLI::App& app) {
          (meant.empty() ? " there are " : meant + " There are ") + names;
 }
 
+bool is_option(const std::string& word) { return word.starts_with('-'); }
+
+bool has_unknown_option(const CLI::App& command) {
+  return std::ranges::any_of(command.remaining(), is_option);
+}
+
 // The words that a subcommand does not take, and what the first option among them may have meant.
 std::string explain_extras(const CLI::App& command) {
   const auto words = command.remaining();
   const std::string sentence = "unknown argument: " + CLI::detail::join(words, " ");
-  const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
+  const auto option = std::ranges::find_if(words, is_option);
   if (option == words.end()) return sentence;
   const std::string meant = suggestion(option->substr(0, option->find('=')), option_names(command));
   return meant.empty() ? sentence : sentence + ";" + meant;
@@ -105,7 +111,10 @@ std::vector<const char*> words_of(int argc, char** argv) {
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
   if (chosen.empty()) return explain_no_subcommand(app) + " (see racebeam --help)";
-  const bool extras = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  const auto is = [&error](CLI::ExitCodes code) { return error.get_exit_code() == static_cast<int>(code); };
+  // What is missing may be misspelt.
+  const bool extras = is(CLI::ExitCodes::ExtrasError) ||
+                      (is(CLI::ExitCodes::RequiredError) && has_unknown_option(*chosen[0]));
   const std::string sentence = extras ? explain_extras(*chosen[0]) : std::string(error.what());
   return sentence + " (see racebeam " + chosen[0]->get_name() + " --help)";
 }

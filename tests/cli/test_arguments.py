@@ -156,6 +156,7 @@ class Options(Case):
             ("--frame-skip", "--frameskip=4", "bench", "--rom", GAME, "--frameskip=4"),
             ("--max-states", "--max-state 3", "serve", "--stdio", "--max-state", "3"),
             ("--strict", "--stict", "connect", "tcp://127.0.0.1:1", "--stict"),
+            ("--actions", "--action=-", "trace", "--rom", GAME, "--action=-"),
         ):
             with self.subTest(words=words):
                 self.refused(2, f"unknown argument: {given}; did you mean {meant}", *words)
