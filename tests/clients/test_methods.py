@@ -53,6 +53,13 @@ class Methods(unittest.TestCase):
                 [command.name for command in protocol.commands if plain(command.method) not in methods], [], client
             )
 
+    def test_the_types_of_methods_that_a_person_wrote_have_each_key(self):
+        declared = {plain(line.split("(")[0]): line for line in text("js/src/index.d.ts").splitlines() if "(" in line}
+        for command in description.read().commands:
+            if command.returns == "own" and not any(argument.type == "settings" for argument in command.arguments):
+                for argument in (*command.keys, *command.old_keys):
+                    self.assertRegex(declared[plain(f"  {command.method}")], rf"\b{argument.key}\?:")
+
     def test_every_client_knows_each_field_of_bytes(self):
         for field in description.read().byte_fields:
             for path in TABLES:

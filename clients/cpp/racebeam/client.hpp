@@ -5,7 +5,7 @@
 ///
 ///     auto game = racebeam::client::launch();  // the program racebeam
 ///     game.load("beamfall", "seed=7", "frame_skip=4");
-///     game.observe("reward", "ends");
+///     game.observe("reward", "terminated", "truncated");
 ///     long score = 0;
 ///     for (int step = 0; step < 100; ++step) score += game.act("FIRE").reward();
 ///     std::cout << "score " << score << '\n';

@@ -77,8 +77,8 @@ export class Session {
   palette(): Promise<Uint32Array>;
   peek(index: number, count?: number): Promise<Uint8Array>;
   poke(index: number, bytes: Uint8Array | number[]): Promise<void>;
-  /** whole: 1 for the score, the progress of the episode and the stack of screens, too. */
-  exportState(name: string, settings?: { whole?: 0 | 1 | boolean }): Promise<Uint8Array>;
+  /** episode: 1 for the score, the progress of the episode and the stack of screens, too; whole is its old name. */
+  exportState(name: string, settings?: { episode?: 0 | 1 | boolean; whole?: 0 | 1 | boolean }): Promise<Uint8Array>;
   importState(name: string, bytes: Uint8Array): Promise<void>;
   /** Each list is played from the state. */
   branch(name: string, lists: Action[][], settings?: { keep?: string }): Promise<Branch[]>;

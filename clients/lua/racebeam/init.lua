@@ -3,7 +3,7 @@
 --   local racebeam = require("racebeam")
 --   local game = racebeam.connect("tcp://127.0.0.1:7800")
 --   game:load("beamfall", { seed = 7, frame_skip = 4 })
---   game:observe("reward", "ends", "screen:delta")
+--   game:observe("reward", "terminated", "truncated", "screen:delta")
 --   local shown = game:act("FIRE")      -- { reward = 0, terminated = false, truncated = false, screen = "..." }
 --   game:close_connection()
 --
@@ -270,7 +270,7 @@ function Session:poke(index, bytes)
   end)))
 end
 
--- settings: { whole = 1 } for the score, the progress of the episode and the stack of screens, too.
+-- settings: { episode = 1 } for the score, the progress of the episode and the stack of screens, too.
 function Session:export_state(name, settings)
   return decode.base64(self:request_text("data", "export", name, settings or ""))
 end

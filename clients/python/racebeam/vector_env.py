@@ -24,7 +24,7 @@ from .presets import vector_preset
 from .vector.autoreset import AutoresetMode, check_supported
 from .vector.making import Rom, make_local_machines, make_remote_machines, parse_games
 from .vector.play import PlayedVector
-from .vector_options import VectorOptions, merge_life_flags
+from .vector_options import VectorOptions, life_loss_of, merge_life_flags
 
 __all__ = ["AtariVectorEnv"]
 
@@ -216,7 +216,9 @@ class AtariVectorEnv(PlayedVector):
             difficulty=difficulty,
             obs_type=obs_type,
             life_loss=value_or(
-                merge_life_flags(renamed("lives", lives, "life_loss", life_loss), episodic_life, life_loss_info),
+                merge_life_flags(
+                    renamed("lives", life_loss_of(lives), "life_loss", life_loss), episodic_life, life_loss_info
+                ),
                 usual.life_loss,
             ),
             start=start,

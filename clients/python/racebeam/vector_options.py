@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import secrets
+from typing import Any
 
 from . import _core
 from .arguments import MOST, WrongType, WrongValue, check_choice, flag, join, member, optional_whole, share, whole
 from .vector.autoreset import AutoresetMode
 
-__all__ = ["SEEDS", "VectorOptions", "autoreset_of", "merge_life_flags"]
+__all__ = ["SEEDS", "VectorOptions", "autoreset_of", "life_loss_of", "merge_life_flags"]
 
 OBS_TYPES = (None, "rgb", "grayscale", "ram")
 RENDER_MODES = (None, "human", "rgb_array")
@@ -62,6 +63,11 @@ def autoreset_of(mode: object) -> AutoresetMode:
     raise (WrongValue if isinstance(mode, str) else WrongType)(
         f"autoreset_mode is {mode!r}; it takes {join(one.value for one in AutoresetMode)}"
     )
+
+
+def life_loss_of(lives: object) -> Any:
+    """Returns the value of `life_loss` for a value of `lives`, its old name, which had another word for "reported"."""
+    return "reported" if isinstance(lives, str) and lives == "told" else lives
 
 
 def merge_life_flags(life_loss: str | None, episodic_life: object, life_loss_info: object) -> str | None:

@@ -326,7 +326,7 @@ public final class Session extends Commands implements AutoCloseable {
    * @return its bytes
    * @throws IOException if the session has ended
    */
-  public byte[] exportWhole(String name) throws IOException {
+  public byte[] exportEpisode(String name) throws IOException {
     return Encoding.BASE64.decode(first("export " + name + " episode=1").text("data"));
   }
 

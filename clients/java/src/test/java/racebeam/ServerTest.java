@@ -71,7 +71,7 @@ class ServerTest {
     assertEquals(10, session.step(1).get(2).number("frame"));
     session.save("c", Map.of("machine", 1, "random", 1));
     assertEquals(10, session.restore("c", 2).number("frame"));
-    assertTrue(session.exportWhole("c").length > session.exportState("c").length);
+    assertTrue(session.exportEpisode("c").length > session.exportState("c").length);
     assertEquals(3, session.restart("010", 4).size());
     session.closeMachines();
     assertEquals("room", session.share("room", 2).text("share"));
