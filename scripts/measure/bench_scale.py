@@ -23,8 +23,8 @@ from bench_wire import ROOT, image, name_of
 from crowd import Crowd, Server
 
 SHOWN = (
-    "reward ends",
-    "reward ends ram",
+    "reward terminated truncated",
+    "reward terminated truncated ram",
     "screen:delta",
     "grey84x84x1:zlib",
     "screen:zlib",

@@ -170,10 +170,10 @@ def print_batch(game, machines=64):
     for ahead, words in itertools.product(
         (1, 2),
         (
-            "reward ends",
-            "reward ends lives ram screen:rle",
-            "reward ends frame_skip=4",
-            "reward ends lives ram screen:rle frame_skip=4",
+            "reward terminated truncated",
+            "reward terminated truncated lives ram screen:rle",
+            "reward terminated truncated frame_skip=4",
+            "reward terminated truncated lives ram screen:rle frame_skip=4",
         ),
     ):
         done = subprocess.run(
@@ -184,7 +184,7 @@ def print_batch(game, machines=64):
         found = json.loads(done.stdout)
         alone = found["in_process"]
         print(
-            f"{ahead} under way, {words:46}{alone['rate']:9.0f}"
+            f"{ahead} under way, {words:60}{alone['rate']:9.0f}"
             + "".join(
                 f"{transport:>8}{found[transport]['rate']:8.0f}{ratio(found[transport], alone):6.2f}"
                 for transport in TRANSPORTS

@@ -18,7 +18,7 @@ def play(game, number, middle=lambda: None):
     """The digest of a game that depends only on `number`."""
     digest = hashlib.sha256()
     game.load("beamfall", seed=number + 1, frame_skip=4)  # 0 would be a random one
-    game.observe("reward", "ends", "ram", "screen:zlib")
+    game.observe("reward", "terminated", "truncated", "ram", "screen:zlib")
     for step in range(60):
         if step == 30:
             middle()

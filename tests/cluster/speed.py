@@ -13,7 +13,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "clients/python/single_file"))
 import client
 
-SHOWN = ("reward ends ram", "screen:zlib", "screen:rle", "screen:base64")
+SHOWN = ("reward terminated truncated ram", "screen:zlib", "screen:rle", "screen:base64")
 ROUNDS, STEPS = 3, 100
 
 

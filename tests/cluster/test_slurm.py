@@ -24,6 +24,7 @@ import client
 
 BINARY = os.environ.get("RACEBEAM_BINARY", str(slurm.TOP / "build/release/racebeam"))
 SCRIPTS = slurm.TOP / "cluster/slurm"
+SRUN = str(SCRIPTS / "racebeam-srun")
 AGENT = str(pathlib.Path(agent.__file__).resolve())
 
 PYTHON = os.environ.get(
@@ -105,7 +106,7 @@ class Slice(Slurm):
 
     def test_a_server_on_a_node_for_an_agent_here(self):
         done = subprocess.run(
-            [SCRIPTS / "racebeam-srun", *self.agent()],
+            [SRUN, *self.agent()],
             cwd=self.jobs,
             capture_output=True,
             text=True,
@@ -118,7 +119,7 @@ class Slice(Slurm):
 
     def test_the_protocol_on_the_standard_streams_of_srun(self):
         os.environ |= {name: self.cluster.environment[name] for name in ("SLURM_CONF", "PATH", "RACEBEAM_TEST")}
-        with client.Session.start(str(SCRIPTS / "racebeam-srun"), "--log-level", "warning") as game:
+        with client.Session.start(SRUN, "--log-level", "warning") as game:
             self.assertEqual(agent.play(game, 3), self.expected[3])
         self.nothing_is_left()
 
@@ -370,9 +371,10 @@ class Whole(Slurm):
         script = str(pathlib.Path(speed.__file__).resolve())
         environment = self.cluster.environment
 
-        def streams(program):
+        def measured(*words):
             done = subprocess.run(
-                [sys.executable, script, "--program", program],
+                words,
+                cwd=self.jobs,
                 capture_output=True,
                 text=True,
                 check=True,
@@ -394,17 +396,18 @@ class Whole(Slurm):
             return json.loads((self.results / "found").read_text())
 
         found = {
-            "pipes": streams(BINARY),
-            "pipes, srun": streams(str(SCRIPTS / "racebeam-srun")),
+            "pipes": measured(sys.executable, script, "--program", BINARY),
+            "pipes, srun": measured(sys.executable, script, "--program", SRUN),
+            "TCP, srun": measured(SRUN, sys.executable, script),
             "TCP, two steps": between_steps(),
         }
         lengths = [{shown: one["length"] for shown, one in way.items()} for way in found.values()]
-        self.assertEqual(lengths, lengths[:1] * 3)
+        self.assertEqual(lengths, lengths[:1] * len(found))
         self.nothing_is_left()
         print(
-            f"\nsteps/s, load {os.getloadavg()[0]:.1f}\n{'':16}"
+            f"\nsteps/s, load {os.getloadavg()[0]:.1f}\n{'':32}"
             + "".join(f"{name:>16}" for name in found)
             + f"{'bytes':>8}"
         )
         for shown, length in lengths[0].items():
-            print(f"{shown:16}" + "".join(f"{way[shown]['steps']:16.0f}" for way in found.values()) + f"{length:8}")
+            print(f"{shown:32}" + "".join(f"{way[shown]['steps']:16.0f}" for way in found.values()) + f"{length:8}")

@@ -66,7 +66,7 @@ int bench(const std::vector<std::string>& words, bool one_write) {
   job.one_write = one_write;
   std::string load = wire::load_of(job.image);
   for (std::size_t i = 4; i < words.size(); ++i) load += " " + words[i];
-  job.preparation = {load + "\n", "observe reward ends lives ram screen:rle\n"};
+  job.preparation = {load + "\n", "observe reward terminated truncated lives ram screen:rle\n"};
   job.requests = wire::draw_requests(job.steps, "act");
   wire::reset_where_it_ends(job);
   Lines replies;
