@@ -83,10 +83,13 @@ void Reply::refuse(ErrorCode code, std::string_view sentence) {
 }
 
 std::size_t Reply::finish() {
-  if (!raw_.empty()) append_pair(out_, "raw", static_cast<std::int64_t>(raw_.size()));
+  const bool has_raw = !raw_.empty();
+  if (has_raw) append_pair(out_, "raw", static_cast<std::int64_t>(raw_.size()));
   out_ += '\n';
-  out_ += raw_;
-  raw_.clear();
+  if (has_raw) {
+    out_ += raw_;
+    raw_.clear();
+  }
   return out_.size() - begin_;
 }
 

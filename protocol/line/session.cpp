@@ -211,7 +211,7 @@ void Session::read_words(std::string_view line) {
 
 // Replaces the old words of a request. Fields stay as they are, since the reply has their names.
 void Session::renew_words(const Command& command) {
-  new_words_.clear();
+  if (!new_words_.empty()) new_words_.clear();
   if (!command.has_old) return;
   for (std::string_view& word : std::span(words_).subspan(1)) {
     const OldWord* const row = command.takes_fields ? old_field(word) : old_word(command.name, word);
