@@ -75,8 +75,8 @@ std::string explain_no_subcommand(const CLI::App& app) {
   const std::string names = CLI::detail::join(known, ", ");
   if (given.empty()) return "a subcommand is required: " + names;
   const std::string meant = suggestion(given.front(), known);
-  return "'" + given.front() + "' is not a subcommand;" +
-         (meant.empty() ? " there are " : meant + " There are ") + names;
+  return "unknown subcommand '" + given.front() + "';" +
+         (meant.empty() ? " accepted: " : meant + " Accepted: ") + names;
 }
 
 bool is_option(const std::string& word) { return word.starts_with('-'); }

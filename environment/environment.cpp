@@ -62,7 +62,7 @@ void check_offered(int number, const std::vector<int>& offered, const std::strin
 
 std::size_t ram_index(int index) {
   if (index >= 0 && index < kRamSize) return static_cast<std::size_t>(index);
-  throw std::out_of_range("RAM has no byte " + std::to_string(index) + "; there are 0 to 127");
+  throw std::out_of_range("index " + std::to_string(index) + " of RAM is out of range; accepted: 0 to 127");
 }
 
 }  // namespace

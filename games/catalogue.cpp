@@ -33,8 +33,7 @@ const CatalogueImage* known_image(std::string_view md5) {
 
 [[noreturn]] void refuse_name(const std::string& name) {
   const std::string near = did_you_mean(name, game_names());
-  throw InvalidInput("there is no game '" + name + "';" +
-                     (near.empty() ? " `racebeam games` lists all" : near));
+  throw InvalidInput("unknown game '" + name + "';" + (near.empty() ? " `racebeam games` lists all" : near));
 }
 
 bool describes(const Game& game, const Image& image) {

@@ -60,7 +60,7 @@ std::shared_ptr<const Image> built_in(std::string_view name) {
     known += (known.empty() ? "" : ", ") + std::string(kBuiltIn) + std::string(image.name);
   }
   refuse(std::string(kBuiltIn) + std::string(name),
-         "there is no such built-in image; there are: " + (known.empty() ? "none" : known));
+         "unknown built-in image; accepted: " + (known.empty() ? "none" : known));
 }
 
 bool looks_like_image(const std::filesystem::path& path) {

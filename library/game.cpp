@@ -28,7 +28,7 @@ Game Game::named(const std::string& name) {
   if (auto game = find_game(name)) return Internals::wrap(std::move(game));
   const std::string near = did_you_mean(name, game_names());
   throw Error(Error::Cause::kGame,
-              "there is no game '" + name + "';" + (near.empty() ? " Game::names() lists all" : near));
+              "unknown game '" + name + "';" + (near.empty() ? " Game::names() lists all" : near));
 }
 
 Game Game::load(const std::string& path) {

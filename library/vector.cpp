@@ -93,8 +93,9 @@ struct VectorEnvironment::Impl {
 
   void check_number(std::size_t machine) const {
     if (machine < batch.size()) return;
-    throw Error(Error::Cause::kArgument, "there is no machine " + std::to_string(machine) +
-                                             "; there are 0 to " + std::to_string(batch.size() - 1));
+    throw Error(Error::Cause::kArgument, "machine " + std::to_string(machine) +
+                                             " is out of range; accepted: 0 to " +
+                                             std::to_string(batch.size() - 1));
   }
 
   // A machine that does not play now.

@@ -21,7 +21,7 @@ struct Named {
     throw InputFileError(what + " " + path + ": " + reason);
   }
   [[noreturn]] void fail() const {
-    if (errno == ENOENT) refuse("there is no such file");
+    if (errno == ENOENT) refuse("no such file");
     refuse("the file cannot be read: " + std::generic_category().message(errno));
   }
 };

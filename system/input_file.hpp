@@ -11,7 +11,7 @@
 
 namespace racebeam {
 
-// The message is "WHAT PATH: REASON", such as "image pong.bin: there is no such file".
+// The message is "WHAT PATH: REASON", such as "image pong.bin: no such file".
 class InputFileError : public InvalidInput {
  public:
   using InvalidInput::InvalidInput;

@@ -21,7 +21,7 @@ template <typename Rows>
 consteval const auto& row_named(const Rows& rows, std::string_view name) {
   for (const auto& row : rows)
     if (row.name == name) return row;
-  throw "there is no row of this name";
+  throw "unknown row";
 }
 
 // Whether two tables have the same names, in the same order.

@@ -63,9 +63,9 @@ std::string advice(std::string_view given, Words known, std::string accepted) {
 }
 
 std::string unknown_name(std::string_view kind, std::string_view name, Words known) {
-  std::string list = "there are";
+  std::string list = "accepted:";
   for (const std::string_view one : known) (list += ' ') += one;
-  return "there is no " + std::string(kind) + ' ' + quote(name) + ';' + advice(name, known, list);
+  return "unknown " + std::string(kind) + ' ' + quote(name) + ';' + advice(name, known, list);
 }
 
 void refuse_name(std::string_view kind, std::string_view name, Words known) {

@@ -49,10 +49,10 @@ KeyValue key_value(std::string_view word);
 std::string_view value_of(std::string_view word, std::string_view key, std::string_view command);
 
 // A suggestion, if a name is similar, then what is accepted, which begins with a small letter: " did you mean
-// A? There are A B C", or " there are A B C".
+// A? Accepted: A B C", or " accepted: A B C".
 std::string advice(std::string_view given, Words known, std::string accepted);
 
-// "there is no KIND 'NAME'; did you mean A? There are A B C"
+// "unknown KIND 'NAME'; did you mean A? Accepted: A B C"
 std::string unknown_name(std::string_view kind, std::string_view name, Words known);
 [[noreturn]] void refuse_name(std::string_view kind, std::string_view name, Words known);  // InvalidArguments
 

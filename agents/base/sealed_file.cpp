@@ -85,7 +85,7 @@ std::string unseal(const SealedKind& kind, const std::string& name, std::string_
   const auto size = get<std::uint64_t>(bytes, kSizeAt);
   if (size > kind.most)
     refuse(kind, name,
-           "it says that it holds " + std::to_string(size) + " bytes; accepted are at most " +
+           "it says that it holds " + std::to_string(size) + " bytes; accepted: at most " +
                std::to_string(kind.most));
   if (checksum(bytes.substr(0, kHeadSize), deflated) != get<std::uint32_t>(bytes, kChecksumAt))
     refuse(kind, name, "its checksum is wrong; it was cut or altered");

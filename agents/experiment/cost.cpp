@@ -128,7 +128,7 @@ void check_memory(const Plan& plan, unsigned threads, const Allowance& bytes) {
   throw InvalidInput("the plan takes about " + whole_number(needed) + " MB of memory: " + whole_number(each) +
                      " MB for " + std::string(most->kind->name) + " on each of " + std::to_string(busy) +
                      " threads; " + bytes.limited_by + " allows " + whole_number(usable) +
-                     " MB; accepted are fewer --threads, or settings that take less");
+                     " MB; accepted: fewer --threads, or settings that take less");
 }
 
 }  // namespace racebeam

@@ -112,7 +112,7 @@ class LogReader {
     for (const char byte : left_.substr(8 * hashes)) {
       const auto action = static_cast<std::uint8_t>(byte);
       if (action >= kActions)
-        throw InvalidInput("it has action " + std::to_string(action) + "; there are 0 to 17");
+        throw InvalidInput("it has action " + std::to_string(action) + "; accepted: 0 to 17");
       log.actions.push_back(action);
     }
   }

@@ -115,7 +115,7 @@ class PlanReader {
     const auto found = std::ranges::find(kPresets, name, &PlanPreset::name);
     if (found == kPresets.end())
       top_.refuse(*top_.node("preset"), "preset",
-                  quote(name) + " is not known; accepted are " + list_of(kPresets));
+                  "unknown value " + quote(name) + "; accepted: " + list_of(kPresets));
     read_words(std::string(found->environment), plan_.play);
     training_words_ = found->training;
     learners_ = found->learners;
@@ -212,16 +212,16 @@ class PlanReader {
       const std::string name = *top_.text("games");
       const GameSet* const set = find_game_set(name);
       if (!set)
-        top_.refuse(*top_.node("games"), "games",
-                    "there is no set " + quote(name) + "; accepted are " + list_of(game_sets()) +
-                        ", and a list of games");
+        top_.refuse(
+            *top_.node("games"), "games",
+            "unknown set " + quote(name) + "; accepted: " + list_of(game_sets()) + ", and a list of games");
       for (const SetGame& game : set->games) add_game(std::string(game.name));
       return;
     }
     check_ = [this](const toml::node& at, std::string_view key, const std::string& name) {
       if (!images_.rules(name))
         top_.refuse(at, key,
-                    "there is no game " + quote(name) + ";" + did_you_mean(name, game_names()) +
+                    "unknown game " + quote(name) + ";" + did_you_mean(name, game_names()) +
                         " racebeam games lists them");
     };
     for (const std::string& name : words("games")) add_game(name);
@@ -265,7 +265,7 @@ class PlanReader {
   void read_agents() {
     check_ = [this](const toml::node& at, std::string_view key, const std::string& name) {
       if (!find_agent_kind(name))
-        top_.refuse(at, key, "there is no agent " + quote(name) + "; accepted are " + list_of(agent_kinds()));
+        top_.refuse(at, key, "unknown agent " + quote(name) + "; accepted: " + list_of(agent_kinds()));
     };
     const std::vector<std::string> names = words("agents");
     const toml::table* const tables = top_.table("agent");
@@ -293,7 +293,7 @@ class PlanReader {
     const auto check = [&](std::string_view key, std::int64_t count, const char* what, std::int64_t most) {
       if (count <= most) return;
       const std::string sentence =
-          "the plan has " + std::to_string(count) + what + "; accepted are at most " + std::to_string(most);
+          "the plan has " + std::to_string(count) + what + "; accepted: at most " + std::to_string(most);
       if (top_.node(key)) top_.refuse(*top_.node(key), key, sentence);
       top_.refuse_missing(key, sentence);
     };
@@ -368,8 +368,8 @@ Plan load_plan(const std::string& name_or_file, const Images& images) {
   const auto shipped = std::ranges::find(shipped_plans(), name_or_file, &ShippedPlan::name);
   if (shipped != shipped_plans().end()) return parse_plan(shipped->text, "plan " + name_or_file, images);
   if (name_or_file.find_first_of("./") == std::string::npos)
-    throw InvalidInput("there is no plan " + quote(name_or_file) + "; shipped are " +
-                       list_of(shipped_plans()) + "; a file's name contains . or /");
+    throw InvalidInput("unknown plan " + quote(name_or_file) + "; accepted: " + list_of(shipped_plans()) +
+                       ", or a file, whose name contains . or /");
   return parse_plan(read_input_file("plan", name_or_file, kMostPlanBytes), name_or_file, images);
 }
 

@@ -29,7 +29,7 @@ ResultRow row_of_line(std::string_view line, const auto& refuse) {
   const auto fields = static_cast<std::size_t>(std::ranges::count(line, ',')) + 1;
   ResultRow row;
   if (fields != row.size())
-    refuse("the row has " + std::to_string(fields) + " fields; there are " + std::to_string(row.size()) +
+    refuse("the row has " + std::to_string(fields) + " fields; accepted: " + std::to_string(row.size()) +
            " columns");
   for (std::string& value : row) {
     const std::size_t comma = std::min(line.find(','), line.size());

@@ -88,8 +88,7 @@ Background background_of_csv(const std::string& name, std::string_view text) {
       const std::string_view value = row.substr(0, row.find(','));
       const auto number = parse_number<int>(value);
       if (!number || *number < 0 || *number >= kColours)
-        refuse(quote(value) +
-               " is not a colour; accepted are 160 numbers from 0 to 127, with commas between");
+        refuse(quote(value) + " is not a colour; accepted: 160 numbers from 0 to 127, with commas between");
       background[line * kFeatureWidth + column] = static_cast<std::uint8_t>(*number);
       const bool last = column + 1 == kFeatureWidth;
       if (last != (value.size() == row.size())) refuse("it does not have 160 colours");
@@ -97,7 +96,7 @@ Background background_of_csv(const std::string& name, std::string_view text) {
     }
   }
   if (line != kFeatureHeight)
-    throw InvalidInput(name + ": it has " + std::to_string(line) + " lines; accepted are 210");
+    throw InvalidInput(name + ": it has " + std::to_string(line) + " lines; accepted: 210");
   return background;
 }
 

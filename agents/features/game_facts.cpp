@@ -110,7 +110,7 @@ std::string GameFacts::path(const std::string& ending) const {
 Background GameFacts::discovered_background() const {
   if (settings_.background_csv.empty()) return discover_background(cartridge_, settings_);
   const std::string& game = cartridge_.game->name;
-  throw InvalidInput(path(".background") + ": there is no such file; racebeam background " + game +
+  throw InvalidInput(path(".background") + ": no such file; racebeam background " + game +
                      " --csv FILE --into " + folder_ + " makes it from the file with SHA-256 " +
                      settings_.background_csv);
 }

@@ -183,7 +183,7 @@ ObjectClasses classes_of_text(const std::string& name, std::string_view text) {
     if (!number || *number + 1 != classes.size() || !is_shape(shape))
       throw InvalidInput(
           name + ":" + std::to_string(line) +
-          ": it is not the shape of a class; accepted are the number of the class, from 0 to 9 in "
+          ": it is not the shape of a class; accepted: the number of the class, from 0 to 9 in "
           "their order, and runs of pixels, ROW,FIRST,LAST");
     classes.back().push_back(std::move(shape));
   }

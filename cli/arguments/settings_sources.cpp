@@ -76,7 +76,7 @@ Values values_of(const toml::node& node, const std::string& where) {
   for (const CLI::Option* option : options) keys.push_back(key_of(*option));
   const std::vector<std::string_view> known(keys.begin(), keys.end());
   throw UsageError(path + ": unknown setting '" + key + "';" +
-                   advice(key, known, "there are " + CLI::detail::join(keys, ", ")));
+                   advice(key, known, "accepted: " + CLI::detail::join(keys, ", ")));
 }
 
 FromFile read_file(const std::string& path, const std::vector<CLI::Option*>& options) {

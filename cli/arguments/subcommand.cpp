@@ -68,7 +68,7 @@ Check number(double least, double most, const std::string& accepted) {
 Check one_of(const std::vector<std::string>& words) {
   const auto refusal = [words](const std::string& text) {
     const bool known = std::ranges::find(words, text) != words.end();
-    return known ? std::string{} : "'" + text + "' is not known; accepted are " + joined(words);
+    return known ? std::string{} : "unknown value '" + text + "'; accepted: " + joined(words);
   };
   return {refusal, ""};
 }
@@ -80,7 +80,7 @@ Option& Option::sizes() {
   const auto as_bytes = [](std::string& text) {
     const auto bytes = size_of(text);
     if (!bytes)
-      return quote(text) + " is not a size; accepted are bytes, or 512M, 2G and the like, up to " +
+      return quote(text) + " is not a size; accepted: bytes, or 512M, 2G and the like, up to " +
              std::to_string(kMostBytes);
     text = std::to_string(*bytes);
     return std::string{};

@@ -87,7 +87,7 @@ std::vector<int> random_actions(const std::vector<int>& legal, int count) {
 std::vector<int> choose_actions(const BenchOptions& options, const Game& game) {
   if (options.actions.empty()) return random_actions(game.legal_actions, options.frames);
   const auto actions = read_actions(options.actions);
-  if (actions.empty()) throw std::invalid_argument("there are no actions in '" + options.actions + "'");
+  if (actions.empty()) throw std::invalid_argument("'" + options.actions + "' has no actions");
   return actions;
 }
 

@@ -133,7 +133,7 @@ class BenchSession {
 
 [[noreturn]] void refuse(const std::string& line) {
   throw std::invalid_argument("unknown command '" + line.substr(0, 60) +
-                              "'; accepted are play A..., check A..., reset N and save N");
+                              "'; accepted: play A..., check A..., reset N and save N");
 }
 
 std::vector<int> read_numbers(std::istringstream& words, const std::string& line) {

@@ -68,9 +68,8 @@ Cartridge open_by_name(const MachineOptions& machine) {
   auto game = find_game(image->stem);
   if (!game) game = find_game_by_md5(image->md5);
   if (!game)
-    throw std::invalid_argument("there is no game with the name '" + image->stem + "'' of the file " +
-                                machine.rom + ", nor one with its MD5, " + image->md5 +
-                                "; give the file the name of its game");
+    throw std::invalid_argument("unknown game '" + image->stem + "', the name of the file " + machine.rom +
+                                ", and unknown MD5 " + image->md5 + "; give the file the name of its game");
   const Cartridge cartridge{image, game};
   power_on(cartridge, machine);  // invalid settings must fail before any other output
   if (!game->accepts(image->md5)) log("the MD5 of " + machine.rom + " is not one known for " + game->name);
@@ -80,7 +79,7 @@ Cartridge open_by_name(const MachineOptions& machine) {
 void check_controller(const std::string& name) {
   if (name == "fifo" || name == "fifo_named" || name == "rlglue") return;
   throw std::invalid_argument("-game_controller '" + name +
-                              "' is not supported; accepted are fifo, fifo_named and rlglue");
+                              "' is not supported; accepted: fifo, fifo_named and rlglue");
 }
 
 // The screens of one session, numbered from 000000.png on, as ALE 0.6 writes them. An existing file is

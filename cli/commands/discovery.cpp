@@ -41,7 +41,7 @@ void add_screens_option(Subcommand& command, const std::string& name, int& scree
 const Cartridge& cartridge_of(const Images& images, const DiscoveryOptions& options) {
   if (const Cartridge* const cartridge = images.find(options.game)) return *cartridge;
   if (!find_game(options.game))
-    throw InvalidInput("there is no game '" + options.game + "';" + did_you_mean(options.game, game_names()) +
+    throw InvalidInput("unknown game '" + options.game + "';" + did_you_mean(options.game, game_names()) +
                        " racebeam games lists them");
   throw InvalidInput("no image is here of '" + options.game + "'; --roms names the folder that holds it");
 }

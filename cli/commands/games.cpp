@@ -146,7 +146,7 @@ const CatalogueEntry& entry_named(const std::string& name) {
   const auto found = std::ranges::find(catalogue(), name, &CatalogueEntry::name);
   if (found != catalogue().end()) return *found;
   const std::string meant = did_you_mean(name, game_names());
-  throw std::invalid_argument("there is no game '" + name + "';" +
+  throw std::invalid_argument("unknown game '" + name + "';" +
                               (meant.empty() ? " racebeam games lists them" : meant));
 }
 
@@ -179,7 +179,7 @@ std::string modes_of(const Game& game) {
 }
 
 std::string rule_of(const Game& game) {
-  if (!game.has_rule()) return "none: there is no score, and no end";
+  if (!game.has_rule()) return "unknown: neither score nor end";
   const std::string whose = game.rule_source == RuleSource::kRacebeam ? "racebeam's own" : "that of ALE 0.12";
   return whose + (game.has_second_reward() ? "; player B gets rewards, too" : "");
 }

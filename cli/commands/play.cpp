@@ -69,8 +69,9 @@ void check_game(const std::string& name, const ServeOptions& options) {
   if (images.find(name) != nullptr) return;
   const auto names = game_names();
   if (std::ranges::find(names, name) != names.end())
-    throw UsageError("GAME: there is no image of " + name + " in these places: " + places_of_images(options));
-  throw UsageError("GAME: there is no game '" + name + "';" + did_you_mean(name, names) +
+    throw UsageError("GAME: no image of " + name +
+                     " was found in these places: " + places_of_images(options));
+  throw UsageError("GAME: unknown game '" + name + "';" + did_you_mean(name, names) +
                    " racebeam games lists them");
 }
 

@@ -116,26 +116,25 @@ void check_place(const fs::path& path) {
   if (fs::exists(path)) throw InvalidInput(path.string() + " exists; no file is replaced");
   const fs::path folder = path.parent_path();
   if (!folder.empty() && !fs::is_directory(folder))
-    throw InvalidInput("cannot make " + path.string() + ": there is no folder " + folder.string());
+    throw InvalidInput("cannot make " + path.string() + ": the folder does not exist: " + folder.string());
 }
 
 void run(const RenderOptions& options) {
   const std::string bytes = read_input_file("episode log", options.log, kMostLogBytes);
   const EpisodeLog log = log_of(fs::path(options.log).filename().string(), bytes);
   if (options.to.empty())
-    throw UsageError("--to: '' names no file; accepted are a new file such as a.gif, or a new folder");
+    throw UsageError("--to: '' names no file; accepted: a new file such as a.gif, or a new folder");
   fs::path to = options.to;
   if (!to.has_filename()) to = to.parent_path();  // NAME/
   check_place(to);
   if (const std::string name = to.filename(); name[0] == '.' && media_kind(name.substr(1)))
-    throw UsageError("--to: '" + options.to + "' is only an ending; accepted are names such as a" + name);
+    throw UsageError("--to: '" + options.to + "' is only an ending; accepted: names such as a" + name);
   const std::string ending = to.extension();
   const auto kind = ending.empty() ? MediaKind::kPng : media_kind(ending.substr(1));
   if (!kind || ending == ".png") {
-    throw UsageError(
-        "--to: '" + options.to +
-        "' has an ending that is not known; accepted are .gif, .y4m, .wav, .webm, .mp4, and none "
-        "for a folder of PNGs");
+    throw UsageError("--to: '" + options.to +
+                     "' has an unknown ending; accepted: .gif, .y4m, .wav, .webm, .mp4, and none "
+                     "for a folder of PNGs");
   }
   const std::int64_t frames = film(log, options, to.replace_extension(), *kind);
   std::cout << printable(options.to) << ": " << frames << " frames\n";

@@ -30,7 +30,7 @@ std::string check_endpoint(const std::string& text) {
 std::string check_origin(const std::string& text) {
   return is_origin(text)
              ? std::string()
-             : "'" + text + "' is not an origin; accepted are http://HOST[:PORT] and https://HOST[:PORT]";
+             : "'" + text + "' is not an origin; accepted: http://HOST[:PORT] and https://HOST[:PORT]";
 }
 
 std::string check_host_and_port(const std::string& text) {

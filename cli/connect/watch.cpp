@@ -139,7 +139,7 @@ void open_page(const WatchOptions& options) {
   std::string page = page_address(options.address);
   if (page.empty())
     throw UsageError("ADDRESS: '" + options.address +
-                     "' has no page; accepted are ws://, wss://, http:// and https://HOST:PORT, and other "
+                     "' has no page; accepted: ws://, wss://, http:// and https://HOST:PORT, and other "
                      "addresses with --terminal");
   page += "/#watch";
   std::cout << page << std::endl;

@@ -104,7 +104,7 @@ _racebeam_try() {
   elif [[ $address == stdio ]]; then
     exec {racebeam_input}<&0 {racebeam_output}>&1
   else
-    [[ -n $address ]] && source="the address is '$address'" || source='there is no address, and RACEBEAM_ADDRESS is not set'
+    [[ -n $address ]] && source="the address is '$address'" || source='no address was given, and RACEBEAM_ADDRESS is not set'
     _racebeam_fail 4 "$source; it takes tcp://HOST:PORT, pipes:PREFIX, stdio or file:PATH"
     return
   fi

@@ -33,12 +33,14 @@ void LegalActions::check(const Presses& asked) const {
   }
   if (paddles_) return;
   if (replace_a(asked.a.action) >= 18) {
-    throw std::invalid_argument("player A has no action " + std::to_string(asked.a.action) +
-                                "; there are 0 to 17, and 40 which presses nothing");
+    throw std::invalid_argument(
+        "action " + std::to_string(asked.a.action) +
+        " of player A is out of range; accepted: 0 to 17, and 40 which presses nothing");
   }
   if (replace_b(asked.b.action) >= 36) {
-    throw std::invalid_argument("player B has no action " + std::to_string(asked.b.action) +
-                                "; there are 18 to 35, and 40 which presses nothing");
+    throw std::invalid_argument(
+        "action " + std::to_string(asked.b.action) +
+        " of player B is out of range; accepted: 18 to 35, and 40 which presses nothing");
   }
 }
 

@@ -34,10 +34,12 @@ void check_count(std::size_t given, const std::string& what, std::size_t machine
 }
 
 void check_act(const Act& act) {
-  refuse_unless(act.a >= 0 && act.a < kActions,
-                [&] { return "player A has no action " + std::to_string(act.a) + "; there are 0 to 17"; });
-  refuse_unless(act.b >= kActions && act.b < 2 * kActions,
-                [&] { return "player B has no action " + std::to_string(act.b) + "; there are 18 to 35"; });
+  refuse_unless(act.a >= 0 && act.a < kActions, [&] {
+    return "action " + std::to_string(act.a) + " of player A is out of range; accepted: 0 to 17";
+  });
+  refuse_unless(act.b >= kActions && act.b < 2 * kActions, [&] {
+    return "action " + std::to_string(act.b) + " of player B is out of range; accepted: 18 to 35";
+  });
   refuse_unless(std::isfinite(act.strength_a) && std::isfinite(act.strength_b),
                 [&] { return "the strength of a paddle is not a finite number"; });
 }
@@ -191,7 +193,7 @@ void Batch::Impl::check_machines(std::span<const std::int32_t> machines) const {
   for (const std::int32_t machine : machines) {
     const bool is_there = machine >= 0 && static_cast<std::size_t>(machine) < taken.size();
     refuse_unless(is_there, [&] {
-      return "there is no machine " + std::to_string(machine) + "; there are 0 to " +
+      return "machine " + std::to_string(machine) + " is out of range; accepted: 0 to " +
              std::to_string(taken.size() - 1);
     });
     refuse_unless(std::exchange(taken[static_cast<std::size_t>(machine)], std::uint8_t{1}) == 0,

@@ -61,7 +61,7 @@ def check_games(path: pathlib.Path, games: pd.Series, others: set[str]) -> None:
         if game not in known:
             close = difflib.get_close_matches(game.lower(), known, n=1)
             raise BadInput(
-                f"{path}, line {row + 2}: there is no game '{game}'; "
+                f"{path}, line {row + 2}: unknown game '{game}'; "
                 + (
                     f"did you mean {close[0]}?"
                     if close

@@ -43,7 +43,7 @@ void Section::allow(std::span<const std::string_view> keys) const {
   for (const auto& [key, node] : table_)
     if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
       source_.refuse(line_of(key.source()), field(key.str()),
-                     "unknown key; accepted are " + joined({keys.begin(), keys.end()}));
+                     "unknown key; accepted: " + joined({keys.begin(), keys.end()}));
 }
 
 std::string Section::field(std::string_view key) const {
@@ -77,7 +77,7 @@ std::optional<int> Section::number(std::string_view key, int least, int most) co
   if (!number) return std::nullopt;
   if (*number < least || *number > most)
     refuse(*node(key), key,
-           std::to_string(*number) + " is out of range; accepted are " + std::to_string(least) + " to " +
+           std::to_string(*number) + " is out of range; accepted: " + std::to_string(least) + " to " +
                std::to_string(most));
   return static_cast<int>(*number);
 }
@@ -99,7 +99,7 @@ std::optional<int> Section::choice(std::string_view key, const std::vector<std::
   if (!word) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *word);
   if (found == words.end())
-    refuse(*node(key), key, quoted(*word) + " is not known; accepted are " + joined(words));
+    refuse(*node(key), key, "unknown value " + quoted(*word) + "; accepted: " + joined(words));
   return static_cast<int>(found - words.begin());
 }
 

@@ -66,8 +66,8 @@ void GivenProperties::give(std::string_view key, std::string_view value) {
   } else if (key == "ystart") {
     ystart = number(key, value, 0, kLastYStart);
   } else {
-    throw InvalidInput("there is no property '" + std::string(key) +
-                       "' of a cartridge; there are scheme, left, right, format, height and ystart");
+    throw InvalidInput("unknown property '" + std::string(key) +
+                       "' of a cartridge; accepted: scheme, left, right, format, height and ystart");
   }
 }
 

@@ -147,7 +147,7 @@ class Compiler {
     if (in_.is("prev")) return previous();
     if (in_.is("rng")) return random();
     in_.refuse("unknown function " + described(in_.peek()) +
-               "; accepted are bcd, wrap, prev, if, min, max, s8, u8 and sum");
+               "; accepted: bcd, wrap, prev, if, min, max, s8, u8 and sum");
   }
 
   Register plain_call(const Function& function) {

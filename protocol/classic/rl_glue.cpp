@@ -93,7 +93,7 @@ std::optional<std::string> RlGlueEnvironment::answer(std::uint32_t type, std::st
     case kMessage: return message(type, payload);
     default:
       throw std::invalid_argument("the RL-Glue core sent a message of type " + std::to_string(type) +
-                                  "; accepted are 11 to 14, 19 and 35");
+                                  "; accepted: 11 to 14, 19 and 35");
   }
 }
 

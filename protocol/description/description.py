@@ -254,7 +254,7 @@ def with_choices(argument, settings):
     """An argument with the choices of the setting that it names, its default first."""
     if not argument.choices_of:
         return argument
-    expect(argument.choices_of in settings, f"{argument.name}: there is no setting {argument.choices_of!r}")
+    expect(argument.choices_of in settings, f"{argument.name}: unknown setting {argument.choices_of!r}")
     choices = settings[argument.choices_of].choices
     first = {argument.default: choices[argument.default]} if argument.default else {}
     return dataclasses.replace(argument, choices=first | choices)
@@ -295,7 +295,7 @@ def check(protocol):
         )
         expect(
             not field.encoding or field.encoding in encodings,
-            f"field {field.name}: there is no encoding {field.encoding!r}",
+            f"field {field.name}: unknown encoding {field.encoding!r}",
         )
     for table in (protocol.commands, protocol.settings, protocol.presets, protocol.fields, protocol.encodings):
         names = [row.name for row in table]

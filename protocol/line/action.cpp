@@ -36,7 +36,7 @@ int number_of(std::string_view word, const AllowedActions& actions) {
   const bool digits = !word.empty() && word[0] >= '0' && word[0] <= '9';
   auto number = digits ? parse_number<int>(word) : action_number(word);
   if (!number && !digits) number = action_number(upper_case(word));
-  if (!number || *number < 0 || *number >= kActions) refuse(word, " is no action", actions);
+  if (!number || *number < 0 || *number >= kActions) refuse(word, " is not an action", actions);
   if ((actions.allowed >> *number & 1) == 0)
     refuse(word, " is not in the action set that was loaded", actions);
   return *number;

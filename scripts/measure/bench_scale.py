@@ -57,7 +57,7 @@ def parse_arguments():
     )
     found = parser.parse_args()
     if unknown := set(found.parts) - set(PARTS):
-        parser.error(f"unknown part {', '.join(unknown)}; accepted are {', '.join(PARTS)}")
+        parser.error(f"unknown part {', '.join(unknown)}; accepted: {', '.join(PARTS)}")
     return found
 
 

@@ -29,16 +29,16 @@ def games():
 
 
 def image(game):
-    """The argument of --rom. Raises LookupError, with a sentence, if there is no image of the game."""
+    """The argument of --rom. Raises LookupError, with a sentence, if no image of the game is found."""
     if game in OURS:
         return f"builtin:{game}"
     place = folder()
     if place is None:
         raise LookupError(
-            f"there is no image of {game}: there are none in RACEBEAM_ROMS, nor in an ale-py in .venv "
+            f"no image of {game} was found in RACEBEAM_ROMS, nor in an ale-py in .venv "
             f"(scripts/reference installs it); our own games are {' and '.join(OURS)}"
         )
     path = place / f"{game}.bin"
     if not path.is_file():
-        raise LookupError(f"there is no image of {game} in {place}")
+        raise LookupError(f"no image of {game} was found in {place}")
     return str(path)

@@ -573,7 +573,7 @@ def main():
     parser.add_argument("--into", type=pathlib.Path, default=ROOT / "docs/results.md")
     options = parser.parse_args()
     if options.folder != FIGURES and not options.folder.is_dir():
-        sys.exit(f"paper_results.py: there is no folder {options.folder}")
+        sys.exit(f"paper_results.py: the folder {options.folder} does not exist")
     options.into.write_text(Document(options.folder).text())
 
 

@@ -128,7 +128,7 @@ Endpoint parse_endpoint(const std::string& text) {
   }
   throw std::invalid_argument(
       "'" + text +
-      "' is not an address to listen on; accepted are tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT and "
+      "' is not an address to listen on; accepted: tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT and "
       "wss://HOST:PORT (an IP address or a host name; port 0 picks a free one), unix:PATH, systemd or "
       "systemd:NAME, stdio and pipes:PREFIX; "
       "classic+ before an address selects the classic protocol");

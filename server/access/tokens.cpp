@@ -89,7 +89,7 @@ std::vector<Tokens::Digest> Tokens::read(const std::string& path) {
     }
     digests.push_back(digest_of(text));
   }
-  if (digests.empty()) throw std::runtime_error("there is no token in " + path);
+  if (digests.empty()) throw std::runtime_error(path + " has no token");
   warn_if_open(path);
   return digests;
 }

@@ -14,7 +14,7 @@ struct PageFile {
   std::string compressed;  // gzip
 };
 
-// Null if there is no such file. `/` stands for /index.html. Thread-safe.
+// Null for an unknown path. `/` stands for /index.html. Thread-safe.
 const PageFile* find_page_file(std::string_view path);
 
 }  // namespace racebeam

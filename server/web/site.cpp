@@ -84,7 +84,7 @@ HttpResponse answer_operator(const HttpRequest& request, const OperatorPages& pa
   if (path == "/healthz") return respond(request, status::ok, "ok\n");
   if (path == "/metrics") return respond(request, status::ok, pages.metrics(), kPrometheusText);
   if (path != "/readyz") {
-    return respond(request, status::not_found, "accepted are /, /session, /healthz, /readyz and /metrics\n");
+    return respond(request, status::not_found, "accepted: /, /session, /healthz, /readyz and /metrics\n");
   }
   if (pages.ready()) return respond(request, status::ok, "ready\n");
   return respond(request, status::service_unavailable, "stopping\n");
@@ -103,7 +103,7 @@ std::optional<HttpResponse> answer(const HttpRequest& request, const Site& site)
   if (path == "/session") return answer_session(request, site);
   if (const PageFile* const file = find_page_file(path)) return respond(request, *file);
   if (site.pages) return answer_operator(request, *site.pages, path);
-  return respond(request, status::not_found, "accepted are / and /session\n");
+  return respond(request, status::not_found, "accepted: / and /session\n");
 }
 
 HttpResponse refuse(status code, const std::string& sentence) {

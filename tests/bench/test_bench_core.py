@@ -163,7 +163,7 @@ class Measuring(unittest.TestCase):
     def test_a_game_without_an_image_is_named(self):
         done, _ = self.measure(BINARY, "--games", "pang")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("there is no image of pang in", done.stderr)
+        self.assertIn("no image of pang was found in", done.stderr)
 
 
 if __name__ == "__main__":

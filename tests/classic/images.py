@@ -23,5 +23,5 @@ def image(game):
     """The path of a game's image. Raises ValueError with a sentence."""
     path = folder() / f"{game}.bin"
     if not path.exists():
-        raise ValueError(f"there is no image of '{game}' in {folder()}")
+        raise ValueError(f"no image of '{game}' was found in {folder()}")
     return str(path)

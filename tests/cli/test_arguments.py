@@ -163,8 +163,8 @@ class Options(Case):
         self.refused(2, r"unknown argument: --colour \(see", "bench", "--rom", GAME, "--colour")
 
     def test_an_unknown_subcommand_is_answered_with_similar_names(self):
-        self.refused(2, r"'conect' is not a subcommand; did you mean connect\? There are serve, ", "conect")
-        self.refused(2, "'conquer' is not a subcommand; ", "conquer")
+        self.refused(2, r"unknown subcommand 'conect'; did you mean connect\? Accepted: serve, ", "conect")
+        self.refused(2, "unknown subcommand 'conquer'; ", "conquer")
 
     def test_unknown_words_are_named(self):
         self.refused(2, "--faster", "bench", "--rom", GAME, "--faster")

@@ -104,7 +104,7 @@ class Bench(unittest.TestCase):
                 status, _, errors = run("bench", "--rom", GAME, "--commands", data=line.encode())
                 self.assertEqual((status, len(errors)), (1, 1), errors)
                 self.assertIn(
-                    f"unknown command '{line}'; accepted are play A..., check A..., reset N and save N", errors[0]
+                    f"unknown command '{line}'; accepted: play A..., check A..., reset N and save N", errors[0]
                 )
         status, _, errors = run("bench", "--rom", GAME, "--commands", "--frame-skip", "4", data=b"play 1")
         self.assertEqual(status, 1)
@@ -124,7 +124,7 @@ class Bench(unittest.TestCase):
 
     def test_no_actions_and_wrong_ones_are_refused(self):
         for data, complaint in (
-            (b"", "there are no actions in '-'"),
+            (b"", "'-' has no actions"),
             (b"x", "line 1: 'x' is not a number"),
             (b"99", "99"),
         ):

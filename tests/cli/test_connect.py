@@ -47,7 +47,7 @@ class Piped(unittest.TestCase):
         )
         lines = done.stdout.splitlines()
         self.assertEqual((done.returncode, done.stderr, len(lines)), (0, "", 4))
-        self.assertRegex(lines[1], r"^error bad-action '99' is no action; ")
+        self.assertRegex(lines[1], r"^error bad-action '99' is not an action; ")
         self.assertEqual(lines[2], "ok reward=21 terminated=0 truncated=0 lives=4")
         self.assertGreater(len(lines[3]), 1000)  # whole, though it is long
 
@@ -64,7 +64,7 @@ class Piped(unittest.TestCase):
 
     def test_without_an_address_it_says_so(self):
         done = connect("", "hello\n", RACEBEAM_ADDRESS="")
-        self.assertIn("there is no address, and the variable RACEBEAM_ADDRESS is not set", done.stderr)
+        self.assertIn("no address was given, and the variable RACEBEAM_ADDRESS is not set", done.stderr)
 
     def test_help_is_folded(self):
         lines = connect(self.address, "help settings\nhelp act\nhelp\nstats\n").stdout.splitlines()

@@ -172,8 +172,8 @@ class Experiment(unittest.TestCase):
 
     def test_bad_input_is_named_and_nothing_is_written(self):
         for words, status, sentence in (
-            (["no"], 1, "there is no plan 'no'; shipped are paper, hour, smoke, baselines, "),
-            (["./none.toml"], 1, "plan ./none.toml: there is no such file"),
+            (["no"], 1, "unknown plan 'no'; accepted: paper, hour, smoke, baselines, "),
+            (["./none.toml"], 1, "plan ./none.toml: no such file"),
             (["paper"], 1, "no image is here of: asterix, beam_rider, freeway, seaquest, space_invaders, alien, "),
             *(
                 (
@@ -193,13 +193,13 @@ class Experiment(unittest.TestCase):
         self.assertEqual(run("experiment", "smoke")[0], 2)
         status, _, errors = run("verify", str(self.place / "none"))
         self.assertEqual(status, 1)
-        self.assertRegex(errors, "^racebeam: plan .*/none/plan.toml: there is no such file\n$")
+        self.assertRegex(errors, "^racebeam: plan .*/none/plan.toml: no such file\n$")
 
     def test_the_evaluation_knows_all_agents(self):
         self.plan.write_text('games = ["beamfall"]\nagents = ["none"]\n')
         status, _, errors = self.experiment("results")
         self.assertEqual(status, 1)
-        agents = re.search(r"there is no agent 'none'; accepted are (.*)\n", errors)[1].split(", ")
+        agents = re.search(r"unknown agent 'none'; accepted: (.*)\n", errors)[1].split(", ")
         scores = (ROOT / "evaluation/racebeam_evaluation/scores.py").read_text()
         known = [
             name
@@ -369,7 +369,7 @@ class Experiment(unittest.TestCase):
         status, _, errors = run("background", "asterik", "--into", str(self.place / "bad"))
         self.assertEqual(
             (status, errors),
-            (1, "racebeam: there is no game 'asterik'; did you mean asterix? racebeam games lists them\n"),
+            (1, "racebeam: unknown game 'asterik'; did you mean asterix? racebeam games lists them\n"),
         )
 
     def test_an_experiment_takes_a_background_from_a_csv_file_that_its_plan_names(self):

@@ -84,8 +84,8 @@ class Games(unittest.TestCase):
         self.assertEqual(json.loads(answer("games", "pong", "--json")), [self.games["pong"]])
 
     def test_an_unknown_game_is_answered_with_similar_names(self):
-        self.assertEqual(run("games", "pongg"), (1, b"", ["racebeam: there is no game 'pongg'; did you mean pong?"]))
-        self.assertIn("there is no game 'xyzzy'; racebeam games lists them", run("games", "xyzzy")[2][0])
+        self.assertEqual(run("games", "pongg"), (1, b"", ["racebeam: unknown game 'pongg'; did you mean pong?"]))
+        self.assertIn("unknown game 'xyzzy'; racebeam games lists them", run("games", "xyzzy")[2][0])
         self.assertEqual(run("games", "pong", "--rules")[0], 2)
 
     def test_the_table_has_a_row_for_each(self):

@@ -66,7 +66,7 @@ class Refused(unittest.TestCase):
         )
 
     def test_a_file_that_is_not_there(self):
-        self.check("nothing", "there is no such file")
+        self.check("nothing", "no such file")
 
     def test_a_file_that_is_huge(self):
         path = os.path.join(self.folder, "huge")

@@ -94,7 +94,7 @@ class OwnGames(unittest.TestCase):
         self.assertEqual(run("render", log, "--to", film, *own)[0], 0)
         status, _, errors = run("experiment", str(plan), "--into", f"{results}2")
         self.assertEqual(status, 1)
-        self.assertIn("there is no game 'mine'", errors[-1])
+        self.assertIn("unknown game 'mine'", errors[-1])
 
 
 if __name__ == "__main__":

@@ -91,7 +91,7 @@ class Play(unittest.TestCase):
             (["beamfal"], "did you mean beamfall?"),
             (
                 ["pong", "--roms", self.folder],
-                f"there is no image of pong in these places: the program's own games, --roms {self.folder}",
+                f"no image of pong was found in these places: the program's own games, --roms {self.folder}",
             ),
             (["--stdio"], "requires racebeam serve"),
             (["--announce", "x"], "requires racebeam serve"),
@@ -155,7 +155,7 @@ class Watch(unittest.TestCase):
     def test_no_picture_is_a_failure_where_there_is_no_terminal(self):
         for words, reason in (
             ([], "no session is shared"),
-            (["--session", "nosuch"], "there is no shared session 'nosuch'"),
+            (["--session", "nosuch"], "unknown shared session 'nosuch'"),
         ):
             done = self.watch("--terminal", self.address, *words)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done)

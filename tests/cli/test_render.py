@@ -133,12 +133,12 @@ class Render(unittest.TestCase):
         broken.write_bytes(data)
         for to, log, status, hint in (
             ("there.gif", None, 1, "exists; no file is replaced"),
-            ("x.avi", None, 2, "accepted are .gif"),
+            ("x.avi", None, 2, "accepted: .gif"),
             ("x.png", None, 2, "none for a folder of PNGs"),
-            (".gif", None, 2, ".gif' is only an ending; accepted are names such as a.gif"),
+            (".gif", None, 2, ".gif' is only an ending; accepted: names such as a.gif"),
             ("x.gif", broken, 1, "broken.episode"),
             ("x.gif", self.place / "nothing", 1, "nothing"),
-            ("no/x.gif", None, 1, f"cannot make {self.place}/no/x.gif: there is no folder {self.place}/no"),
+            ("no/x.gif", None, 1, f"cannot make {self.place}/no/x.gif: the folder does not exist: {self.place}/no"),
         ):
             found, output, errors = self.render(to, log)
             self.assertEqual((found, output, len(errors.splitlines())), (status, "", 1), (to, errors))

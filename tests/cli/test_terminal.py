@@ -261,7 +261,7 @@ class Ends(InTerminal):
         self.assertEqual(
             errors, ["racebeam: --terminal: standard input and output must be a terminal (see racebeam play --help)"]
         )
-        self.assertIn("accepted are auto, blocks, kitty", run("play", "--terminal", "--graphics", "ascii")[2][0])
+        self.assertIn("accepted: auto, blocks, kitty", run("play", "--terminal", "--graphics", "ascii")[2][0])
         terminal = self.open("play", "--terminal", "updraft", "--max-sessions", "0")
         self.assertEqual(terminal.end(), 2)
 

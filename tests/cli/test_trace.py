@@ -62,7 +62,7 @@ class Lines(unittest.TestCase):
         self.assertEqual(played(), played("--rules", "fixed"))  # nothing is wrong with our own game
         status, _, errors = trace("--rules", "ale-0.11")
         self.assertEqual(status, 2)
-        self.assertIn("--rules: 'ale-0.11' is not known; accepted are ale-0.12 and fixed", errors[0])
+        self.assertIn("--rules: unknown value 'ale-0.11'; accepted: ale-0.12 and fixed", errors[0])
 
     def test_a_frame_skip_of_two_is_every_second_frame(self):
         every = [line.split()[-2:] for line in played(data=b"3 3 4 4 1 1 10 10 " * 10) if line[0] == "A"]

@@ -266,7 +266,7 @@ class Examples(unittest.TestCase):
             (
                 "best_branch.py",
                 (BINARY, "nogame"),
-                "best_branch.py: .* nogame: unknown-game: there is no game 'nogame'",
+                "best_branch.py: .* nogame: unknown-game: unknown game 'nogame'",
             ),
             ("best_branch.py", ("/bin/true",), "best_branch.py: /bin/true beamfall: .*ended"),
             (
@@ -276,7 +276,7 @@ class Examples(unittest.TestCase):
             ),
             ("random_agent.py", (BINARY, "/nowhere.bin"), "racebeam: .*/nowhere.bin"),
             ("sarsa.py", ("/nowhere",), "sarsa.py: no server at /nowhere: .*No such file or directory"),
-            ("sarsa.py", (BINARY, "nogame"), "sarsa.py: unknown-game: there is no game 'nogame'"),
+            ("sarsa.py", (BINARY, "nogame"), "sarsa.py: unknown-game: unknown game 'nogame'"),
             ("sarsa.py", ("tcp://127.0.0.1:1",), "sarsa.py: no server at tcp://127.0.0.1:1: .*Connection refused"),
             (
                 "sarsa.py",

@@ -129,7 +129,7 @@ class Rollouts(Nodes):
             "beamfall", actors=1, count=1, num_envs=2, steps=5, policy=lambda seen, _: [len(seen), 0]
         )
         self.assertEqual(one["actions"].tolist(), [[2, 0]] * 5)
-        with self.assertRaisesRegex(ray.exceptions.RayActorError, "there is no game 'pongg'"):
+        with self.assertRaisesRegex(ray.exceptions.RayActorError, "unknown game 'pongg'"):
             list(rollouts.rollouts("pongg", actors=1, count=1))
         with self.assertRaisesRegex(IndexError, "99"):
             list(rollouts.rollouts("beamfall", actors=1, count=1, num_envs=1, policy=lambda seen, _: [99]))
@@ -166,9 +166,9 @@ class Words(unittest.TestCase):
                     )
 
     def test_a_game_and_a_plan_that_are_not_there(self):
-        self.check(1, ".*there is no game 'nosuch'", "rollouts.py", "nosuch", "--actors", "1", "--rollouts", "1")
+        self.check(1, ".*unknown game 'nosuch'", "rollouts.py", "nosuch", "--actors", "1", "--rollouts", "1")
         self.check(
-            1, "shard 1/1: racebeam: there is no plan 'nosuch'", "experiment.py", "nosuch", "results", "--shards", "1"
+            1, "shard 1/1: racebeam: unknown plan 'nosuch'", "experiment.py", "nosuch", "results", "--shards", "1"
         )
 
 

@@ -161,7 +161,7 @@ class Units(unittest.TestCase):
         )
         done = subprocess.run([*command[:2], "nothing", "--program", BINARY], capture_output=True, text=True)
         self.assertEqual(done.returncode, 1)
-        self.assertIn("there is no plan 'nothing'", done.stderr)
+        self.assertIn("unknown plan 'nothing'", done.stderr)
 
     def test_numbers_that_cannot_be_are_refused(self):
         command = [sys.executable, slurm.TOP / "cluster/simulate.py", "smoke", "--program", BINARY, "--within", "1000"]

@@ -120,7 +120,7 @@ def check_games(games):
     known = games_with_images()
     for game in games:
         if game not in known:
-            raise ValueError(f"there is no image of '{game}'; there are {', '.join(known)}")
+            raise ValueError(f"no image of '{game}' was found; accepted: {', '.join(known)}")
     return games
 
 

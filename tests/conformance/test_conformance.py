@@ -225,10 +225,10 @@ class Keeping(Suite):
 
     def test_bad_options_are_refused_with_a_sentence(self):
         for words, sentence in (
-            (["--games", "pongg"], "there is no image of 'pongg'"),
+            (["--games", "pongg"], "no image of 'pongg' was found"),
             (["--run", "pong:skipp=2"], "'skipp' of the run"),
             (["--run", "pong:skip=x"], "'x' is not a value for skip"),
-            (["--run", "pongg:seed=2"], "there is no image of 'pongg'"),
+            (["--run", "pongg:seed=2"], "no image of 'pongg' was found"),
             (["--seed", "x"], "'x' is not a seed"),
             (["--frames", "0"], "--frames is 0"),
             (["--programs", "--minutes", "0"], "--minutes is 0.0; it must be more than 0"),

@@ -69,7 +69,7 @@ def fault(root, citation):
     if re.match(r",? sections?\b", citation.string[citation.end() :]):
         return "a section is cited only by its number, after a comma"
     if not (root / name).is_file():
-        return f"there is no {name}"
+        return f"{name} does not exist"
     sections = markdown.sections((root / name).read_text())
     if wanted:
         missing = sorted(set(numbers(wanted)) - {section.number() for section in sections})

@@ -20,7 +20,7 @@ def link_faults(root, path, text):
         if not found.is_relative_to(root.resolve()) and name:
             yield number, f"{target} leads out of the tree"
         elif not found.exists():
-            yield number, f"there is no {target}"
+            yield number, f"{target} does not exist"
         elif anchor and anchor not in markdown.anchors(found.read_text()):
             yield number, f"{name or path.name} has no heading #{anchor}"
 
@@ -32,7 +32,7 @@ def path_faults(root, document, text):
         for path in TREE_PATH.findall(line):
             ours = (root / path.split("/")[0]).is_dir() and not re.search(r"NAME|TARGET", path)
             if ours and not (root / path).exists() and not (root / document.parent / path).exists():
-                yield number, f"there is no {path}"
+                yield number, f"{path} does not exist"
 
 
 def width_faults(text):

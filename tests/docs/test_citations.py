@@ -52,8 +52,8 @@ class TheCheck(unittest.TestCase):
         self.accepts("// (docs/spec/chip.md, 1; docs/spec/chip.md, 2)\n", count=2)
 
     def test_it_refuses_a_document_that_is_not_there(self):
-        self.refuses("// docs/spec/chop.md, 1\n", "there is no docs/spec/chop.md")
-        self.refuses("// chip.md, 1\n", "there is no chip.md")
+        self.refuses("// docs/spec/chop.md, 1\n", "docs/spec/chop.md does not exist")
+        self.refuses("// chip.md, 1\n", "chip.md does not exist")
 
     def test_it_refuses_a_section_that_is_not_there(self):
         self.refuses("// docs/spec/chip.md, 3\n", "has no section 3")

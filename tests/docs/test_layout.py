@@ -35,15 +35,15 @@ class TheCheck(unittest.TestCase):
             self.assertEqual(problems(text), [])
 
     def test_it_refuses_links_that_do_not(self):
-        self.refuses("[a](another.md)\n", "docs/one.md:1: there is no another.md")
-        self.refuses("\n![a](picture.svg)\n", "docs/one.md:2: there is no picture.svg")
+        self.refuses("[a](another.md)\n", "docs/one.md:1: another.md does not exist")
+        self.refuses("\n![a](picture.svg)\n", "docs/one.md:2: picture.svg does not exist")
         self.refuses("[a](other.md#two)\n", "other.md has no heading #two")
         self.refuses("# One\n\n[a](#two)\n", "one.md has no heading #two")
-        self.refuses("[a text over\ntwo lines](another.md)\n", "there is no another.md")
+        self.refuses("[a text over\ntwo lines](another.md)\n", "another.md does not exist")
         self.refuses("[a](../../elsewhere.md)\n", "leads out of the tree")
 
     def test_it_refuses_paths_of_the_tree_that_are_not_there(self):
-        self.refuses("See `docs/three.md` and `docs/other.md`.\n", "docs/one.md:1: there is no docs/three.md")
+        self.refuses("See `docs/three.md` and `docs/other.md`.\n", "docs/one.md:1: docs/three.md does not exist")
         self.assertEqual(problems("`docs/NAME.md`, `elsewhere/a.md`, and `docs/*.md`\n"), [])
 
     def test_it_refuses_wide_lines_but_not_tables_and_code(self):

@@ -94,11 +94,11 @@ class BadInput(unittest.TestCase):
 
     def test_a_game_that_there_is_not(self):
         for name, sentence in (
-            ("space_invader", "line 3: there is no game 'space_invader'; did you mean space_invaders?"),
-            ("Pong", "line 3: there is no game 'Pong'; did you mean pong?"),
+            ("space_invader", "line 3: unknown game 'space_invader'; did you mean space_invaders?"),
+            ("Pong", "line 3: unknown game 'Pong'; did you mean pong?"),
             (
                 "xyz",
-                "line 3: there is no game 'xyz'; expected a name that racebeam games lists, or that the "
+                "line 3: unknown game 'xyz'; expected a name that racebeam games lists, or that the "
                 "folder's plan.toml has under [images]",
             ),
         ):

@@ -229,7 +229,7 @@ class BadInput(Folder):
         good = path.read_text()
         for text, sentence in (
             ("agent = ", "agent.toml is not TOML: "),
-            (good + "colour = 1\n", "there is no key 'colour'; expected agent, version,"),
+            (good + "colour = 1\n", "unknown key 'colour'; accepted: agent, version,"),
             (good.replace("version", "# version"), "agent.toml lacks the key 'version'; expected agent, version,"),
             (good.replace('"mine"', "5"), "agent is 5; expected a text"),
             (good.replace('"mine"', '"../mine"'), "agent is '../mine'; expected letters, digits"),

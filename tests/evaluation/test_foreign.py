@@ -78,7 +78,7 @@ class Files(Folder):
             ("pong.txt", "", "is neither a folder, nor a file .csv of DQN Zoo, nor .json of Dopamine or rliable"),
             ("pong.json", "{", "pong.json is not JSON: "),
             ("pong.json", "[" * 100_000, "pong.json is not JSON: "),
-            ("pung.json", [{"Iteration": 0, "Value": 1, "Agent": "a"}], "there is no game 'pung'; did you mean pong?"),
+            ("pung.json", [{"Iteration": 0, "Value": 1, "Agent": "a"}], "unknown game 'pung'; did you mean pong?"),
             ("pong.json", [], "pong.json has no iterations; expected one or more"),
             (
                 "pong.json",

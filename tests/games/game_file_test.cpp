@@ -91,9 +91,8 @@ TEST_CASE("what a game file leaves out has its default") {
 
 TEST_CASE("an image's cartridge scheme can be asked for, and two dumps always have theirs") {
   CHECK(game_with("[[image]]\nscheme = '3F'").properties_for("any").scheme == "3F");
-  CHECK_THAT(
-      error_in("[[image]]\nscheme = 'F9'"),
-      Contains("my.toml:3: image.scheme: the cartridge scheme F9 is not known") && Contains("F8 swapped"));
+  CHECK_THAT(error_in("[[image]]\nscheme = 'F9'"),
+             Contains("my.toml:3: image.scheme: unknown cartridge scheme 'F9'") && Contains("F8 swapped"));
   for (const std::string name : {"WD", "4A50", "DPC+", "CTY"})
     CHECK_THAT(error_in("[[image]]\nscheme = '" + name + "'"),
                Contains("my.toml:3: image.scheme: the cartridge scheme " + name + " is not implemented"));
@@ -149,7 +148,7 @@ TEST_CASE("rules that cannot work are refused") {
   CHECK_THAT(error_in("[rule]\nreset = { score = 'x' }\n" + kStep),
              Contains("rule.reset.score: must be a whole number"));
   CHECK_THAT(error_in("[rule]\nreset = { score = 3000000000 }\n" + kStep),
-             Contains("3000000000 is out of range; accepted are -2147483648 to 2147483647"));
+             Contains("3000000000 is out of range; accepted: -2147483648 to 2147483647"));
   CHECK_THAT(error_in("[rule]\nreset = 3\n" + kStep), Contains("rule.reset: must be a table"));
   CHECK_THAT(error_in("[rule]\nkeep = [3]\n" + kStep), Contains("my.toml:3: rule.keep: '' is not a name"));
   CHECK_THAT(error_in("[rule]\nkeep = ['scroe']\n" + kStep),
@@ -184,7 +183,7 @@ TEST_CASE("facts that cannot be are refused") {
   CHECK_THAT(error_in("difficulties = [4]"), Contains("difficulties: must be numbers from 0 to 3"));
   CHECK_THAT(error_in("default_mode = 3"), Contains("default_mode: must be one of the modes"));
   CHECK_THAT(error_in("paddle_max = 0"), Contains("paddle_max: must be a resistance"));
-  CHECK_THAT(error_in("[[image]]\nleft = 'mouse'"), Contains("image.left: 'mouse' is not known"));
+  CHECK_THAT(error_in("[[image]]\nleft = 'mouse'"), Contains("image.left: unknown value 'mouse'"));
   CHECK_THAT(error_in("[[image]]\nformat = 'pal'"), Contains("NTSC"));
   CHECK_THAT(error_in("[[image]]\nystart = 60"), Contains("image.ystart: must be 0 to 50"));
   CHECK_THAT(error_in("[[image]]\nheight = 300"), Contains("image.height: must be 100 to 256"));
@@ -283,7 +282,7 @@ TEST_CASE("mistakes in corrections, sources and wraps are named with their line"
   CHECK_THAT(error_in("[classic]\nsingle_mode = true\n"),
              Contains("my.toml:2: classic: a classic rule requires a [rule]"));
   CHECK_THAT(error_in("[rule]\nsource = 'xitari'\n" + kStep),
-             Contains("my.toml:3: rule.source: 'xitari' is not known; accepted are ale-0.12 and racebeam"));
+             Contains("my.toml:3: rule.source: unknown value 'xitari'; accepted: ale-0.12 and racebeam"));
   CHECK_THAT(error_in("[rule]\nstep = 'reward = wrap(1, ram[0x80])'\n"),
              Contains("my.toml:3: rule.step: wrap() takes a constant of at least 10"));
 }

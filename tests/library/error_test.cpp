@@ -37,7 +37,7 @@ TEST_CASE("An image that cannot be read is an error of the image") {
 TEST_CASE("An unknown game is an error of the game, which suggests similar names") {
   const auto [cause, sentence] = error_of([] { racebeam::Game::named("breakuot"); });
   CHECK(cause == Cause::kGame);
-  CHECK(sentence == "there is no game 'breakuot'; did you mean breakout?");
+  CHECK(sentence == "unknown game 'breakuot'; did you mean breakout?");
   CHECK(error_of([] { racebeam::Game::load("/nonexistent/pong.toml"); }).first == Cause::kGame);
 }
 

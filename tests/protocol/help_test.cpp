@@ -122,7 +122,7 @@ TEST_CASE("help says what it has help on") {
   for (const HelpTopic& topic : help_topics())
     CHECK_THAT(reply, Contains(std::string(" ").append(topic.name)));
   CHECK_THAT(client.ask("help stiky"),
-             StartsWith("error bad-arguments there is no help on 'stiky'; did you mean sticky?"));
+             StartsWith("error bad-arguments unknown word 'stiky'; did you mean sticky?"));
   CHECK_THAT(client.ask("help xyzzy"), EndsWith("; help without a word says what there is"));
 }
 
@@ -149,26 +149,26 @@ TEST_CASE("Similar names are suggested, for every kind of name") {
   LineClient client;
   client.say(kLoad + "\nsave start\nopen 2\n");
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"atc RIGHT", "; did you mean act or watch? There are hello"},
+      {"atc RIGHT", "; did you mean act or watch? Accepted: hello"},
       {"LOAD beamfall", "; did you mean load?"},
       {"load beamfal", "; did you mean beamfall?"},
       {"load beamfall as=pogn", "; did you mean pong?"},
-      {"load beamfall stiky=0", "; did you mean sticky? There are preset"},
-      {"load inline imgae=AAAA", "; did you mean image? There are preset"},
-      {"load beamfall is=pong", "; did you mean as? There are preset"},
-      {"set mod=1", "'mod' can't be set while a game runs; did you mean mode? There are mode and difficulty"},
-      {"set dificulty=1", "; did you mean difficulty? There are"},
+      {"load beamfall stiky=0", "; did you mean sticky? Accepted: preset"},
+      {"load inline imgae=AAAA", "; did you mean image? Accepted: preset"},
+      {"load beamfall is=pong", "; did you mean as? Accepted: preset"},
+      {"set mod=1", "'mod' can't be set while a game runs; did you mean mode? Accepted: mode and difficulty"},
+      {"set dificulty=1", "; did you mean difficulty? Accepted:"},
       {"load beamfall preset=dqn", "; did you mean dqn2015? It takes paper2013"},
       {"load beamfall rules=fix", "; did you mean fixed? It takes ale-0.12 or fixed"},
       {"load beamfall action_set=minimum", "; did you mean minimal? It takes full, legal or minimal"},
       {"observe rewrd", "; did you mean reward"},
-      {"observe screen:zip", "; did you mean zlib? There are hex"},
+      {"observe screen:zip", "; did you mean zlib? Accepted: hex"},
       {"act RIHGT", "; did you mean RIGHT? beamfall takes 0=NOOP"},
       {"act fier", "; did you mean FIRE?"},
       {"act NOOP/lefft", "; did you mean LEFT"},
       {"branch start UP,DWON", "; did you mean DOWN"},
       {"step FIER", "; did you mean FIRE?"},
-      {"restore strat", "; did you mean start? There are start"},
+      {"restore strat", "; did you mean start? Accepted: start"},
       {"open 2 autoreset=samestep", "; did you mean same-step? It takes next-step"},
       {"help setings", "; did you mean settings"},
       {"record giff a", " did you mean gif?"}};
@@ -181,9 +181,9 @@ TEST_CASE("Similar names are suggested, for every kind of name") {
 TEST_CASE("A name without similar ones gets the list of names") {
   LineClient client;
   client.ask(kLoad);
-  CHECK_THAT(client.ask("xyzzy"), Contains("there is no command 'xyzzy'; there are hello help"));
+  CHECK_THAT(client.ask("xyzzy"), Contains("unknown command 'xyzzy'; accepted: hello help"));
   CHECK_THAT(client.ask("load plughplugh"), EndsWith("; games lists those that are here"));
-  CHECK(client.ask("restore a") == "error no-state there is no state 'a'; there are none");
+  CHECK(client.ask("restore a") == "error no-state unknown state 'a'; accepted: none");
 }
 
 TEST_CASE("Lines that begin with # are comments, and have no reply") {

@@ -31,7 +31,7 @@ class Examples(unittest.TestCase):
             [sys.executable, CLIENT / "examples" / example, "nogame", *options], capture_output=True, text=True
         )
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr.splitlines()[-1], f"^{example}: there is no game 'nogame'")
+        self.assertRegex(done.stderr.splitlines()[-1], f"^{example}: unknown game 'nogame'")
         self.assertNotIn("Traceback", done.stderr)
 
     def run_example(self, example, *options):

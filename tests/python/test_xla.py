@@ -177,7 +177,7 @@ class Refused(unittest.TestCase):
         envs = both()[0]
         handle, _, step = envs.xla()
         for action in (99, -1):
-            with self.assertRaisesRegex(jax.errors.JaxRuntimeError, f"action {action} is out of range; there are 0 to"):
+            with self.assertRaisesRegex(jax.errors.JaxRuntimeError, f"action {action} is out of range; accepted: 0 to"):
                 jax.block_until_ready(step(handle, np.array([0, action, 0])))
         jax.block_until_ready(step(handle, ACTIONS[0]))
         for made_up in (np.zeros(8, np.uint8), np.full(8, 255, np.uint8)):

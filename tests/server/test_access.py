@@ -190,8 +190,8 @@ class Tokens(Folder):
 
     def test_files_without_a_good_token_are_refused(self):
         for text, hint in (
-            ("", "there is no token"),
-            ("# none\n", "there is no token"),
+            ("", " has no token"),
+            ("# none\n", " has no token"),
             ("short\n", "line 1"),
             (f"{TOKEN}\ntwo words of a token\n", "line 2"),
         ):

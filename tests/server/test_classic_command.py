@@ -136,7 +136,7 @@ class Classic(unittest.TestCase):
     def test_an_unknown_name_is_refused(self):
         with open(os.path.join(self.folder, "unheard_of.bin"), "wb") as image:
             image.write(b"\xea" * 4096)
-        self.refuse(*FIFO, "unheard_of.bin", hint="there is no game with the name 'unheard_of'")
+        self.refuse(*FIFO, "unheard_of.bin", hint="unknown game 'unheard_of'")
 
     def test_limits_and_frame_skip(self):
         self.assertEqual(self.frames("-max_num_frames", "5", GAME), 5)

@@ -157,7 +157,7 @@ class Log(unittest.TestCase):
                 file.write(bytes(range(256)) * 16)
             for words, status, level, hint in (
                 (["--classic", "--stdio", "--rom", image], 0, "warning", "is not in the catalogue"),
-                (["--classic", "--stdio", "--rom", image + "x"], 1, "error", "there is no such file"),
+                (["--classic", "--stdio", "--rom", image + "x"], 1, "error", "no such file"),
                 (["--listen", "unix:/nowhere/s"], 3, "error", "cannot listen on unix:/nowhere/s"),
             ):
                 ended, _, errors = run("serve", "--log-format", "json", *words)

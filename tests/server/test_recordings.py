@@ -174,7 +174,7 @@ for word; do last=$word; done
 %s
 """
 COPY = 'cat > "${last#file:}"'
-WITH_FFMPEG = unittest.skipUnless(shutil.which("ffmpeg"), "there is no ffmpeg")
+WITH_FFMPEG = unittest.skipUnless(shutil.which("ffmpeg"), "needs ffmpeg")
 
 
 class Encoded(unittest.TestCase):

@@ -50,11 +50,11 @@ class SmallCases(unittest.TestCase):
             "3",
         )
 
-    @unittest.skipUnless(rom("breakout"), "there is no image of breakout")
+    @unittest.skipUnless(rom("breakout"), "needs an image of breakout")
     def test_a_paddle_game_takes_every_number_for_nothing(self):
         self.check(b"0,0,0,1\n1,0\n45,45\n0,0\n99,99\n-5,3\n", ["0,0:"] * 6 + ["DIE"], image=rom("breakout"))
 
-    @unittest.skipUnless(rom("seaquest"), "there is no image of seaquest")
+    @unittest.skipUnless(rom("seaquest"), "needs an image of seaquest")
     def test_one_generator_fills_the_memory_and_it_is_the_one_of_the_seed(self):
         def memory(seed, system_seed):
             words = ("--seed", seed, "--system-seed", system_seed, "--sticky", "0")

@@ -96,7 +96,7 @@ int check_games(const std::vector<Cartridge>& cartridges, const Options& options
 int run_checks(const Options& options) {
   const Collection all = collect(options.games);
   for (const std::string& one : all.missing) std::printf("SKIPPED: %s\n", one.c_str());
-  if (all.cartridges.empty()) throw std::runtime_error("there is no such game, or no image of it");
+  if (all.cartridges.empty()) throw std::runtime_error("unknown game, or no image of it was found");
   const int faults = check_games(all.cartridges, options);
   std::printf(
       "%zu games, the state at each of %d frames (%d in our own), %d acts after each, in %d manners: %d "

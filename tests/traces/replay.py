@@ -44,7 +44,7 @@ def options_of(settings):
         elif key in FLAGS:
             words += [FLAGS[key]] if value == "1" else []
         elif key not in NO_MEANING:
-            raise ValueError(f"the setting {key} of a trace is not known")
+            raise ValueError(f"unknown setting {key!r} of a trace")
     return words
 
 

@@ -335,7 +335,7 @@ function transport.open(address, options)
   if found then
     return found, token
   end
-  local given = address == "" and "there is no address, and the variable RACEBEAM_ADDRESS is not set"
+  local given = address == "" and "no address was given, and the variable RACEBEAM_ADDRESS is not set"
     or ("the address is '%s'"):format(address)
   fault("invalid", given .. "; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio or file:PATH, also in "
     .. "RACEBEAM_ADDRESS")

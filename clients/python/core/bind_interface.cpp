@@ -131,8 +131,8 @@ int number_of(PythonAction action) { return static_cast<int>(action); }
 // The environment would take some of the others for NOOP, as the reference does.
 void check_action(int action, int first) {
   if (action >= first && action < first + kActions) return;
-  throw InvalidInput("there is no action " + std::to_string(action) + "; there are " + std::to_string(first) +
-                     " to " + std::to_string(first + kActions - 1));
+  throw InvalidInput("action " + std::to_string(action) + " is out of range; accepted: " +
+                     std::to_string(first) + " to " + std::to_string(first + kActions - 1));
 }
 
 void check_strength(float strength) {

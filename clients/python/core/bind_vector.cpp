@@ -179,7 +179,7 @@ void show(VectorMachines& self, const Results& results) {
 
 Slot& slot_of(Batch& batch, std::int64_t machine) {
   if (machine < 0 || static_cast<std::size_t>(machine) >= batch.size())
-    throw std::out_of_range("there is no environment " + std::to_string(machine) + "; there are 0 to " +
+    throw std::out_of_range("environment " + std::to_string(machine) + " is out of range; accepted: 0 to " +
                             std::to_string(batch.size() - 1));
   return batch.slot(static_cast<std::size_t>(machine));
 }

@@ -20,7 +20,7 @@ std::vector<int> indices_of(const Batch& batch, std::span<const Index> actions) 
   indices.reserve(actions.size());
   for (const Index action : actions) {
     if (action < 0 || action >= end)
-      throw std::out_of_range("action " + std::to_string(action) + " is out of range; there are 0 to " +
+      throw std::out_of_range("action " + std::to_string(action) + " is out of range; accepted: 0 to " +
                               std::to_string(end - 1));
     indices.push_back(static_cast<int>(action));
   }

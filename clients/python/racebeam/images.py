@@ -66,7 +66,7 @@ def check_name(game: str) -> None:
         return
     near = difflib.get_close_matches(str(game), titles(), n=3)
     hint = f"; did you mean {' or '.join(near)}?" if near else "; racebeam.games() lists them"
-    raise UnknownGame(f"there is no game {game!r}{hint}")
+    raise UnknownGame(f"unknown game {game!r}{hint}")
 
 
 def ale_folder() -> pathlib.Path | None:

@@ -78,4 +78,4 @@ def check_name(name: str) -> None:
         InvalidInput: If the preset is unknown.
     """
     if not isinstance(name, str) or name not in PRESETS:
-        raise InvalidInput(f"there is no preset {name!r}; there are {', '.join(PRESETS)}")
+        raise InvalidInput(f"unknown preset {name!r}; accepted: {', '.join(PRESETS)}")

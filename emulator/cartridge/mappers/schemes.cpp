@@ -111,7 +111,7 @@ constexpr Scheme kSchemes[] = {
 // clang-format on
 
 [[noreturn]] void refuse_scheme(std::string sentence) {
-  std::string_view separator = "; implemented are ";
+  std::string_view separator = "; accepted: ";
   for (const Scheme& scheme : kSchemes) sentence.append(std::exchange(separator, ", ")).append(scheme.name);
   throw InvalidInput(sentence);
 }
@@ -121,8 +121,8 @@ constexpr Scheme kSchemes[] = {
 const Scheme& scheme_named(std::string_view name) {
   const auto scheme = std::ranges::find(kSchemes, name, &Scheme::name);
   if (scheme != std::end(kSchemes)) return *scheme;
-  const std::string what = "the cartridge scheme " + std::string(name);
-  refuse_scheme(is_unsupported(name) ? what + " is not implemented" : what + " is not known");
+  refuse_scheme((is_unsupported(name) ? "unsupported cartridge scheme '" : "unknown cartridge scheme '") +
+                std::string(name) + "'");
 }
 
 const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {

@@ -89,7 +89,7 @@ def _about(path: pathlib.Path) -> About:
     known = [field.name for field in dataclasses.fields(About)]
     for key in found:
         if key not in known:
-            raise BadInput(f"{path}: there is no key '{key}'; expected {', '.join(known)}")
+            raise BadInput(f"{path}: unknown key '{key}'; accepted: {', '.join(known)}")
     for key in _REQUIRED:
         if key not in found:
             raise BadInput(f"{path} lacks the key '{key}'; expected {', '.join(_REQUIRED)}")

@@ -20,5 +20,5 @@ def our_name(path: pathlib.Path, name: str) -> str:
     if plain not in _OURS:
         close = difflib.get_close_matches(plain, _OURS, n=1)
         hint = f"did you mean {_OURS[close[0]]}?" if close else "expected a game that racebeam games lists"
-        raise BadInput(f"{path}: there is no game '{name}'; {hint}")
+        raise BadInput(f"{path}: unknown game '{name}'; {hint}")
     return str(_OURS[plain])

@@ -36,7 +36,7 @@ std::string_view format_name(Format format) { return kFormatNames[static_cast<st
   if (meant.empty()) meant = did_you_mean(name, game_names());
   throw RequestError(
       ErrorCode::kUnknownGame,
-      "there is no game " + quote(name) + ';' + (meant.empty() ? " games lists those that are here" : meant));
+      "unknown game " + quote(name) + ';' + (meant.empty() ? " games lists those that are here" : meant));
 }
 
 void add_console(Reply& reply, const Cartridge& cartridge) {
@@ -116,9 +116,9 @@ Cartridge find_cartridge(Context& context, std::string_view name, const LoadWord
   if (words.as) {
     const auto rules = context.service.images->rules(*words.as);
     if (!rules)
-      throw RequestError(ErrorCode::kUnknownGame, "there are no rules for " + quote(*words.as) + ';' +
+      throw RequestError(ErrorCode::kUnknownGame, "unknown game " + quote(*words.as) + ';' +
                                                       did_you_mean(*words.as, game_names()) +
-                                                      " games all lists those that there are");
+                                                      " games all lists all games");
     cartridge.game = recognise_as(*cartridge.image, rules).game;
   } else if (name == kInline) {
     cartridge.game = recognise(*cartridge.image).game;
@@ -208,7 +208,7 @@ void run_set(Context& context, Words arguments, Reply& reply) {
     if (std::ranges::find(kKeysOfSet, key) != kKeysOfSet.end()) continue;
     throw RequestError(ErrorCode::kBadArguments,
                        quote(key) + " can't be set while a game runs;" +
-                           advice(key, kKeysOfSet, "there are mode and difficulty; load takes the others"));
+                           advice(key, kKeysOfSet, "accepted: mode and difficulty; load takes the others"));
   }
   read_settings(arguments, changed);
   Environment& machine = context.game.loaded->machine();

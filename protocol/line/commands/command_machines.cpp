@@ -62,7 +62,7 @@ const std::vector<OpenRow>& open_rows() {
 [[noreturn]] void refuse_word(std::string_view word) {
   std::string keys;
   for (const OpenRow& row : open_rows()) ((keys += keys.empty() ? "" : " ") += row.name) += '=';
-  throw RequestError(ErrorCode::kBadArguments, quote(word) + " is no setting; open takes " + keys);
+  throw RequestError(ErrorCode::kBadArguments, "unknown setting " + quote(word) + "; accepted: " + keys);
 }
 
 OpenSettings read_open_settings(const Context& context, Words words) {
@@ -103,7 +103,7 @@ std::size_t read_machines(const Context& context, std::string_view word) {
 std::vector<std::uint8_t> read_mask(const Context& context, std::string_view mask) {
   if (mask.find_first_not_of("01") != std::string_view::npos)
     throw RequestError(ErrorCode::kBadValue,
-                       quote(mask) + " is no mask; it takes a 0 or a 1 for each machine");
+                       quote(mask) + " is not a mask; it takes a 0 or a 1 for each machine");
   if (mask.size() != context.machines.size()) refuse_count(context, mask.size(), "digits in the mask");
   std::vector<std::uint8_t> chosen;
   for (const char digit : mask) chosen.push_back(digit == '1');

@@ -37,7 +37,7 @@ constexpr std::size_t kMostSimilar = 256;  // names that are compared: more woul
   std::vector<std::string_view> names;
   for (const auto& share : std::span(all).first(std::min(all.size(), kMostSimilar)))
     names.push_back(share->name());
-  throw RequestError(ErrorCode::kBadValue, "there is no shared session " + quote(name) + ";" +
+  throw RequestError(ErrorCode::kBadValue, "unknown shared session " + quote(name) + ";" +
                                                did_you_mean(name, names) + " shared lists them");
 }
 

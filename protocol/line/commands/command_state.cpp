@@ -23,11 +23,11 @@ const Slot::Saved& find_state(const Context& context, std::string_view name) {
   if (const Slot::Saved* const found = context.game.states.find(name)) return *found;
   std::vector<std::string_view> names;
   for (const auto& [known, place] : context.game.states) names.push_back(known);
-  std::string sentence = "there is no state " + quote(name) + ';';
+  std::string sentence = "unknown state " + quote(name) + ';';
   if (const std::string meant = did_you_mean(name, names); !meant.empty()) {
-    (sentence += meant) += " There are";
+    (sentence += meant) += " Accepted:";
   } else {
-    sentence += " there are";
+    sentence += " accepted:";
   }
   constexpr std::size_t kShown = 20;
   for (const std::string_view known : Words(names).first(std::min(kShown, names.size())))
@@ -52,7 +52,7 @@ void keep(Context& context, std::string_view name, Slot::Saved place) {
 
 std::string_view state_name(std::string_view word) {
   if (word == "all")
-    throw RequestError(ErrorCode::kBadValue, "'all' is no name for a state: drop all drops them all");
+    throw RequestError(ErrorCode::kBadValue, "'all' is not a name for a state: drop all drops them all");
   return checked_name(word, "state");
 }
 

@@ -150,9 +150,9 @@ template <typename... Rows>
   std::vector<std::string_view> known;
   const auto add = [&known](const auto& names) { known.insert(known.end(), names.begin(), names.end()); };
   (add(names_of(rows)), ...);
-  throw RequestError(ErrorCode::kBadArguments, "there is no help on " + quote(name) + ';' +
-                                                   did_you_mean(name, known) +
-                                                   " help without a word says what there is");
+  throw RequestError(
+      ErrorCode::kBadArguments,
+      "unknown word " + quote(name) + ';' + did_you_mean(name, known) + " help without a word lists all");
 }
 
 constexpr int kNarrowest = 20;

@@ -53,7 +53,7 @@ TEST_CASE("A plan that takes more memory than there is is refused") {
   CHECK_THROWS_WITH(
       check_memory(plan, 3, gigabyte),
       "the plan takes about 1090 MB of memory: 340 MB for bass on each of 3 threads; the control "
-      "group allows 1000 MB; accepted are fewer --threads, or settings that take less");
+      "group allows 1000 MB; accepted: fewer --threads, or settings that take less");
   const Plan large = parse_plan(
       "games = [\"beamfall\"]\nagents = [\"bass\"]\n[agent.bass]\ntrials = 1\ngrid_width = 160\ngrid_height "
       "= "

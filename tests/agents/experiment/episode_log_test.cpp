@@ -65,7 +65,7 @@ TEST_CASE("Sealed contents that are not an episode are refused with a sentence")
   CHECK(refusal_of(seal(kSame, wrong)).find("trial is 'x'") != std::string::npos);
   wrong = good;
   wrong.back() = 18;
-  CHECK(refusal_of(seal(kSame, wrong)) == "episode log 1.episode: it has action 18; there are 0 to 17");
+  CHECK(refusal_of(seal(kSame, wrong)) == "episode log 1.episode: it has action 18; accepted: 0 to 17");
   CHECK(refusal_of(seal(kSame, good + '\0')).find("a hash or an action is missing") != std::string::npos);
   for (std::size_t size = 0; size < good.size(); ++size)
     REQUIRE(refusal_of(seal(kSame, good.substr(0, size))) != "");

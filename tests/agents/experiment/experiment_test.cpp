@@ -142,7 +142,7 @@ TEST_CASE("Files of games that do not fit the plan are refused before anything i
   plan.games[0].background_csv = std::string(64, 'b');
   CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("wanted is") && Catch::Contains("csv=bbbb"));
   fs::remove(folder.facts() + "/beamfall.background");
-  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("beamfall.background: there is no such file; racebeam "
+  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("beamfall.background: no such file; racebeam "
                                                        "background beamfall --csv FILE --into "));
   CHECK(!fs::exists(folder.plan()));
 

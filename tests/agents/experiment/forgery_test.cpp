@@ -137,9 +137,9 @@ TEST_CASE("A plan with more rows than memory has is refused") {
   write(forgery.folder.plan(), many.replace(many.find("trials = 1"), 10, "trials = 1000"));
   CHECK_THROWS_WITH(
       verified(forgery.folder),
-      Catch::Contains("the plan has 1000000000 evaluation episodes; accepted are at most 20000000"));
+      Catch::Contains("the plan has 1000000000 evaluation episodes; accepted: at most 20000000"));
   many = plan;
   write(forgery.folder.plan(), many.replace(many.find("trials = 1"), 10, "trials = 1000000"));
   CHECK_THROWS_WITH(verified(forgery.folder),
-                    Catch::Contains("the plan has 1000000 units; accepted are at most 100000"));
+                    Catch::Contains("the plan has 1000000 units; accepted: at most 100000"));
 }

@@ -67,7 +67,7 @@ TEST_CASE("An experiment's results are confirmed, and every alteration is named"
     fs::rename(first + ".x", second);
     CHECK(verified(folder).verdict.wrong == 2);
     fs::remove(first);
-    CHECK_THAT(verified(folder).findings, Catch::Contains("1.episode: there is no such file"));
+    CHECK_THAT(verified(folder).findings, Catch::Contains("1.episode: no such file"));
     write(first, contents(second).substr(0, 50));
     CHECK_THAT(verified(folder).findings, Catch::Contains("its checksum is wrong"));
     write(folder.log("beamfall-random-1", "3"), contents(second));

@@ -65,12 +65,12 @@ TEST_CASE("A background of another size is refused") {
     return std::string();
   };
   CHECK(refusal(good) == "");
-  CHECK(refusal("") == "a.csv: it has 0 lines; accepted are 210");
+  CHECK(refusal("") == "a.csv: it has 0 lines; accepted: 210");
   CHECK(refusal(good + good) == "a.csv:211: there are more than 210 lines");
   CHECK(refusal("0," + good) == "a.csv:1: it does not have 160 colours");
   CHECK(refusal(good.substr(2)) == "a.csv:1: it does not have 160 colours");
   CHECK(refusal("128" + good.substr(1)) ==
-        "a.csv:1: '128' is not a colour; accepted are 160 numbers from 0 to 127, with commas between");
+        "a.csv:1: '128' is not a colour; accepted: 160 numbers from 0 to 127, with commas between");
   CHECK(refusal("x" + good.substr(1)).starts_with("a.csv:1: 'x' is not a colour"));
 }
 

@@ -123,7 +123,7 @@ TEST_CASE("Classes are the same again, as text and as a file") {
 
 TEST_CASE("An invalid list of classes is refused with its line") {
   const std::string sentence =
-      "a:2: it is not the shape of a class; accepted are the number of the class, from 0 to 9 in their "
+      "a:2: it is not the shape of a class; accepted: the number of the class, from 0 to 9 in their "
       "order, and "
       "runs of pixels, ROW,FIRST,LAST";
   for (const std::string line :

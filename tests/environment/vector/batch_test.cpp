@@ -202,7 +202,8 @@ TEST_CASE("A batch that sends says what can't be sent or received") {
   BatchResults results = batch.make_results();
   CHECK_THROWS_WITH(batch.receive(results.arrays()),
                     "0 machines play, and a receive takes 2; send some first");
-  CHECK_THROWS_WITH(batch.send(std::vector{0}, std::vector{3}), "there is no machine 3; there are 0 to 2");
+  CHECK_THROWS_WITH(batch.send(std::vector{0}, std::vector{3}),
+                    "machine 3 is out of range; accepted: 0 to 2");
   CHECK_THROWS_WITH(batch.send(std::vector{0, 0}, std::vector{1, 1}),
                     "machine 1 plays already; receive it first");
   CHECK_THROWS_WITH(batch.send(std::vector{0}, std::vector{1, 2}), "there are 1 actions for 2 machines");
@@ -409,9 +410,9 @@ TEST_CASE("A batch says what it can't do, and goes on") {
   CHECK_THROWS_WITH(step({0, 18}), "machine 1 has no action 18; it takes 0 to 17");
   CHECK_THROWS_WITH(step({-1, 0}), "machine 0 has no action -1; it takes 0 to 17");
   CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.a = 40}}, results.arrays()),
-                    "player A has no action 40; there are 0 to 17");
+                    "action 40 of player A is out of range; accepted: 0 to 17");
   CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.b = 3}}, results.arrays()),
-                    "player B has no action 3; there are 18 to 35");
+                    "action 3 of player B is out of range; accepted: 18 to 35");
   for (const float strength : {NAN, INFINITY})
     CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.strength_a = strength}}, results.arrays()),
                       "the strength of a paddle is not a finite number");

@@ -78,7 +78,7 @@ TEST_CASE("The console of an image can be told, is shown, and is refused where i
   for (const auto& [words, sentence] :
        {std::pair("scheme=F8", "the cartridge scheme F8 needs an image of at least 8192 bytes"),
         {"scheme=4A50", "the cartridge scheme 4A50 is not implemented"},
-        {"scheme=F9", "the cartridge scheme F9 is not known"},
+        {"scheme=F9", "unknown cartridge scheme 'F9'"},
         {"left=keyboard", "left is 'keyboard'; it takes joystick, paddles"},
         {"format=hd", "format is 'hd'; it takes auto, ntsc, pal, pal60, secam"},
         {"height=99", "height is '99'; it takes a whole number from 100 to 256"},

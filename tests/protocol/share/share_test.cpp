@@ -185,8 +185,7 @@ TEST_CASE("Shared sessions are listed until they end") {
         "ok count=1 | name=room game=beamfall frame=0 score=0 episode=1 fps=0");
   CHECK(server.player.ask("unshare") == "ok");
   CHECK(server.watcher.ask("shared") == "ok count=0");
-  CHECK_THAT(server.watcher.ask("watch room"),
-             StartsWith("error bad-value there is no shared session 'room';"));
+  CHECK_THAT(server.watcher.ask("watch room"), StartsWith("error bad-value unknown shared session 'room';"));
   {
     LineClient other(server.service);
     other.ask(kLoad);

@@ -111,7 +111,7 @@ class BadInput(unittest.TestCase):
         for rom, sentence in (
             (b"", "it is empty"),
             (b"x" * 600000, "larger than the largest image"),
-            ("/nowhere/x.bin", "there is no such file"),
+            ("/nowhere/x.bin", "no such file"),
             ("/dev/zero", "image /dev/zero"),
         ):
             self.refused(racebeam.InvalidInput, sentence, racebeam.AtariEnv, "beamfall", rom=rom)

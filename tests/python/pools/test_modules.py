@@ -42,12 +42,12 @@ class Modules(unittest.TestCase):
         config = envpool.EnvSpec.gen_config(task="beamfall", num_envs=4, batch_size=5)
         self.assertEqual((config.batch_size, config.max_episode_steps), (5, 2**31 - 1))
         self.assertRaisesRegex(ValueError, "batch_size is 5; it takes 0 to 4", envpool.EnvSpec, config)
-        self.assertRaisesRegex(TypeError, "there is no setting 'foo'", envpool.EnvSpec.gen_config, foo=3)
+        self.assertRaisesRegex(TypeError, "unknown setting 'foo'", envpool.EnvSpec.gen_config, foo=3)
         self.assertRaisesRegex(InvalidInput, "there are 2 values; there must be 26", envpool.EnvSpec, (1, 2))
         for task in ("nope", ["x"], ""):
             self.assertRaisesRegex(
                 racebeam.UnknownGame,
-                "there is no task of a game",
+                "unknown game",
                 envpool.EnvSpec,
                 envpool.EnvSpec.gen_config(task=task),
             )

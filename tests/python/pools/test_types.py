@@ -64,7 +64,7 @@ class Others(unittest.TestCase):
             envs.step({"env_id": ids, "players.env_id": ids, "action": np.ones(3, np.int64)})
         envs.step({"action": np.ones(3, np.int32), "players": {"env_id": ids}, "env_id": ids, "more": np.ones(3)})
         for actions in (np.full(3, np.nan), [1e30] * 3, np.full(3, -1.5)):
-            self.assertRaisesRegex(IndexError, "is out of range; there are 0 to 17", envs.step, actions)
+            self.assertRaisesRegex(IndexError, "is out of range; accepted: 0 to 17", envs.step, actions)
 
     def test_a_fraction_of_an_action_is_cut_off(self):
         for cut, whole in (

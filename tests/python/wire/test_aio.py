@@ -59,7 +59,7 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
         with racebeam.launch() as other:
             for words in ((), ("act",)):
                 self.assertEqual(await self.session.help(*words), other.help(*words))
-            with self.assertRaisesRegex(racebeam.Refused, "there is no help on 'bogus'"):
+            with self.assertRaisesRegex(racebeam.Refused, "unknown word 'bogus'"):
                 other.help("bogus")
         bad, after = await asyncio.gather(
             self.session.help("bogus"), self.session.request("act", 1), return_exceptions=True

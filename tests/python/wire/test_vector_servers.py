@@ -150,7 +150,7 @@ class States(Servers):
             envs.restore(COUNT - 1, envs.save(0))
         self.check(there.show(), here.show())
         self.play(here, there, 20)
-        with self.assertRaisesRegex(IndexError, f"there is no environment {COUNT}"):
+        with self.assertRaisesRegex(IndexError, f"environment {COUNT} is out of range"):
             there.save(COUNT)
 
     def test_a_server_that_is_lost_is_a_ConnectionError_and_the_next_step_goes_on(self):

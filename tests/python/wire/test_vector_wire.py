@@ -253,13 +253,13 @@ class States(Compared):
                 ),
                 (0, foreign, InvalidInput, "the state is of the image"),
                 (0, None, TypeError, ""),
-                (2, here.save(0), IndexError, "there is no environment 2; there are 0 to 1"),
-                (-1, here.save(0), IndexError, "there is no environment -1; there are 0 to 1"),
+                (2, here.save(0), IndexError, "environment 2 is out of range; accepted: 0 to 1"),
+                (-1, here.save(0), IndexError, "environment -1 is out of range; accepted: 0 to 1"),
             ):
                 for envs in (here, there):
                     with self.subTest(sentence=sentence, envs=envs), self.assertRaisesRegex(error, sentence):
                         envs.restore(env, state)
-            with self.assertRaisesRegex(IndexError, "there is no environment 2; there are 0 to 1"):
+            with self.assertRaisesRegex(IndexError, "environment 2 is out of range; accepted: 0 to 1"):
                 there.save(2)
             self.assertEqual(there.machines()._session.states(), [])
             self.play(here, there, 5)

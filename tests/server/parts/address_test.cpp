@@ -71,7 +71,7 @@ TEST_CASE("An invalid endpoint is refused with the valid forms") {
     INFO(text);
     CHECK_THROWS_AS(parse_endpoint(text), std::invalid_argument);
   }
-  CHECK_THROWS_WITH(parse_endpoint("udp://1.2.3.4:1"), Catch::Contains("accepted are tcp://HOST:PORT"));
+  CHECK_THROWS_WITH(parse_endpoint("udp://1.2.3.4:1"), Catch::Contains("accepted: tcp://HOST:PORT"));
 }
 
 TEST_CASE("Only loopback addresses are loopback") {

@@ -30,7 +30,7 @@ function separate(words: unknown): string[] {
   for (const word of Array.isArray(words) ? words : [words]) {
     const [, act, times = "1"] = /^(\d{1,2}(?:\/\d{1,2})?)(?:\*(\d{1,7}))?$/.exec(String(word)) ?? [];
     if (!act || acts.length + Number(times) > MOST_ACTS) {
-      throw new Error(`'${word}' is no act, or one too many`);
+      throw new Error(`'${word}' is not an act, or one too many`);
     }
     for (let time = 0; time < Number(times); ++time) {
       acts.push(act);

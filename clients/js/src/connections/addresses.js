@@ -144,7 +144,7 @@ async function openDirectly(address, options) {
     case "pipes":
       return pipes(path);
     default:
-      throw new TypeError((address ? `the address is '${address}'` : "there is no address, and the variable RACEBEAM_ADDRESS is not set")
+      throw new TypeError((address ? `the address is '${address}'` : "no address was given, and the variable RACEBEAM_ADDRESS is not set")
         + "; it takes tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT, wss://HOST:PORT, unix:PATH, pipes:PREFIX, stdio or file:PATH, "
         + "also in RACEBEAM_ADDRESS");
   }

@@ -15,7 +15,7 @@ class AtariEnv(env.AtariEnv):
         >>> from racebeam.ale_py import AtariEnv
         >>> AtariEnv("beamfal")
         Traceback (most recent call last):
-        racebeam.ale_py.interface.NoSuchGame: there is no game 'beamfal'; did you mean beamfall?
+        racebeam.ale_py.interface.NoSuchGame: unknown game 'beamfal'; did you mean beamfall?
     """
 
     _local_interface = ALEInterface

@@ -310,7 +310,7 @@ class ALEVectorInterface:
             raise ValueError(f"there are {len(seeds)} seeds for {len(ids)} environments")
         for env in ids:
             if not 0 <= env < count:
-                raise IndexError(f"environment {env} is out of range; there are 0 to {count - 1}")
+                raise IndexError(f"environment {env} is out of range; accepted: 0 to {count - 1}")
         if len(set(ids)) < len(ids):
             raise ValueError(f"there is a duplicate env_id in {ids}; each is reset once")
         every = np.full(count, -1, np.int64)

@@ -176,7 +176,7 @@ class Envs(AtariVectorEnv):
             return super()._parse_actions(array, count)
         if (far := array[~(np.abs(array) <= MOST)]).size:
             most = self._machines.numbers_of_actions()[0] - 1
-            raise IndexError(f"action {far[0]} is out of range; there are 0 to {most}")
+            raise IndexError(f"action {far[0]} is out of range; accepted: 0 to {most}")
         return super()._parse_actions(array.astype(np.int64), count)
 
     def parse_env_id(self, env_id: Any) -> Numbers:

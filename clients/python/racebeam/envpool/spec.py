@@ -148,7 +148,7 @@ def _checked_config(given: Iterable[Any]) -> Any:
         raise InvalidSetting(f"there are {len(listed)} values; there must be {len(CONFIG)}: {', '.join(CONFIG)}")
     values = dict(zip(CONFIG, listed, strict=True))
     if values["task"] not in games().values():
-        raise UnknownTask(f"there is no task of a game {values['task']!r}; list_all_envs() lists the tasks")
+        raise UnknownTask(f"unknown game {values['task']!r}; list_all_envs() lists the tasks")
     for name, value in FIXED.items():
         if not _equals(values[name], value):
             raise InvalidSetting(f"{name} is {values[name]!r}; racebeam has only {value!r}")
@@ -184,7 +184,7 @@ def seeds_of(config: Any) -> np.ndarray[Any, np.dtype[np.int64]]:
         seeds = checked(whole, name, given, INT.min, INT.max) + np.arange(config.num_envs, dtype=np.int64)
         return seeds % 2**32
     if len(given) != config.num_envs:
-        raise InvalidSetting(f"{name} has {len(given)} seeds; there are {config.num_envs} environments")
+        raise InvalidSetting(f"{name} has {len(given)} seeds; accepted: {config.num_envs}, one for each environment")
     return np.array([checked(whole, name, seed, INT.min, INT.max) for seed in given], np.int64) % 2**32
 
 
@@ -256,7 +256,7 @@ class EnvSpec:
         """
         for name in settings:
             if name not in CONFIG:
-                raise InvalidSetting(f"there is no setting {name!r}; there are {', '.join(CONFIG)}")
+                raise InvalidSetting(f"unknown setting {name!r}; accepted: {', '.join(CONFIG)}")
         return Config(**{**CONFIG, **settings})
 
     @classmethod
@@ -274,7 +274,7 @@ class EnvSpec:
             InvalidSetting: If the task is unknown, or a setting is wrong.
         """
         if not isinstance(task_id, str) or task_id not in games():
-            raise UnknownTask(f"there is no task {task_id!r}; list_all_envs() lists them")
+            raise UnknownTask(f"unknown task {task_id!r}; list_all_envs() lists them")
         return cls(cls.gen_config(**{**TASK_DEFAULTS, **settings, "task": games()[task_id]}))
 
     def __init__(self, config: Iterable[Any]) -> None:

@@ -63,7 +63,7 @@ class EnvWithActions(gymnasium.Env[Any, Any]):
         except TypeError:
             raise TypeError(f"action {action!r} has the type {type(action).__name__}; it must be an integer") from None
         if not 0 <= index < len(self._action_set):
-            raise IndexError(f"action {index} is out of range; there are 0 to {len(self._action_set) - 1}")
+            raise IndexError(f"action {index} is out of range; accepted: 0 to {len(self._action_set) - 1}")
         return self._action_set[index].value
 
     def _parse_continuous(self, action: Any) -> tuple[int, float]:

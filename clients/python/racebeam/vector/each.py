@@ -102,7 +102,7 @@ class VectorOfEach(VectorBase):
 
     def _check_env(self, env: int) -> None:
         if not 0 <= operator.index(env) < self.num_envs:
-            raise IndexError(f"there is no environment {env}; there are 0 to {self.num_envs - 1}")
+            raise IndexError(f"environment {env} is out of range; accepted: 0 to {self.num_envs - 1}")
 
     def machines(self) -> Machines:
         """Returns the machines that play the environments; for other modules of this package."""

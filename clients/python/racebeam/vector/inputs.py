@@ -123,7 +123,7 @@ def indices_of(actions: Any, count: int, action_count: int) -> Actions:
         raise TypeError(f"actions have the type {array.dtype}; they must be integers")
     check_shape("actions", array, (count,))
     if array.dtype.kind == "u" and (large := array[array > np.iinfo(np.int64).max]).size:
-        raise IndexError(f"action {large[0]} is out of range; there are 0 to {action_count - 1}")
+        raise IndexError(f"action {large[0]} is out of range; accepted: 0 to {action_count - 1}")
     return np.ascontiguousarray(array, np.int64)
 
 

@@ -312,7 +312,7 @@ class RemoteMachines(Halves):
         """
         if actions.min() < 0 or actions.max() >= len(self._actions):
             wrong = next(int(action) for action in actions if not 0 <= action < len(self._actions))
-            raise IndexError(f"action {wrong} is out of range; there are 0 to {len(self._actions) - 1}")
+            raise IndexError(f"action {wrong} is out of range; accepted: 0 to {len(self._actions) - 1}")
         return [self._actions[action] for action in actions]
 
     @staticmethod
@@ -384,7 +384,7 @@ class RemoteMachines(Halves):
 
     def _check_machine(self, machine: int) -> None:
         if not 0 <= machine < self._count:
-            raise IndexError(f"there is no environment {machine}; there are 0 to {self._count - 1}")
+            raise IndexError(f"environment {machine} is out of range; accepted: 0 to {self._count - 1}")
 
     # Results
 

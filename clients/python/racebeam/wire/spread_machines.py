@@ -406,4 +406,4 @@ class SpreadMachines(Halves):
         for part in self._parts:
             if part.rows.start <= machine < part.rows.stop:
                 return part, machine - part.rows.start
-        raise IndexError(f"there is no environment {machine}; there are 0 to {self._count - 1}")
+        raise IndexError(f"environment {machine} is out of range; accepted: 0 to {self._count - 1}")

@@ -114,7 +114,7 @@ final class Connection implements Closeable {
     try {
       data = Arrays.copyOf(data, (int) Math.min(2L * data.length, Math.min(longest + 1L, LARGEST)));
     } catch (OutOfMemoryError full) {
-      throw new IOException("there is no memory for a reply of more than " + data.length + " bytes", full);
+      throw new IOException("out of memory for a reply of more than " + data.length + " bytes", full);
     }
   }
 

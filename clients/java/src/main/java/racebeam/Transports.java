@@ -64,7 +64,7 @@ final class Transports {
       case "unix:" -> reached(address, () -> unix(rest, options));
       case "pipes:" -> pipes(rest, options);
       default -> throw new IllegalArgumentException((address.isEmpty()
-          ? "there is no address, and the variable RACEBEAM_ADDRESS is not set" : "the address is '" + address + "'")
+          ? "no address was given, and the variable RACEBEAM_ADDRESS is not set" : "the address is '" + address + "'")
           + "; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio or file:PATH, also in RACEBEAM_ADDRESS");
     };
   }

@@ -133,7 +133,7 @@ class FaultsTest {
       Process client = new ProcessBuilder(Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-Xmx32m", "-cp",
           classes, InLittleMemory.class.getName(), "tcp://127.0.0.1:" + server.listener.getLocalPort()).redirectErrorStream(true).start();
       String printed = new String(client.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
-      assertTrue(printed.startsWith("there is no memory for a reply of more than "), printed);
+      assertTrue(printed.startsWith("out of memory for a reply of more than "), printed);
       assertEquals(0, client.waitFor());
     }
   }
