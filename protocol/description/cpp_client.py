@@ -77,10 +77,11 @@ BEGIN = """#pragma once
 #include <utility>
 #include <vector>
 
+#include "racebeam/client/config.hpp"
 #include "racebeam/client/reply.hpp"
 #include "racebeam/client/words.hpp"
 
-namespace racebeam::client {
+namespace RACEBEAM_CLIENT_NAMESPACE {
 
 /// The commands whose methods only send their words. `Derived` sends them.
 template <class Derived>
@@ -111,7 +112,7 @@ END = """
   }
 };
 
-}  // namespace racebeam::client
+}  // namespace RACEBEAM_CLIENT_NAMESPACE
 """
 
 
@@ -133,7 +134,8 @@ def fields(protocol):
     named = protocol.byte_fields
     return (
         f"{HEAD}#pragma once\n\n#include <array>\n#include <cstddef>\n#include <string_view>\n#include <utility>\n\n"
-        '#include "racebeam/client/encoding.hpp"\n\nnamespace racebeam::client::detail {\n\n'
+        '#include "racebeam/client/config.hpp"\n#include "racebeam/client/encoding.hpp"\n\n'
+        "namespace RACEBEAM_CLIENT_NAMESPACE::detail {\n\n"
         "/// What bytes are written in where the client does not say.\n"
         + table("Encoding", "kUsual", ((field.name, enumerator(field.encoding)) for field in named))
         + "/// Bytes of fields that always have the same number.\n"
@@ -142,7 +144,7 @@ def fields(protocol):
         + table(
             "std::size_t", "kPixels", ((field.name, field.bytes_of_pixel) for field in named if not field.fixed_size)
         )
-        + "\n}  // namespace racebeam::client::detail\n"
+        + "\n}  // namespace RACEBEAM_CLIENT_NAMESPACE::detail\n"
     )
 
 

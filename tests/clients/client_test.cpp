@@ -6,12 +6,14 @@
 #include <future>
 #include <racebeam/client.hpp>
 #include <thread>
+#include <type_traits>
 
 namespace {
 
 namespace asio = boost::asio;
 namespace client = racebeam::client;
 using asio::ip::tcp;
+static_assert(std::is_same_v<client::Session, client::v0::Session>);
 
 // A server that accepts one connection after the other, and answers each line as it is told.
 class Server {

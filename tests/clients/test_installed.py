@@ -132,6 +132,16 @@ class Installed(unittest.TestCase):
             self.assertIn("_ZN8racebeam2v07versionEv", exported)
             self.assertEqual({name for name in exported if not INTERFACE.match(name)}, set())
 
+    def test_a_library_that_hides_the_client_exports_its_exceptions(self):
+        """A program catches them. All names of the client have the version of its interface."""
+        hidden = self.prefix / "hidden.o"
+        compiler = (CXX, "-std=c++20", "-fvisibility=hidden", "-c", CONSUMER / "on_a_server.cpp", "-o", hidden)
+        run(*compiler, *self.flags("racebeam-client"))
+        table = run("readelf", "--syms", "--wide", hidden)
+        self.assertEqual(set(re.findall(r"8racebeam6client(?!2v0)\S*", table)), set())
+        exported = re.findall(r"(?:GLOBAL|WEAK) +DEFAULT +\d+ _ZTIN8racebeam6client2v0\d+(\w+)E", table)
+        self.assertEqual(set(exported), {"Refused", "Lost", "TimedOut"})
+
     def test_the_programs_of_its_page_are_built(self):
         blocks = dict(
             re.findall(

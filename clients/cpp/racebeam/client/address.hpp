@@ -1,3 +1,5 @@
+/// @file
+/// The addresses of servers, and the files that name them. Any thread may call these functions.
 #pragma once
 
 #include <charconv>
@@ -10,9 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "racebeam/client/config.hpp"
 #include "racebeam/client/errors.hpp"
 
-namespace racebeam::client::detail {
+namespace RACEBEAM_CLIENT_NAMESPACE::detail {
 
 /// Where a server is.
 struct Address {
@@ -151,4 +154,4 @@ inline Address parse_address(std::string_view text) {
   return address;
 }
 
-}  // namespace racebeam::client::detail
+}  // namespace RACEBEAM_CLIENT_NAMESPACE::detail

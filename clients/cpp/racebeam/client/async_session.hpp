@@ -1,3 +1,6 @@
+/// @file
+/// A session for coroutines: each method returns a boost::asio::awaitable. One coroutine at a time uses an
+/// AsyncSession, on the executor that it was made with.
 #pragma once
 
 #include <chrono>
@@ -14,10 +17,11 @@
 #include <boost/asio/this_coro.hpp>
 
 #include "racebeam/client/commands.hpp"
+#include "racebeam/client/config.hpp"
 #include "racebeam/client/fields.hpp"
 #include "racebeam/client/lines.hpp"
 
-namespace racebeam::client {
+namespace RACEBEAM_CLIENT_NAMESPACE {
 
 /// Version of the protocol that this client speaks.
 inline constexpr int kProtocol = 1;
@@ -277,4 +281,4 @@ inline boost::asio::awaitable<AsyncSession> async_launch(std::string_view progra
   return detail::launched(std::move(command), options);
 }
 
-}  // namespace racebeam::client
+}  // namespace RACEBEAM_CLIENT_NAMESPACE

@@ -8,10 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "racebeam/client/config.hpp"
 #include "racebeam/client/reply.hpp"
 #include "racebeam/client/words.hpp"
 
-namespace racebeam::client {
+namespace RACEBEAM_CLIENT_NAMESPACE {
 
 /// The commands whose methods only send their words. `Derived` sends them.
 template <class Derived>
@@ -192,4 +193,4 @@ class CommandMethods {
   }
 };
 
-}  // namespace racebeam::client
+}  // namespace RACEBEAM_CLIENT_NAMESPACE

@@ -1,3 +1,5 @@
+/// @file
+/// A method for each command, for Session and AsyncSession. Each of these says which threads may call them.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +15,12 @@
 #include <vector>
 
 #include "racebeam/client/command_methods.hpp"
+#include "racebeam/client/config.hpp"
 #include "racebeam/client/reply.hpp"
 #include "racebeam/client/screens.hpp"
 #include "racebeam/client/words.hpp"
 
-namespace racebeam::client {
+namespace RACEBEAM_CLIENT_NAMESPACE {
 
 /// A method for each command of protocol/PROTOCOL.md. `Derived` is Session, whose methods return what is said
 /// here, or AsyncSession, whose methods return an `awaitable` of it.
@@ -150,4 +153,4 @@ class Commands : public CommandMethods<Derived> {
   }
 };
 
-}  // namespace racebeam::client
+}  // namespace RACEBEAM_CLIENT_NAMESPACE

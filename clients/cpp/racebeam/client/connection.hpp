@@ -1,3 +1,6 @@
+/// @file
+/// The bytes of a session: sockets, TLS, pipes, and a server that the session starts. One coroutine at a time
+/// uses a Connection.
 #pragma once
 
 #include <utility>  // before Boost.Asio 1.74, which lacks it
@@ -35,11 +38,12 @@
 #include <vector>
 
 #include "racebeam/client/address.hpp"
+#include "racebeam/client/config.hpp"
 #include "racebeam/client/options.hpp"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX has it in no header
 
-namespace racebeam::client::detail {
+namespace RACEBEAM_CLIENT_NAMESPACE::detail {
 
 namespace asio = boost::asio;
 
@@ -381,4 +385,4 @@ inline std::unique_ptr<Connection> make_connection(const asio::any_io_executor& 
   throw std::logic_error("no such kind of address");
 }
 
-}  // namespace racebeam::client::detail
+}  // namespace RACEBEAM_CLIENT_NAMESPACE::detail

@@ -1,3 +1,5 @@
+/// @file
+/// The encodings of fields, and their bytes. Any thread may call these functions.
 #pragma once
 
 #include <zlib.h>
@@ -14,7 +16,9 @@
 #include <utility>
 #include <vector>
 
-namespace racebeam::client {
+#include "racebeam/client/config.hpp"
+
+namespace RACEBEAM_CLIENT_NAMESPACE {
 
 /// What fields such as ram and screen consist of.
 using Bytes = std::vector<std::uint8_t>;
@@ -196,4 +200,4 @@ inline Bytes decode(Encoding encoding, std::string_view text) {
   throw std::invalid_argument("this encoding is not only a text");
 }
 
-}  // namespace racebeam::client
+}  // namespace RACEBEAM_CLIENT_NAMESPACE

@@ -1,3 +1,5 @@
+/// @file
+/// The exceptions of the client. They are values, so that any thread may keep one.
 #pragma once
 
 #include <stdexcept>
@@ -5,10 +7,12 @@
 #include <string_view>
 #include <utility>
 
-namespace racebeam::client {
+#include "racebeam/client/config.hpp"
+
+namespace RACEBEAM_CLIENT_NAMESPACE {
 
 /// The server refused a request: `error CODE sentence`. The session continues.
-class Refused : public std::runtime_error {
+class RACEBEAM_CLIENT_API Refused : public std::runtime_error {
  public:
   /// @param code for programs, such as `bad-action`
   /// @param sentence for people
@@ -27,13 +31,13 @@ class Refused : public std::runtime_error {
 };
 
 /// The server is not there, has gone, or sent an invalid reply. The session has ended.
-class Lost : public std::runtime_error {
+class RACEBEAM_CLIENT_API Lost : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 /// The server did not answer in time. The session has ended.
-class TimedOut : public Lost {
+class RACEBEAM_CLIENT_API TimedOut : public Lost {
  public:
   using Lost::Lost;
 };
@@ -57,4 +61,4 @@ inline std::string printable(std::string_view text) {
 }
 
 }  // namespace detail
-}  // namespace racebeam::client
+}  // namespace RACEBEAM_CLIENT_NAMESPACE

@@ -7,9 +7,10 @@
 #include <string_view>
 #include <utility>
 
+#include "racebeam/client/config.hpp"
 #include "racebeam/client/encoding.hpp"
 
-namespace racebeam::client::detail {
+namespace RACEBEAM_CLIENT_NAMESPACE::detail {
 
 /// What bytes are written in where the client does not say.
 inline constexpr std::array<std::pair<std::string_view, Encoding>, 7> kUsual{{{"ram", Encoding::kHex}, {"tia", Encoding::kHex}, {"screen", Encoding::kRle}, {"rgb", Encoding::kZlib}, {"grey", Encoding::kZlib}, {"palette", Encoding::kHex}, {"audio", Encoding::kHex}}};
@@ -18,4 +19,4 @@ inline constexpr std::array<std::pair<std::string_view, std::size_t>, 4> kSizes{
 /// Bytes of a pixel of fields that have the size of the screen.
 inline constexpr std::array<std::pair<std::string_view, std::size_t>, 3> kPixels{{{"screen", 1}, {"rgb", 3}, {"grey", 1}}};
 
-}  // namespace racebeam::client::detail
+}  // namespace RACEBEAM_CLIENT_NAMESPACE::detail

@@ -1,3 +1,5 @@
+/// @file
+/// Decodes the fields of the replies to one session. One thread at a time uses a Fields.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "racebeam/client/config.hpp"
 #include "racebeam/client/field_table.hpp"
 #include "racebeam/client/reply.hpp"
 
-namespace racebeam::client::detail {
+namespace RACEBEAM_CLIENT_NAMESPACE::detail {
 
 /// Decodes the fields of replies. It follows what requests that were granted change about later replies.
 class Fields {
@@ -172,4 +175,4 @@ class Fields {
   std::string_view raw_;
 };
 
-}  // namespace racebeam::client::detail
+}  // namespace RACEBEAM_CLIENT_NAMESPACE::detail

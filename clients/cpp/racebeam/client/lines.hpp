@@ -1,3 +1,5 @@
+/// @file
+/// The lines of a session, with its time limits. One coroutine at a time uses a Lines.
 #pragma once
 
 #include <algorithm>
@@ -7,10 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "racebeam/client/config.hpp"
 #include "racebeam/client/connection.hpp"
 #include "racebeam/client/errors.hpp"
 
-namespace racebeam::client::detail {
+namespace RACEBEAM_CLIENT_NAMESPACE::detail {
 
 /// Lines to and from a server. What fails throws Lost, or TimedOut if the time of the options was over.
 class Lines : public std::enable_shared_from_this<Lines> {
@@ -142,4 +145,4 @@ class Lines : public std::enable_shared_from_this<Lines> {
   std::size_t begin_ = 0, filled_ = 0;
 };
 
-}  // namespace racebeam::client::detail
+}  // namespace RACEBEAM_CLIENT_NAMESPACE::detail

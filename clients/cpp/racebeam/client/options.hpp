@@ -1,3 +1,5 @@
+/// @file
+/// How to connect to a server. Options are values: each session keeps a copy of its own.
 #pragma once
 
 #include <chrono>
@@ -5,7 +7,9 @@
 #include <optional>
 #include <string>
 
-namespace racebeam::client {
+#include "racebeam/client/config.hpp"
+
+namespace RACEBEAM_CLIENT_NAMESPACE {
 
 /// How to connect to a server.
 struct Options {
@@ -22,4 +26,4 @@ struct Options {
   }
 };
 
-}  // namespace racebeam::client
+}  // namespace RACEBEAM_CLIENT_NAMESPACE

@@ -1,3 +1,5 @@
+/// @file
+/// The reply to a request, with its groups of keys and values. Any number of threads may read one.
 #pragma once
 
 #include <charconv>
@@ -10,9 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "racebeam/client/config.hpp"
 #include "racebeam/client/encoding.hpp"
 
-namespace racebeam::client {
+namespace RACEBEAM_CLIENT_NAMESPACE {
 
 namespace detail {
 
@@ -165,4 +168,4 @@ inline std::vector<std::int64_t> unfold_rewards(std::string_view text) {
   return rewards;
 }
 
-}  // namespace racebeam::client
+}  // namespace RACEBEAM_CLIENT_NAMESPACE

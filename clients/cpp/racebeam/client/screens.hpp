@@ -1,3 +1,6 @@
+/// @file
+/// Colours of a screen, and stacks of screens. One thread at a time uses a ScreenStack; any number may read a
+/// Palette.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +11,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "racebeam/client/config.hpp"
 #include "racebeam/client/encoding.hpp"
 
-namespace racebeam::client {
+namespace RACEBEAM_CLIENT_NAMESPACE {
 
 /// The colours of the field `screen`.
 class Palette {
@@ -67,4 +71,4 @@ class ScreenStack {
   Bytes stack_;
 };
 
-}  // namespace racebeam::client
+}  // namespace RACEBEAM_CLIENT_NAMESPACE

@@ -1,3 +1,6 @@
+/// @file
+/// A session whose methods return when the reply is there. Threads may share it: each request gets its own
+/// reply.
 #pragma once
 
 #include <atomic>
@@ -16,8 +19,9 @@
 #include <boost/asio/post.hpp>
 
 #include "racebeam/client/async_session.hpp"
+#include "racebeam/client/config.hpp"
 
-namespace racebeam::client {
+namespace RACEBEAM_CLIENT_NAMESPACE {
 
 /// One session. Threads may share it: each request gets its own reply.
 class Session : public Commands<Session> {
@@ -119,4 +123,4 @@ inline Session launch(std::string_view program = {}, const std::vector<std::stri
   return Session(async_launch(program, arguments, options));
 }
 
-}  // namespace racebeam::client
+}  // namespace RACEBEAM_CLIENT_NAMESPACE

@@ -1,3 +1,5 @@
+/// @file
+/// The words of a request. Any thread may call these functions.
 #pragma once
 
 #include <array>
@@ -7,7 +9,9 @@
 #include <string>
 #include <string_view>
 
-namespace racebeam::client {
+#include "racebeam/client/config.hpp"
+
+namespace RACEBEAM_CLIENT_NAMESPACE {
 
 namespace detail {
 
@@ -63,4 +67,4 @@ std::string request_line(std::string_view command, const Words&... words) {
 }
 
 }  // namespace detail
-}  // namespace racebeam::client
+}  // namespace RACEBEAM_CLIENT_NAMESPACE
