@@ -40,7 +40,7 @@ enum class Action : std::uint8_t {
 inline constexpr int kActions = 18;
 
 RACEBEAM_API std::string_view name_of(Action action) noexcept;                    // "UPFIRE"
-RACEBEAM_API std::optional<Action> action_named(std::string_view name) noexcept;  // nothing if there is none
+RACEBEAM_API std::optional<Action> action_named(std::string_view name) noexcept;  // nothing: an unknown name
 
 // What both players do in one step.
 struct Controls {

@@ -47,18 +47,18 @@ struct Rewards {
 
 class RACEBEAM_API Environment {
  public:
-  // Powers a console on and begins an episode; without `game`, of the one that is recognised. Throws Error
-  // for settings or an image that cannot be used.
+  // Powers a console on and begins an episode. The first form recognises the game of the image
+  // (Game::recognise). Both throw Error for settings or an image that cannot be used.
   explicit Environment(const Image& image, const Settings& settings = {});
   Environment(const Image& image, const Game& game, const Settings& settings = {});
   ~Environment();
   Environment(Environment&&) noexcept;
   Environment& operator=(Environment&&) noexcept;
 
-  // Plays. A step returns player A's reward, and does nothing once the episode is over; it throws Error for
-  // numbers that are not actions. A reset with a seed powers the console on anew, so that the episode can be
-  // repeated; without one, the random numbers continue. It throws Error, and the environment stays as it was,
-  // if the image does not reach the mode.
+  // A step plays Settings::frame_skip frames and returns player A's reward. Once the episode is over, it does
+  // nothing and returns 0. It throws Error for numbers that are not actions. A reset with a seed powers the
+  // console on anew, so that the episode can be repeated; without one, the random numbers continue. It throws
+  // Error, and the environment stays as it was, if the image does not reach the mode.
   int step(Action a, Action b = Action::kNoop);
   int step(const Controls& controls);
   void reset(std::optional<std::uint32_t> seed = std::nullopt);
@@ -100,8 +100,8 @@ class RACEBEAM_API Environment {
   void set_mode(int mode);
   void set_difficulty(int difficulty);
 
-  // Calls a function after each frame of a step, for example to record it; none if it is empty. The function
-  // may read this environment, and may throw.
+  // Calls the function after each frame of a step, for example to record it. An empty function ends that. The
+  // function may read this environment, and may throw.
   void on_frame(std::function<void()> function);
 
  private:

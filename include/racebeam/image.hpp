@@ -25,7 +25,7 @@ class RACEBEAM_API Image {
   static Image load(const std::string& where);
 
   // Makes an image of a file's bytes. `name` is the name that the file would have, without its extension.
-  // Throws Error if there are no bytes, or more than 512 KiB.
+  // Throws Error if `bytes` is empty or has more than 512 KiB.
   static Image from_bytes(std::span<const std::uint8_t> bytes, const std::string& name);
 
   static std::vector<std::string> built_in();  // the names that load() takes after "builtin:"

@@ -67,8 +67,8 @@ struct VectorSettings {
   unsigned threads = 0;        // 0: one for each processor that the process may use
 };
 
-// Memory of the caller, into which results are written. The machines follow each other in every array. What
-// is left empty is not written.
+// Memory of the caller, into which results are written. The machines follow each other in every array. Empty
+// arrays are not written.
 struct VectorArrays {
   std::span<std::uint8_t> observations{};        // observation_size() bytes for each machine
   std::span<std::uint8_t> final_observations{};  // with Autoreset::kSameStep, of the episodes that ended
@@ -78,7 +78,7 @@ struct VectorArrays {
   std::span<std::int32_t> machines{};                            // the numbers of the machines, from 0
 };
 
-// The same with memory of its own.
+// Results in memory of their own. VectorEnvironment::make_results() gives every array its size.
 struct VectorResults {
   std::vector<std::uint8_t> observations, final_observations, ram;
   std::vector<std::int32_t> rewards, lives, episode_frames;
@@ -125,7 +125,7 @@ class RACEBEAM_API VectorEnvironment {
   void send(std::span<const int> actions, std::span<const std::int32_t> machines);
   void receive(const VectorArrays& out);
 
-  // As those of Environment. A snapshot has the stack of screens, too.
+  // They work as Environment's. A snapshot has the stack of screens, too.
   Snapshot save(std::size_t machine, bool with_random = false);
   void restore(std::size_t machine, const Snapshot& snapshot);
 

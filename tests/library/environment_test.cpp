@@ -106,6 +106,8 @@ TEST_CASE("A limit of frames truncates an episode, whose steps then do nothing")
   CHECK_FALSE(environment.terminated());
   CHECK(environment.episode_over());
   CHECK(environment.episode_frames() == 8);
+  CHECK(environment.step(Action::kFire) == 0);
+  CHECK(environment.episode_frames() == 8);
   environment.reset();
   CHECK_FALSE(environment.episode_over());
 }
