@@ -1,0 +1,84 @@
+"""Sockets that systemd passes on, and its notifications."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import (
+    BINARY,
+    GAME,
+    PATIENCE,
+    ask,
+    connect_unix,
+    main,
+    run,
+)
+
+
+class Systemd(unittest.TestCase):
+    """The convention of systemd, played by the test: sockets from descriptor 3 on, and variables that name
+    this process."""
+
+    def start(self, folder, options, names="line:classic"):
+        sockets = [socket.socket(socket.AF_UNIX) for _ in range(2)]
+        for number, listener in enumerate(sockets):
+            listener.bind(os.path.join(folder, f"s{number}"))
+            listener.listen()
+        fds = [listener.fileno() for listener in sockets]
+        script = "".join(f"os.dup2({fd}, {20 + place}); " for place, fd in enumerate(fds))
+        script += "".join(f"os.dup2({20 + place}, {3 + place}); " for place in range(2))
+        script = (
+            f"import os, sys; {script} os.environ['LISTEN_PID'] = str(os.getpid()); os.execv(sys.argv[1], sys.argv[1:])"
+        )
+        notify = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        notify.bind(os.path.join(folder, "notify"))
+        notify.settimeout(PATIENCE)
+        environment = {
+            **os.environ,
+            "LISTEN_FDS": "2",
+            "LISTEN_FDNAMES": names,
+            "NOTIFY_SOCKET": os.path.join(folder, "notify"),
+        }
+        process = subprocess.Popen(
+            ["python3", "-c", script, BINARY, "serve", *options], env=environment, pass_fds=fds, stderr=subprocess.PIPE
+        )
+        for listener in sockets:
+            listener.close()
+        return process, notify
+
+    def test_its_sockets_are_served_and_it_is_notified(self):
+        with tempfile.TemporaryDirectory() as folder:
+            process, notify = self.start(
+                folder, ["--listen", "systemd:line", "--listen", "classic+systemd:classic", "--rom", GAME]
+            )
+            self.assertEqual(notify.recv(100), b"READY=1")
+            line, classic = (connect_unix(os.path.join(folder, name)) for name in ("s0", "s1"))
+            self.assertTrue(ask(line, b"hello").startswith(b"ok "))
+            self.assertEqual(classic.line(), b"160-210\n")
+            for wire in (line, classic):
+                wire.close()
+            process.send_signal(signal.SIGTERM)
+            self.assertEqual(notify.recv(100), b"STOPPING=1")
+            self.assertEqual(process.wait(PATIENCE), 0)
+            self.assertTrue(os.path.exists(os.path.join(folder, "s0")))  # systemd's, not ours to remove
+            process.stderr.close()
+            notify.close()
+
+    def test_what_it_did_not_pass_on_is_an_error(self):
+        with tempfile.TemporaryDirectory() as folder:
+            process, notify = self.start(folder, ["--listen", "systemd:other"])
+            self.assertIn(b"no socket of the name 'other'", process.communicate(timeout=PATIENCE)[1])
+            self.assertEqual(process.returncode, 1)
+            notify.close()
+        status, _, errors = run("serve", "--listen", "systemd")
+        self.assertEqual((status, len(errors)), (1, 1), errors)
+        self.assertIn("systemd has passed on no socket", errors[0])
+
+
+if __name__ == "__main__":
+    main()

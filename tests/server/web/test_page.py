@@ -1,0 +1,97 @@
+"""The page that a server offers."""
+
+import gzip
+import os
+import socket
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import PATIENCE, SOURCE, main
+from web_case import Case, port_of
+
+
+class Page(Case):
+    def test_it_is_served_with_fields_that_keep_it_to_itself(self):
+        self.start()
+        status, fields, text = self.get("/")
+        with open(os.path.join(SOURCE, "viewer", "dist", "index.html"), "rb") as file:
+            self.assertEqual((status, text), (200, file.read()))
+        self.assertEqual(fields["Content-Type"], "text/html; charset=utf-8")
+        self.assertEqual(fields["X-Content-Type-Options"], "nosniff")
+        self.assertTrue(fields["Content-Security-Policy"].startswith("default-src 'none'; script-src 'self'; "))
+        self.assertEqual(self.get("/index.html")[2], text)
+
+    def test_every_file_is_there_compressed_and_cached(self):
+        self.start()
+        folder = os.path.join(SOURCE, "viewer", "dist")
+        names = [
+            os.path.relpath(os.path.join(path, name), folder) for path, _, files in os.walk(folder) for name in files
+        ]
+        self.assertIn("index.html", names)
+        for name in names:
+            with self.subTest(name), open(os.path.join(folder, name), "rb") as file:
+                status, fields, text = self.get("/" + name, **{"Accept-Encoding": "br, gzip"})
+                self.assertEqual(
+                    (status, fields["Content-Encoding"], gzip.decompress(text)), (200, "gzip", file.read())
+                )
+                self.assertEqual(self.get("/" + name, **{"If-None-Match": fields["ETag"]})[::2], (304, b""))
+                self.assertEqual(self.get("/" + name, **{"If-None-Match": '"other"'})[0], 200)
+
+    def answers(self, *pieces):
+        """What the server says after each piece of a request, and then until it closes."""
+        connection, heard = self.raw(), []
+        for piece in pieces:
+            connection.sendall(piece)
+            heard.append(connection.recv(65536))
+        while piece := connection.recv(65536):
+            heard[-1] += piece
+        return heard
+
+    def test_who_waits_before_the_body_is_told_to_go_on(self):
+        for method, status in ((b"GET", b"HTTP/1.1 200 OK\r\n"), (b"POST", b"HTTP/1.1 405 ")):
+            self.start()
+            first, second = self.answers(
+                method + b" / HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Length: 4\r\n"
+                b"Expect: 100-continue\r\n\r\n",
+                b"body",
+            )
+            self.assertEqual(first, b"HTTP/1.1 100 Continue\r\n\r\n")
+            self.assertTrue(second.startswith(status), second)
+        self.assertTrue(
+            self.answers(b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 4000\r\nExpect: 100-continue\r\n\r\n")[
+                0
+            ].startswith(b"HTTP/1.1 413 ")
+        )
+
+    def test_a_request_that_cannot_be_read_is_told_so(self):
+        self.start("--http", "127.0.0.1:0")
+        health = int(self.server.wait_for(r"health and metrics on http://127\.0\.0\.1:(\d+)").group(1))
+        cases = (
+            (b"GET / HTTP/1.1\r\nHost: x\r\nX: " + b"x" * 30000 + b"\r\n\r\n", b"HTTP/1.1 431 "),
+            (b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 9999\r\n\r\n" + b"x" * 9999, b"HTTP/1.1 413 "),
+            (b"GET / HTTP/1.1\r\nHost\r\n\r\n", b"HTTP/1.1 400 "),
+            (b"load beamfall\n\r\n\r\n", b"HTTP/1.1 400 "),
+        )
+        for port in (port_of(self.server), health):
+            for request_text, status in cases:
+                with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE) as connection:
+                    connection.sendall(request_text)
+                    heard = b""
+                    while piece := connection.recv(65536):
+                        heard += piece
+                    self.assertTrue(heard.startswith(status), (status, heard))
+
+    def test_other_paths_are_not(self):
+        self.start()
+        for path, status in (
+            ("/nothing", 404),
+            ("/../CMakeLists.txt", 404),
+            ("/healthz", 404),
+            ("/metrics", 404),
+            ("/session", 426),
+        ):
+            self.assertEqual(self.get(path)[0], status, path)
+
+
+if __name__ == "__main__":
+    main()
