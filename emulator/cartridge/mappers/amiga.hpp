@@ -29,10 +29,7 @@ inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   map(slot);
 }
 
-inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
-  touch(slot, address);
-  return atari::bank(slot)[address & 0xFFF];
-}
+constexpr auto read = atari::read_after<touch>;
 
 // A high part that no bank has is the whole number.
 inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {

@@ -66,10 +66,20 @@ inline bool admits(const CartridgeSlot& slot, const CartridgeState& state) {
   return state.bank[0] < slot.scheme.banks && banks_unused(state, 1);
 }
 
-inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
-  touch(slot, address);
+// Accesses in a scheme of banks without RAM, in which `select` chooses the bank by the address.
+template <void (*select)(CartridgeSlot&, std::uint16_t)>
+std::uint8_t read_after(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
+  select(slot, address);
   return bank(slot)[address & 0xFFF];
 }
+
+template <void (*select)(CartridgeSlot&, std::uint16_t)>
+Delivery write_after(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
+  select(slot, address);
+  return Delivery::kTaken;
+}
+
+constexpr auto read = read_after<touch>;
 
 inline Delivery write_ram(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
   const unsigned offset = address & 0xFFF;

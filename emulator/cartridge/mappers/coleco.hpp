@@ -11,14 +11,7 @@ inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   atari::map(slot);
 }
 
-inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
-  touch(slot, address);
-  return atari::bank(slot)[address & 0xFFF];
-}
-
-inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
-  touch(slot, address);
-  return Delivery::kTaken;
-}
+constexpr auto read = atari::read_after<touch>;
+constexpr auto write = atari::write_after<touch>;
 
 }  // namespace racebeam::coleco
