@@ -1,4 +1,4 @@
-"""Numbers in README.md, clients/README.md and docs/python.md are those of what they describe."""
+"""Numbers in README.md, clients/README.md and docs/python/ are those of what they describe."""
 
 import ast
 import re
@@ -47,7 +47,7 @@ class Numbers(unittest.TestCase):
 
     def test_the_python_page_names_the_extras_and_the_oldest_versions(self):
         project = tomllib.loads(page("pyproject.toml"))["project"]
-        text = " ".join(page("docs/python.md").split())
+        text = " ".join(page("docs/python/reference.md").split())
         [told] = re.findall(r"Each of the extras (.*?) brings", text)
         self.assertEqual(set(re.findall(r"`([\w-]+)`", told)), set(project["optional-dependencies"]))
         python = project["requires-python"].removeprefix(">=")
@@ -63,7 +63,7 @@ class Numbers(unittest.TestCase):
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "WHOLE_NUMBERS"
         )
         limits = {key.value: ast.unparse(value) for key, value in zip(limits.keys, limits.values)}
-        told = {name.strip("`"): takes for name, takes in table(page("docs/python.md"), "| argument | takes |")}
+        told = {name.strip("`"): takes for name, takes in table(page("docs/python/reference.md"), "| argument | takes |")}
         for name in ("stack_num", "noop_max", "frameskip"):
             self.assertEqual(told[name].replace(" to ", ", "), limits[name].strip("()"))
 

@@ -13,7 +13,7 @@ import package
 
 package.require("numpy")
 
-DOCUMENTS = ("README.md", "docs/python.md", "clients/python/README.md")
+DOCUMENTS = (package.SOURCE / "README.md", *sorted((package.SOURCE / "docs/python").glob("*.md")))
 OPTIONAL = ("gymnasium", "ale_py", "stable_baselines3", "jax", "torch", "torchrl", "tianshou")
 EXAMPLE = re.compile(r"(?ms)^```python\n(.*?)^```")
 
@@ -52,10 +52,10 @@ class Examples(unittest.TestCase):
     def test_they_run(self):
         count = 0
         for document in DOCUMENTS:
-            for number, example in enumerate(EXAMPLE.findall((package.SOURCE / document).read_text())):
+            for number, example in enumerate(EXAMPLE.findall(document.read_text())):
                 if options.importing and not imports(example, options.importing):
                     continue
-                with self.subTest(document=document, example=number):
+                with self.subTest(document=document.name, example=number):
                     if options.importing or is_playable(example):
                         done = run(example)
                         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -99,7 +99,7 @@ class Files(unittest.TestCase):
             )
 
     def test_it_runs_on_the_systems_that_the_document_names(self):
-        told = re.search(r"`manylinux_2_(\d+)_x86_64`", (package.SOURCE / "docs/python.md").read_text())[1]
+        told = re.search(r"`manylinux_2_(\d+)_x86_64`", (package.SOURCE / "docs/python/reference.md").read_text())[1]
         program = pathlib.Path(sys.executable).parent / "racebeam"
         for file in (racebeam._core.__file__, program):
             versions = subprocess.run(

@@ -5,7 +5,7 @@ With Gymnasium installed, `import racebeam` registers ids such as racebeam/Pong-
     import gymnasium, racebeam
     env = gymnasium.make("racebeam/Beamfall-v5")
 
-docs/python.md describes the package.
+docs/python/ describes the package.
 """
 
 from __future__ import annotations

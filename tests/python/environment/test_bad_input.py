@@ -173,7 +173,7 @@ class BadInput(unittest.TestCase):
     def test_what_counts_as_an_image_is_in_the_document(self):
         told = re.search(
             r"A file that ends in (.*?) is identified",
-            (package.SOURCE / "docs/python.md").read_text().replace("\n", " "),
+            (package.SOURCE / "docs/python/reference.md").read_text().replace("\n", " "),
         )[1]
         self.assertEqual(told, "`.bin`, `.a26` or `.rom`, also with `.gz` after it,")
         with tempfile.TemporaryDirectory() as folder:
