@@ -7,14 +7,11 @@
 #include <span>
 #include <variant>
 
-#include "emulator/tia/palette.hpp"
 #include "environment/observe/area_resize.hpp"
+#include "environment/observe/brightness.hpp"
 #include "environment/observe/enlarge.hpp"
 
 namespace racebeam {
-
-// The brightness of each palette index: a grey_table(), or one of colour_tables().
-using BrightnessTable = GreyTable;
 
 // Returns the tables of red, green and blue.
 const std::array<BrightnessTable, 3>& colour_tables(Format format);
@@ -24,10 +21,10 @@ using RowFlags = std::span<const std::uint8_t>;
 
 // Fill the rows of `plane` that `stale` names with the brightness of `screen`, or with the brighter of each
 // two pixels. All screens and planes must have the same length, 160 times that of `stale`.
-void make_plane(std::span<const std::uint8_t> screen, const BrightnessTable& table, RowFlags stale,
+void make_plane(std::span<const std::uint8_t> screen, const Brightness& brightness, RowFlags stale,
                 std::span<std::uint8_t> plane);
 void make_brighter_plane(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
-                         const BrightnessTable& table, RowFlags stale, std::span<std::uint8_t> plane);
+                         const Brightness& brightness, RowFlags stale, std::span<std::uint8_t> plane);
 
 // Averages over areas if neither side grows; else interpolates. Both are OpenCV's INTER_AREA.
 using ScreenResize = std::variant<AreaResize, Enlargement>;

@@ -1,6 +1,7 @@
 #include "environment/observe/screen_stack.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 #include "emulator/tia/line_cache/line_record.hpp"
@@ -34,18 +35,18 @@ ScreenStack::ScreenStack(const StackSettings& settings, const Environment& envir
   if (width != kScreenWidth || height != rows) resize_ = &screen_resize(rows, width, height);
   plane_size_ = static_cast<std::size_t>(rows) * kScreenWidth;
   if (settings.rgb) {
-    tables_ = colour_tables(environment.format());
+    for (const BrightnessTable& table : colour_tables(environment.format())) brightness_.emplace_back(table);
   } else {
-    tables_ = std::span(&grey_table(environment.format()), 1);
+    brightness_.emplace_back(grey_table(environment.format()));
   }
   const std::size_t reduced = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  screen_size_ = reduced * tables_.size();
-  seen_.resize(plane_size_ * tables_.size());
+  screen_size_ = reduced * brightness_.size();
+  seen_.resize(plane_size_ * brightness_.size());
   sources_.resize(static_cast<std::size_t>(rows));
   stale_.resize(sources_.size());
   changed_.resize(sources_.size(), 1);
   wanted_.resize(static_cast<std::size_t>(height));
-  if (tables_.size() > 1) reduced_.resize(reduced);
+  if (brightness_.size() > 1) reduced_.resize(reduced);
   screens_.resize(screen_size_ * static_cast<std::size_t>(depth()));
 }
 
@@ -76,12 +77,12 @@ void ScreenStack::find_stale(const Environment& environment, bool pooled) {
 void ScreenStack::look(const Environment& environment, bool pooled) {
   const auto screen = environment.screen().first(plane_size_);
   find_stale(environment, pooled);
-  for (std::size_t channel = 0; channel < tables_.size(); ++channel) {
+  for (std::size_t channel = 0; channel < brightness_.size(); ++channel) {
     if (pooled) {
-      make_brighter_plane(screen, environment.previous_screen().first(plane_size_), tables_[channel], stale_,
-                          plane(channel));
+      make_brighter_plane(screen, environment.previous_screen().first(plane_size_), brightness_[channel],
+                          stale_, plane(channel));
     } else {
-      make_plane(screen, tables_[channel], stale_, plane(channel));
+      make_plane(screen, brightness_[channel], stale_, plane(channel));
     }
   }
 }
@@ -90,9 +91,10 @@ void ScreenStack::look_at_previous(const Environment& environment) {
   const auto before = environment.previous_screen();
   std::ranges::fill(sources_, Source{});
   all_changed();
-  for (std::size_t channel = 0; channel < tables_.size(); ++channel) {
+  for (std::size_t channel = 0; channel < brightness_.size(); ++channel) {
     const auto seen = plane(channel);
-    for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = std::max(seen[i], tables_[channel][before[i]]);
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      seen[i] = std::max(seen[i], brightness_[channel].of(before[i]));
   }
 }
 
@@ -127,12 +129,12 @@ void ScreenStack::push() {
 }
 
 void ScreenStack::make_newest() {
-  if (tables_.size() == 1) return reduce(0, newest());
-  for (std::size_t channel = 0; channel < tables_.size(); ++channel) {
+  if (brightness_.size() == 1) return reduce(0, newest());
+  for (std::size_t channel = 0; channel < brightness_.size(); ++channel) {
     reduce(channel, reduced_);
     const std::size_t width = reduced_.size() / wanted_.size();
     for (std::size_t at = 0; at < reduced_.size(); ++at) {
-      if (wanted_[at / width] != 0) newest()[at * tables_.size() + channel] = reduced_[at];
+      if (wanted_[at / width] != 0) newest()[at * brightness_.size() + channel] = reduced_[at];
     }
   }
 }
@@ -147,7 +149,7 @@ void ScreenStack::copy_to(std::span<std::uint8_t> to, std::size_t stride) const 
   std::size_t from = newest_;
   for (std::size_t at = 0; at < to.size(); at += stride) {
     if (++from == static_cast<std::size_t>(depth())) from = 0;
-    std::ranges::copy(std::span(screens_).subspan(from * screen_size_, screen_size_), &to[at]);
+    std::memcpy(&to[at], &screens_[from * screen_size_], screen_size_);
   }
 }
 

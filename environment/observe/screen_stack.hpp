@@ -78,8 +78,8 @@ class ScreenStack {
   void all_changed();
 
   StackSettings settings_;
-  const ScreenResize* resize_;               // null: screens stay as they are
-  std::span<const BrightnessTable> tables_;  // one a channel
+  const ScreenResize* resize_;          // null: screens stay as they are
+  std::vector<Brightness> brightness_;  // one a channel
   std::size_t plane_size_, screen_size_;
   std::vector<std::uint8_t> seen_;     // planes, one after the other
   std::vector<Source> sources_;        // of each row of the planes

@@ -1,0 +1,47 @@
+// The brightness of a row's pixels, or of the brighter of each two, in a form for each kind of processor.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "emulator/base/simd.hpp"
+#include "emulator/tia/palette.hpp"
+
+namespace racebeam {
+
+// The brightness of each palette index: a grey_table(), or one of colour_tables().
+using BrightnessTable = GreyTable;
+
+class Brightness {
+ public:
+  // `table` must outlive it.
+  explicit Brightness(const BrightnessTable& table, Simd form = simd());
+
+  // Whether Simd::kAvx512 has a form of its own here. It takes AVX512_VBMI; without that, it is as kAvx2.
+  static bool has_vbmi();
+
+  std::uint8_t of(std::uint8_t pixel) const { return (*table_)[pixel]; }
+  // Each takes 160 palette indices, and gives 160 bytes.
+  void make_row(const std::uint8_t* pixels, std::uint8_t* to) const { make_(*this, {pixels}, to); }
+  void make_brighter_row(const std::uint8_t* one, const std::uint8_t* other, std::uint8_t* to) const {
+    make_brighter_(*this, {one, other}, to);
+  }
+
+ private:
+  struct Forms;
+  template <std::size_t pictures>
+  using Rows = std::array<const std::uint8_t*, pictures>;
+  template <std::size_t pictures>
+  using Make = void (*)(const Brightness&, const Rows<pictures>& rows, std::uint8_t* to);
+
+  void make_steps(const BrightnessTable& table);
+
+  const BrightnessTable* table_;
+  Make<1> make_;
+  Make<2> make_brighter_;
+  // For AVX2: the even entries of the table, by 16. All but the first 16 are differences (XOR) from those
+  // before.
+  alignas(16) std::array<std::array<std::uint8_t, 16>, 8> steps_;
+};
+
+}  // namespace racebeam
