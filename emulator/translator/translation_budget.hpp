@@ -1,6 +1,6 @@
 // How much time a machine may spend on translation. Translation saves time later or never. The budget is
-// therefore a fixed part of the time that the machine has run: no program takes much longer than interpreted
-// (docs/translator.md).
+// therefore a credit, and a fixed part of the time that the machine has run: no program takes much longer
+// than interpreted (docs/translator.md).
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class TranslationBudget {
  public:
   // unlimited: the budget covers every batch, whatever it costs.
   explicit TranslationBudget(bool unlimited, const Clocks& clocks = host_clocks())
-      : clocks_(clocks), balance_(unlimited ? kCapacity : -kStartCost), unlimited_(unlimited) {}
+      : clocks_(clocks), balance_(unlimited ? kCapacity : kCredit - kStartCost), unlimited_(unlimited) {}
 
   // Called around each step of the machine. While the budget is full, no clock is read.
   void begin_step() {
@@ -63,7 +63,11 @@ class TranslationBudget {
   static constexpr int kUsualBatches = 256;  // Solaris has 200
   static constexpr std::int64_t kLongestStep = 400'000, kLongestBatch = 400'000;
   static constexpr std::int64_t kCapacity = 4'000'000;
-  // What the system does for the memory of the code, beyond what is charged: pages of short-lived machines.
+  // What a machine has when it starts. Most games have then translated the code that they begin with before
+  // they have run for a few frames.
+  static constexpr std::int64_t kCredit = 1'500'000;
+  // Of it, what the system does for the memory of the code, which is not charged: pages of short-lived
+  // machines.
   static constexpr std::int64_t kStartCost = 200'000;
   static constexpr std::int64_t kBatchCost = 25'000;  // usual; a batch that costs more leaves a debt
 

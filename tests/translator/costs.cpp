@@ -5,9 +5,11 @@
 //   undrawn
 //                                                 and drawn
 //
-// Both print the distribution of the ratio and the worst, and end with 1 if one is above 1.5, or above what
-// the variable RACEBEAM_COST_BOUND says. They also end with 1 if a program that must gain by translation does
-// not: nothing is translated then, and the ratios say nothing.
+// Both print the distribution of the ratio and the worst. They end with 1 if a program takes more than 1.5
+// times as long translated, or as many times as the variable RACEBEAM_COST_BOUND says, and 2 ms more: the
+// credit that a machine starts with (TranslationBudget), and the batch that exceeds it. They also end with 1
+// if a program that must gain by translation does not: nothing is translated then, and the ratios say
+// nothing.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,6 +30,11 @@ double bound() {
   return told != nullptr ? std::atof(told) : 1.5;
 }
 
+constexpr double kCredit = 2000;  // microseconds
+
+// What counts: the ratio of the time beyond the credit.
+double judged(const Cost& cost) { return (cost.translated - kCredit) / cost.interpreted; }
+
 constexpr double kSuspicious = 1.3;  // measured again, more often
 constexpr int kSteps = 120, kRounds = 3, kMoreRounds = 25, kShown = 12;
 constexpr int kAttempts = 4;  // other work disturbs a measurement; what costs too much does so each time
@@ -43,8 +50,8 @@ class Report {
 
   void add(const std::string& name, const Program& program) {
     Cost cost = cost_of(program, steps_, look_, kRounds);
-    if (cost.ratio() > kSuspicious) cost = cost_of(program, steps_, look_, kMoreRounds);
-    for (int attempt = 1; attempt < kAttempts && cost.ratio() > bound(); ++attempt)
+    if (judged(cost) > kSuspicious) cost = cost_of(program, steps_, look_, kMoreRounds);
+    for (int attempt = 1; attempt < kAttempts && judged(cost) > bound(); ++attempt)
       cost = cost_of(program, steps_, look_, kMoreRounds);
     results_.push_back({name, cost});
     const Cost step = longest_step(program, std::min(steps_, 60), look_, kRounds);
@@ -69,7 +76,10 @@ class Report {
     for (std::size_t i = 0; i < std::min<std::size_t>(kShown, count); ++i) print("", results_[i]);
     print("the longest step interpreted: ", longest_[0]);
     print("the longest step translated: ", longest_[1]);
-    return ratio(0) <= bound();
+    const auto beyond_credit = [](const Result& result) { return judged(result.cost); };
+    const Result& worst = *std::ranges::max_element(results_, {}, beyond_credit);
+    std::printf("beyond the credit, at worst %.2f  %s\n", judged(worst.cost), worst.name.c_str());
+    return judged(worst.cost) <= bound();
   }
 
  private:
