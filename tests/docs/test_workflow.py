@@ -31,7 +31,6 @@ LEFT_OUT = {
     "scripts/check/java-agent": "it needs a checkout of ALE 0.6.0",
     "scripts/check/python-exactness": "it takes hours, and tests run a part of it each day",
     "scripts/check/rules-table": "a test of ctest",
-    "scripts/check/subjects": ".ci/run checks each commit",
     "scripts/check/translated": "it prints a listing",
     "scripts/check/vectors": "it needs the published vectors",
     "scripts/check/verify-with-ale": "it needs the results of an experiment",
@@ -128,7 +127,7 @@ class Subjects(unittest.TestCase):
         with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
             file.write(f"{subject}\n\nThe reason. It may be long, and end with a stop.\n")
             file.flush()
-            command = [ROOT / "scripts/check/subjects", "--message", file.name]
+            command = [ROOT / ".ci/subjects", "--message", file.name]
             run = subprocess.run(command, capture_output=True, text=True)
         self.assertEqual(run.returncode, 1 if run.stdout else 0)
         return run.stdout
