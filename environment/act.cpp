@@ -1,29 +1,10 @@
 // One agent step (docs/spec/environment.md, 4 and 5).
 #include <algorithm>
-#include <limits>
 
+#include "environment/act_parts.hpp"
 #include "environment/impl.hpp"
 
 namespace racebeam {
-
-namespace {
-
-std::int32_t clamped(std::int64_t reward, const Settings& settings) {
-  return static_cast<std::int32_t>(
-      std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max));
-}
-
-// How many frames of an act are drawn: the last ones.
-int frames_drawn(Drawing drawing) {
-  switch (drawing) {
-    case Drawing::kNone: return 0;
-    case Drawing::kLast: return 1;
-    case Drawing::kLastTwo: return 2;
-    default: return std::numeric_limits<int>::max();
-  }
-}
-
-}  // namespace
 
 int Environment::act(int a, int b, float strength_a, float strength_b) {
   const Presses asked{{a, strength_a}, {b, strength_b}};
@@ -45,7 +26,7 @@ int Environment::Impl::frames_of_act() {
 }
 
 int Environment::Impl::act(const Presses& asked, int frames) {
-  const int drawn = frames_drawn(drawing);
+  const int drawn = frames_drawn(drawing, frames);
   std::int64_t reward_a = 0, reward_b = 0;
   for (int n = frames; n > 0; --n) {
     sticky.draw(random, asked, play.held);

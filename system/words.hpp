@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "system/invalid_input.hpp"
+#include "system/named_rows.hpp"
 
 namespace racebeam {
 
@@ -59,6 +60,26 @@ std::string unknown_name(std::string_view kind, std::string_view name, Words kno
 // The index of `value` in `accepted`. Throws InvalidInput: "WHAT is 'VALUE'; did you mean A? It
 // takes A, B or C".
 std::size_t choice_of(std::string_view value, std::string_view what, Words accepted);
+
+// A word of a request or of a file, and the value that it stands for.
+template <typename Value>
+struct WordFor {
+  std::string_view name;
+  Value value;
+};
+
+template <typename Rows, typename Value>
+constexpr std::string_view word_for(const Rows& rows, Value value) {
+  for (const auto& row : rows)
+    if (row.value == value) return row.name;
+  return {};
+}
+
+// The value of `word`. Throws as choice_of().
+template <typename Rows>
+auto value_for(std::string_view word, std::string_view what, const Rows& rows) {
+  return rows[choice_of(word, what, names_of(rows))].value;
+}
 
 [[noreturn]] void refuse_twice(std::string_view key);  // InvalidArguments
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr SealedKind kKind = {
     .what = "episode log", .magic = "RBEPISOD", .version = 1, .most = std::size_t{2} << 20, .level = 9};
-constexpr std::array<std::string_view, 2> kOvers = {"terminated", "truncated"};  // as EpisodeOver counts
+constexpr std::array<WordFor<EpisodeOver>, 2> kOvers = {
+    {{"terminated", EpisodeOver::kTerminated}, {"truncated", EpisodeOver::kTruncated}}};
 constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMost64 = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
@@ -100,7 +101,7 @@ class LogReader {
     end.score = number_within(value(rest, "score"), "score", -kMost64, kMost64);
     end.frames = number_within(value(rest, "frames"), "frames", 0, kMostInt);
     end.decisions = number_within(value(rest, "decisions"), "decisions", 0, kMostInt);
-    end.over = static_cast<EpisodeOver>(choice_of(value(rest, "end"), "end", kOvers));
+    end.over = value_for(value(rest, "end"), "end", kOvers);
     end.lives = static_cast<int>(number_within(value(rest, "lives"), "lives", -kMostInt, kMostInt));
   }
 
@@ -124,7 +125,7 @@ class LogReader {
 
 const std::size_t kMostLogBytes = kKind.most;
 
-std::string_view name_of(EpisodeOver over) { return kOvers[static_cast<std::size_t>(over)]; }
+std::string_view name_of(EpisodeOver over) { return word_for(kOvers, over); }
 
 std::size_t hashes_of(std::size_t decisions) { return decisions / kDecisionsPerStretch + 1; }
 

@@ -166,8 +166,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::string console_of(const Game& game) {
   const Properties properties = game.properties_for(recognised_md5(game));
-  const std::string scheme(properties.scheme),
-      format(kFormatNames[static_cast<std::size_t>(properties.format)]);
+  const std::string scheme(properties.scheme), format(name_of(properties.format));
   return std::string(name_of(properties.left)) + " on the left, " + std::string(name_of(properties.right)) +
          " on the right; scheme " + (scheme.empty() ? "auto" : scheme) + ", format " + format;
 }

@@ -98,8 +98,8 @@ ReplyPicture classic_picture(std::string_view line, bool full) {
 }
 
 Format format_named(const std::string& name) {
-  const auto found = std::ranges::find(kFormatNames, name);
-  return found == kFormatNames.end() ? Format::kNtsc : static_cast<Format>(found - kFormatNames.begin());
+  const auto found = std::ranges::find(kFormats, name, &WordFor<Format>::name);
+  return found == kFormats.end() ? Format::kNtsc : found->value;
 }
 
 // The colours of the values of the field screen.

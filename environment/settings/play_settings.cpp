@@ -22,12 +22,19 @@ constexpr std::int64_t kMostFrames = std::numeric_limits<int>::max();
 constexpr int kLeastReward = std::numeric_limits<int>::min(), kMostReward = std::numeric_limits<int>::max();
 constexpr int kMostFrameSkip = 1000;  // an act is never interrupted
 constexpr int kMostNoops = 1000;
-constexpr std::array<std::string_view, 3> kActionSets = {"full", "legal", "minimal"};
-constexpr std::array<std::string_view, 3> kAutoresets = {"next-step", "same-step",
-                                                         "disabled"};  // as Autoreset
-constexpr std::array<std::string_view, 4> kLifeLosses = {"ignored", "reported", "end",
-                                                         "restart"};       // as LifeLoss
-constexpr std::array<std::string_view, 2> kRules = {"ale-0.12", "fixed"};  // as Rules counts
+constexpr std::array<WordFor<ActionSet>, 3> kActionSets = {
+    {{"full", ActionSet::kFull}, {"legal", ActionSet::kLegal}, {"minimal", ActionSet::kMinimal}}};
+constexpr std::array<WordFor<Autoreset>, 3> kAutoresets = {{{"next-step", Autoreset::kNextStep},
+                                                            {"same-step", Autoreset::kSameStep},
+                                                            {"disabled", Autoreset::kDisabled}}};
+// A reply has the numbers of version 0.1 where there is one.
+constexpr std::array<WordFor<Autoreset>, 3> kShownAutoresets = {
+    {{"1", Autoreset::kNextStep}, {"same-step", Autoreset::kSameStep}, {"0", Autoreset::kDisabled}}};
+constexpr std::array<WordFor<LifeLoss>, 4> kLifeLosses = {{{"ignored", LifeLoss::kIgnored},
+                                                           {"reported", LifeLoss::kReported},
+                                                           {"end", LifeLoss::kEnds},
+                                                           {"restart", LifeLoss::kResets}}};
+constexpr std::array<WordFor<Rules>, 2> kRules = {{{"ale-0.12", Rules::kAle012}, {"fixed", Rules::kFixed}}};
 
 // Never 0. Not of std::random_device, which needs a C library of 2022 when it is linked statically, as in a
 // wheel.
@@ -74,7 +81,7 @@ void set_sticky(PlaySettings& settings, std::string_view value) {
 }
 
 void set_action_set(PlaySettings& settings, std::string_view value) {
-  settings.action_set = static_cast<ActionSet>(choice_of(value, "action_set", kActionSets));
+  settings.action_set = value_for(value, "action_set", kActionSets);
 }
 
 int reward_limit(std::string_view value, std::string_view what, int none) {
@@ -82,7 +89,7 @@ int reward_limit(std::string_view value, std::string_view what, int none) {
 }
 
 void set_rules(PlaySettings& settings, std::string_view value) {
-  settings.machine.rules = static_cast<Rules>(choice_of(value, "rules", kRules));
+  settings.machine.rules = value_for(value, "rules", kRules);
 }
 
 // The old setting, whose episodes are truncated.
@@ -91,10 +98,8 @@ void set_life_loss_ends(PlaySettings& settings, std::string_view value) {
   settings.machine.truncate_on_life_loss = flag(value, "life_loss_ends");
 }
 
-// A reply has the numbers of version 0.1 where there is one.
 void append_autoreset(std::string& out, const PlaySettings& settings, const Environment&) {
-  constexpr std::array<std::string_view, 3> kShown = {"1", "same-step", "0"};
-  out += kShown[static_cast<std::size_t>(settings.autoreset)];
+  out += word_for(kShownAutoresets, settings.autoreset);
 }
 
 void set_preset(PlaySettings& settings, std::string_view value) {
@@ -159,7 +164,7 @@ constexpr std::array kSettings = {
             ECHO(std::int64_t{s.machine.max_episode_frames})),
     setting("life_loss", READ(set_life_loss(s, life_loss_of(value))),
             [](std::string& out, const PlaySettings& s, const Environment&) {
-              out += kLifeLosses[static_cast<std::size_t>(s.life_loss)];
+              out += word_for(kLifeLosses, s.life_loss);
             }),
     setting("life_loss_ends", set_life_loss_ends,
             ECHO(std::int64_t{truncates_on_life_loss(s) || s.life_loss >= LifeLoss::kEnds})),
@@ -179,7 +184,7 @@ constexpr std::array kSettings = {
             }),
     setting("rules", set_rules,
             [](std::string& out, const PlaySettings& s, const Environment&) {
-              out += kRules[static_cast<std::size_t>(s.machine.rules)];
+              out += word_for(kRules, s.machine.rules);
             }),
     setting("color_averaging", READ(s.machine.color_averaging = flag(value, "color_averaging")),
             ECHO(std::int64_t{s.machine.color_averaging})),
@@ -281,14 +286,12 @@ bool truncates_on_life_loss(const PlaySettings& settings) {
 Autoreset autoreset_of(std::string_view name) {
   if (name == "0") return Autoreset::kDisabled;  // old words, which logs have, too
   if (name == "1") return Autoreset::kNextStep;
-  return static_cast<Autoreset>(choice_of(name, "autoreset", kAutoresets));
+  return value_for(name, "autoreset", kAutoresets);
 }
 
-LifeLoss life_loss_of(std::string_view name) {
-  return static_cast<LifeLoss>(choice_of(name, "life_loss", kLifeLosses));
-}
+LifeLoss life_loss_of(std::string_view name) { return value_for(name, "life_loss", kLifeLosses); }
 
-std::string_view name_of(Autoreset autoreset) { return kAutoresets[static_cast<std::size_t>(autoreset)]; }
-std::string_view name_of(ActionSet set) { return kActionSets[static_cast<std::size_t>(set)]; }
+std::string_view name_of(Autoreset autoreset) { return word_for(kAutoresets, autoreset); }
+std::string_view name_of(ActionSet set) { return word_for(kActionSets, set); }
 
 }  // namespace racebeam

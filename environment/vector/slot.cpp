@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "environment/act_parts.hpp"
 #include "environment/saved_state.hpp"
 #include "system/invalid_input.hpp"
 
@@ -41,24 +42,10 @@ Settings machine_settings(const SlotSettings& settings) {
   return machine;
 }
 
-// How many of a step's frames are drawn: the last ones.
-int frames_drawn(Drawing drawing, int all) {
-  switch (drawing) {
-    case Drawing::kNone: return 0;
-    case Drawing::kLast: return 1;
-    case Drawing::kLastTwo: return 2;
-    default: return all;
-  }
-}
-
 // EnvPool and Stable-Baselines3 play the step to its end, and then look at the lives.
 bool stops_at_lost_life(const SlotSettings& settings) {
   if (settings.life_loss == LifeLoss::kEnds) return settings.reset_order == ResetOrder::kFireNoops;
   return settings.life_loss == LifeLoss::kResets;
-}
-
-std::int64_t clamped(std::int64_t reward, const Settings& settings) {
-  return std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max);
 }
 
 std::string described(const StackSettings& stack) {

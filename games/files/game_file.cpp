@@ -1,6 +1,7 @@
 #include "games/files/game_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -23,19 +24,29 @@ bool is_md5(const std::string& text) {
   return text.size() == kMd5Length && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
+template <typename Rows>
+auto choice_of_section(const Section& section, std::string_view key, const Rows& rows) {
+  const auto names = names_of(rows);
+  const auto chosen = section.choice(key, {names.begin(), names.end()});
+  return chosen ? std::optional(rows[*chosen].value) : std::nullopt;
+}
+
 Properties properties_of(const Section& section) {
-  const std::vector<std::string> controllers(kControllerNames.begin(), kControllerNames.end());
-  const std::vector<std::string> formats = {"auto", "NTSC", "PAL", "PAL60", "SECAM"};
+  constexpr std::array<WordFor<Format>, 5> kFileFormats = {{{"auto", Format::kAuto},
+                                                            {"NTSC", Format::kNtsc},
+                                                            {"PAL", Format::kPal},
+                                                            {"PAL60", Format::kPal60},
+                                                            {"SECAM", Format::kSecam}}};
   const std::vector<std::string> difficulties = {"B", "A"};
   Properties made;
-  made.left = static_cast<Controller>(section.choice("left", controllers).value_or(0));
-  made.right = static_cast<Controller>(section.choice("right", controllers).value_or(0));
+  made.left = choice_of_section(section, "left", kControllers).value_or(made.left);
+  made.right = choice_of_section(section, "right", kControllers).value_or(made.right);
   made.swap_ports = section.flag("swap_ports").value_or(made.swap_ports);
   made.swap_paddles = section.flag("swap_paddles").value_or(made.swap_paddles);
   made.left_difficulty_a = section.choice("left_difficulty", difficulties) == 1;
   made.right_difficulty_a = section.choice("right_difficulty", difficulties) == 1;
   made.hmove_blanks = section.flag("hmove_blanks").value_or(made.hmove_blanks);
-  made.format = static_cast<Format>(section.choice("format", formats).value_or(0));
+  made.format = choice_of_section(section, "format", kFileFormats).value_or(made.format);
   if (const auto scheme = section.text("scheme"))
     section.guard(*section.node("scheme"), "scheme", [&] { made.scheme = scheme_named(*scheme).name; });
   made.ystart = section.number("ystart").value_or(made.ystart);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <span>
 
 #include "emulator/cartridge/cartridge.hpp"
 #include "system/invalid_input.hpp"
@@ -26,12 +25,14 @@ std::string lower(std::string_view text) {
   return small;
 }
 
-template <typename Enum>
-Enum choice(std::string_view key, std::string_view value, std::span<const std::string_view> names) {
-  const auto found = std::ranges::find(names, lower(value));
-  if (found != names.end()) return static_cast<Enum>(found - names.begin());
+template <typename Rows>
+auto choice(std::string_view key, std::string_view value, const Rows& rows) {
+  const std::string name = lower(value);
   std::string accepted;
-  for (const std::string_view name : names) (accepted += accepted.empty() ? "" : ", ") += name;
+  for (const auto& row : rows) {
+    if (row.name == name) return row.value;
+    (accepted += accepted.empty() ? "" : ", ") += row.name;
+  }
   refuse(key, value, accepted);
 }
 
@@ -56,11 +57,11 @@ void GivenProperties::give(std::string_view key, std::string_view value) {
   if (key == "scheme") {
     scheme = racebeam::scheme(value);
   } else if (key == "left") {
-    left = choice<Controller>(key, value, kControllerNames);
+    left = choice(key, value, kControllers);
   } else if (key == "right") {
-    right = choice<Controller>(key, value, kControllerNames);
+    right = choice(key, value, kControllers);
   } else if (key == "format") {
-    format = choice<Format>(key, value, kFormatNames);
+    format = choice(key, value, kFormats);
   } else if (key == "height") {
     height = number(key, value, kLeastHeight, kMostHeight);
   } else if (key == "ystart") {

@@ -7,16 +7,21 @@
 #include <string_view>
 
 #include "emulator/state/properties.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 
-// The names in files and settings, as Controller and Format count.
-inline constexpr std::array<std::string_view, 2> kControllerNames = {"joystick", "paddles"};
-inline constexpr std::array<std::string_view, 5> kFormatNames = {"auto", "ntsc", "pal", "pal60", "secam"};
+// The names in settings.
+inline constexpr std::array<WordFor<Controller>, 2> kControllers = {
+    {{"joystick", Controller::kJoystick}, {"paddles", Controller::kPaddles}}};
+inline constexpr std::array<WordFor<Format>, 5> kFormats = {{{"auto", Format::kAuto},
+                                                             {"ntsc", Format::kNtsc},
+                                                             {"pal", Format::kPal},
+                                                             {"pal60", Format::kPal60},
+                                                             {"secam", Format::kSecam}}};
 
-inline std::string_view name_of(Controller controller) {
-  return kControllerNames[static_cast<std::size_t>(controller)];
-}
+constexpr std::string_view name_of(Controller controller) { return word_for(kControllers, controller); }
+constexpr std::string_view name_of(Format format) { return word_for(kFormats, format); }
 
 // The picture buffer has 300 lines (docs/spec/tia.md, 2), and PAL makes 250 of the usual 210.
 inline constexpr int kPictureLines = 300, kLastYStart = kPictureLines - 250, kLeastHeight = 100,

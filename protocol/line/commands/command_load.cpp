@@ -24,8 +24,6 @@ void add_names(Reply& reply, const Names& names) {
   reply.add_list("games", names);
 }
 
-std::string_view format_name(Format format) { return kFormatNames[static_cast<std::size_t>(format)]; }
-
 [[noreturn]] void refuse_game(const Images& images, std::string_view name) {
   if (find_game(name)) {
     throw RequestError(ErrorCode::kUnknownGame,
@@ -145,7 +143,7 @@ void add_loaded(const Context& context, Reply& reply) {
   if (!doubt_about(machine.game(), machine.image()).empty()) reply.add("image", "other");
   reply.add("width", kScreenWidth);
   reply.add("height", machine.height());
-  reply.add("format", format_name(machine.format()));
+  reply.add("format", name_of(machine.format()));
   reply.add_settings([&](std::string& out) { append_settings(out, context.game.settings, machine); });
 }
 

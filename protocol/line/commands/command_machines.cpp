@@ -1,5 +1,6 @@
 // open, step, restart, close
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "environment/settings/play_settings.hpp"
@@ -17,44 +18,47 @@ struct OpenSettings {
 
 struct OpenRow {
   std::string_view name;
-  std::vector<std::string_view> values;  // none: `read` takes the text
-  bool of_frames;                        // goes with steps=frames
-  void (*set)(OpenSettings& settings, std::size_t value);
-  void (*read)(OpenSettings& settings, std::string_view value) = nullptr;
+  bool of_frames;  // goes with steps=frames
+  void (*read)(OpenSettings& settings, std::string_view value);
 };
 
-// Values count as their enumerations do.
+struct Start {
+  ResetOrder order;
+  bool fire;
+};
+
+constexpr std::array<WordFor<Steps>, 2> kSteps = {{{"frames", Steps::kFrames}, {"acts", Steps::kActs}}};
+constexpr std::array<WordFor<Start>, 4> kStarts = {{{"fire-noops", {ResetOrder::kFireNoops, true}},
+                                                    {"noops-fire", {ResetOrder::kNoopsFire, true}},
+                                                    {"baselines", {ResetOrder::kBaselines, true}},
+                                                    {"noops", {ResetOrder::kFireNoops, false}}}};
+constexpr std::array<WordFor<StackStart>, 2> kStackStarts = {
+    {{"zeros", StackStart::kZeros}, {"repeats", StackStart::kRepeats}}};
+constexpr std::array<WordFor<bool>, 2> kFlags = {{{"0", false}, {"1", true}}};
+
 const std::vector<OpenRow>& open_rows() {
   static const std::vector<OpenRow> rows = {
-      {"autoreset",
-       {},
-       false,
-       nullptr,
+      {"autoreset", false,
        [](OpenSettings& s, std::string_view value) { s.autoreset = autoreset_of(value); }},
-      {"life_loss",
-       {},
-       false,
-       nullptr,
+      {"life_loss", false,
        [](OpenSettings& s, std::string_view value) {
          s.slot.life_loss = life_loss_of(value);
          s.slot.machine.truncate_on_life_loss = false;
        }},
-      {"steps",
-       {"frames", "acts"},
-       false,
-       [](OpenSettings& s, std::size_t value) { s.slot.steps = static_cast<Steps>(value); }},
-      {"start",
-       {"fire-noops", "noops-fire", "baselines", "noops"},
-       true,
-       [](OpenSettings& s, std::size_t value) {
-         s.slot.fire_at_reset = value < 3;
-         if (value < 3) s.slot.reset_order = static_cast<ResetOrder>(value);
+      {"steps", false,
+       [](OpenSettings& s, std::string_view value) { s.slot.steps = value_for(value, "steps", kSteps); }},
+      {"start", true,
+       [](OpenSettings& s, std::string_view value) {
+         const Start start = value_for(value, "start", kStarts);
+         s.slot.reset_order = start.order;
+         s.slot.fire_at_reset = start.fire;
        }},
-      {"stack",
-       {"zeros", "repeats"},
-       true,
-       [](OpenSettings& s, std::size_t value) { s.slot.stack_start = static_cast<StackStart>(value); }},
-      {"pool", {"0", "1"}, true, [](OpenSettings& s, std::size_t value) { s.slot.max_pool = value == 1; }},
+      {"stack", true,
+       [](OpenSettings& s, std::string_view value) {
+         s.slot.stack_start = value_for(value, "stack", kStackStarts);
+       }},
+      {"pool", true,
+       [](OpenSettings& s, std::string_view value) { s.slot.max_pool = value_for(value, "pool", kFlags); }},
   };
   return rows;
 }
@@ -77,8 +81,7 @@ OpenSettings read_open_settings(const Context& context, Words words) {
     if (std::ranges::find(given, key) != given.end()) refuse_twice(key);
     given.push_back(key);
     if (row->of_frames) of_frames = key;
-    row->read != nullptr ? row->read(settings, value)
-                         : row->set(settings, choice_of(value, key, row->values));
+    row->read(settings, value);
   }
   if (settings.slot.steps == Steps::kActs && !of_frames.empty())
     throw RequestError(ErrorCode::kBadArguments, std::string(of_frames) + "= goes with steps=frames");
