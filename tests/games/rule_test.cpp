@@ -61,6 +61,10 @@ TEST_CASE("a reset gives variables their first values and leaves those alone tha
   CHECK(rule.reward() == 0);
   rule.step(FakeMemory{}.memory());
   CHECK(rule.reward() == 208);
+  CHECK(rule.keeps_variables());
+  CHECK_FALSE(
+      Rule(game_with_step("n = n + 1\nreward = n\nterminal = 0", "reset = { n = 7 }")).keeps_variables());
+  CHECK_FALSE(Rule(Game{}).keeps_variables());
 }
 
 TEST_CASE("lives are the variable of that name while the game runs, or else 1") {

@@ -116,6 +116,73 @@ TEST_CASE("A smaller capacity drops the resets that were not used for longest") 
   CHECK(cache.size() == 1);
 }
 
+TEST_CASE("A reset is shared only by those that agree in all that decides it") {
+  const ResetStart start{test::counter_image(), std::make_shared<const Game>(), {10, 20}, 1, 2, {3}, {}};
+  const auto with = [&start](auto change) {
+    ResetStart other = start;
+    change(other);
+    return other;
+  };
+  const std::vector<ResetStart> others = {
+      with([](auto& other) { other.image = std::make_shared<const Image>(*other.image); }),
+      with([](auto& other) { other.game = std::make_shared<const Game>(*other.game); }),
+      with([](auto& other) { other.limits.min = 11; }),
+      with([](auto& other) { other.limits.max = 21; }),
+      with([](auto& other) { other.mode = 2, other.difficulty = 1; }),
+      with([](auto& other) { other.mode = 3; }),
+      with([](auto& other) { other.difficulty = 3; }),
+      with([](auto& other) { other.sound[5] = 1; }),
+      with([](auto& other) { other.machine.riot.ram[127] = 1; }),
+  };
+  ResetCache cache;
+  cache.keep(start, {});
+  CHECK(cache.find(start));
+  for (const ResetStart& other : others) {
+    CHECK_FALSE(cache.find(other));
+    CHECK(other.hash() != start.hash());
+    CHECK_FALSE(other == start);
+  }
+}
+
+// A game in which the reset counts: its reward is the number of resets.
+constexpr auto kCountsResets = R"(
+title = "Counts"
+[rule]
+reset = { fresh = 1 }
+keep = ["resets"]
+step = """
+resets = resets + fresh
+fresh = 0
+reward = resets
+terminal = 0
+"""
+)";
+
+TEST_CASE("A reset that depends on what the rule remembers is run") {
+  const auto image = test::counter_image();
+  check_resets(image, test::game(kCountsResets, "counts"), 10);
+}
+
+TEST_CASE("Machines of one image with other rules or limits do not share a reset") {
+  constexpr auto kStarts = R"(
+title = "Starts"
+start = ["FIRE"]
+[rule]
+step = "score = 0; terminal = 0"
+)";
+  const auto image = test::counter_image();
+  check_resets(image, test::game(kStarts, "starts"), 3);
+  check_resets(image, test::game(), 3);
+  for (const int least : {-1, 200000}) {
+    Settings settings = with_copies(true);
+    settings.paddle_min = least;
+    Environment copied(image, test::game(), settings);
+    settings.copy_resets = false;
+    Environment run(image, test::game(), settings);
+    require_same(copied, run);
+  }
+}
+
 // A program that overwrites RAM, timer and sound, and one that reads them first.
 BootFacts study(std::initializer_list<std::uint8_t> program) {
   auto bytes = std::make_shared<std::vector<std::uint8_t>>(4096, 0xEA);

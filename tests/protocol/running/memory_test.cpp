@@ -34,6 +34,43 @@ TEST_CASE("A budget gives what it has, and no more") {
   CHECK_FALSE(budget.has(0));
 }
 
+TEST_CASE("A budget that is exceeded gives nothing until enough has come back") {
+  MemoryBudget budget(100);
+  budget.take_anyway(150);
+  for (const std::uint64_t bytes : {std::uint64_t{1}, std::uint64_t{50}, MemoryBudget::kNoLimit}) {
+    CHECK_FALSE(budget.take(bytes));
+    CHECK_FALSE(budget.take(bytes, 20));
+    CHECK_FALSE(budget.has(bytes));
+  }
+  CHECK(budget.taken() == 150);
+  CHECK(budget.shortage() == 150 - 94);  // a sixteenth, rounded down, is kept free
+  budget.give_back(60);
+  CHECK_FALSE(budget.take(11));
+  CHECK(budget.has(10));
+  CHECK(budget.take(10));
+}
+
+TEST_CASE("What is spared for others is neither given nor taken") {
+  MemoryBudget budget(100);
+  CHECK_FALSE(budget.take(81, 20));
+  CHECK(budget.take(80, 20));
+  CHECK_FALSE(budget.take(1, 20));
+  CHECK(budget.take(20));
+  CHECK_FALSE(budget.take(1, 20));
+  CHECK(budget.taken() == 100);
+}
+
+TEST_CASE("The memory is short when more than fifteen sixteenths are taken") {
+  MemoryBudget budget(160);
+  budget.take_anyway(150);
+  CHECK_FALSE(budget.is_short());
+  budget.take_anyway(1);
+  CHECK(budget.shortage() == 1);
+  CHECK(budget.reserve() == 20);
+  CHECK(budget.little() == kMiB);
+  CHECK(MemoryBudget(kMiB << 10).little() == 2 * kMiB);
+}
+
 TEST_CASE("What a part takes, the whole has taken") {
   const auto whole = std::make_shared<MemoryBudget>(100);
   const auto owner = MemoryBudget::part(whole, "user 1");
@@ -69,6 +106,19 @@ TEST_CASE("The last eighth is for owners that hold little") {
       "for one of this size");
   CHECK(little.grow(kMiB));
   CHECK_FALSE(little.grow(1));
+  CHECK(large.bytes() == 56 * kMiB);
+  CHECK(little.bytes() == kMiB);
+  CHECK(budget->taken() == 57 * kMiB);
+}
+
+TEST_CASE("An owner is refused by a budget that others have exceeded") {
+  const auto budget = std::make_shared<MemoryBudget>(64 * kMiB);
+  MemoryShare share(budget);
+  budget->take_anyway(100 * kMiB);
+  CHECK_FALSE(share.grow(1));
+  CHECK_FALSE(share.grow(2 * kMiB));
+  CHECK(share.bytes() == 0);
+  CHECK(share.is_short());
 }
 
 TEST_CASE("A share is given back when its owner ends") {

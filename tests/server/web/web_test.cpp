@@ -19,6 +19,18 @@ TEST_CASE("The origin of the server's own page has its host and port") {
   CHECK(!admits(rules, "http://", ""));
 }
 
+TEST_CASE("A page without an origin is nobody's own, also where the request has no host") {
+  for (const bool any_name : {false, true}) {
+    for (const std::string origin : {"null", "", "http://", "https://", "file://"}) {
+      INFO(origin);
+      for (const std::string host : {"", "null", "127.0.0.1:7800"})
+        CHECK(!admits({{}, any_name}, origin, host));
+      CHECK(!is_origin(origin));
+    }
+    CHECK(!admits({{}, any_name}, "http://127.0.0.1:7800", ""));
+  }
+}
+
 TEST_CASE("A name is the server's own only if clients need a token") {
   for (const std::string name : {"node7:7800", "localhost.evil:1", "127.0.0.1.evil:1"}) {
     INFO(name);
