@@ -4,14 +4,10 @@
 #include <map>
 
 #include "emulator/tia/registers/registers.hpp"
+#include "emulator/translator/tuning.hpp"
 
 namespace racebeam::translator {
 namespace {
-
-// The most work in a batch, where an instruction counts 1: some 50 microseconds. A smaller batch translates
-// less code that seldom runs.
-constexpr int kMostWork = 100;
-constexpr int kWorkOfBlock = 3;
 
 bool ends_flow(const Instruction& instruction) { return instruction.access == Access::Jump; }
 
@@ -46,7 +42,7 @@ class Discovery {
   void add_leader(std::uint16_t pc, Role role) {
     if (!contains(window_, pc) || known_[offset(pc)]) return;
     const auto [leader, is_new] = leaders_.emplace(offset(pc), role);
-    if (is_new) pending_.push_back(pc), work_ += kWorkOfBlock;
+    if (is_new) pending_.push_back(pc), work_ += tuning::kWorkOfBlock;
     leader->second = std::max(leader->second, role);
   }
 
@@ -59,7 +55,7 @@ class Discovery {
 
   // Follows the instructions from `pc`, and makes leaders of all addresses that they lead to.
   void scan(std::uint16_t pc) {
-    while (contains(window_, pc) && !seen_[offset(pc)] && work_ < kMostWork) {
+    while (contains(window_, pc) && !seen_[offset(pc)] && work_ < tuning::kMostWork) {
       seen_[offset(pc)] = true;
       ++work_;
       const Instruction instruction = at(pc);
@@ -86,7 +82,7 @@ class Discovery {
       const Instruction instruction = at(block.next);
       if (!is_translatable(instruction) || leads_out(instruction)) break;
       cycles += instruction.cycles + 2;
-      if (cycles > kMostBlockCycles) {
+      if (cycles > tuning::kMostBlockCycles) {
         leaders_.emplace(here, kLeader);  // it lies further on, so the loop over the leaders reaches it
         break;
       }

@@ -18,8 +18,6 @@ struct Block {
   bool is_loop_head = false;  // the target of a backward jump
 };
 
-constexpr int kMostBlockCycles = 300;  // of a block, without the waiting of WSYNC
-
 // Whether all bytes of an instruction at `pc` can be read in the window.
 inline bool contains(const CodeWindow& window, std::uint16_t pc) {
   return static_cast<std::uint16_t>(pc - window.first) < window.span;

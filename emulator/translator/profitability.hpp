@@ -6,27 +6,27 @@
 #include <atomic>
 #include <cstdint>
 
+#include "emulator/translator/tuning.hpp"
+
 namespace racebeam::translator {
 
 // Statistics of one block, shared by all machines that run the image. They affect speed only.
 class Profitability {
  public:
-  // An entry that runs this many cycles takes about as long as interpreting them, if some access devices.
-  static constexpr std::int32_t kBreakEvenCycles = 32;
-
-  // Whether its entries have been too short in the mean. One of kRetry times, the answer is still no,
+  // Whether its entries have been too short in the mean. One of tuning::kRetry times, the answer is still no,
   // since another scene of the game may have longer ones.
   bool is_unprofitable() {
-    if (balance_.load(std::memory_order_relaxed) > -kMost) return false;
+    if (balance_.load(std::memory_order_relaxed) > -tuning::kMostBalance) return false;
     const std::uint8_t skipped = skipped_.load(std::memory_order_relaxed);
     skipped_.store(static_cast<std::uint8_t>(skipped + 1), std::memory_order_relaxed);
-    return skipped % kRetry != 0;
+    return skipped % tuning::kRetry != 0;
   }
 
   // cycles: how many cycles one entry ran, without those in which no instruction was executed.
   void record(std::int32_t cycles) {
     const std::int32_t before = balance_.load(std::memory_order_relaxed);
-    const std::int32_t balance = std::clamp(before + cycles - kBreakEvenCycles, -kMost, kMost);
+    const std::int32_t balance =
+        std::clamp(before + cycles - tuning::kBreakEvenCycles, -tuning::kMostBalance, tuning::kMostBalance);
     if (balance != before) balance_.store(static_cast<std::int16_t>(balance), std::memory_order_relaxed);
   }
 
@@ -37,10 +37,7 @@ class Profitability {
   }
 
  private:
-  static constexpr std::int32_t kMost = 4 * kBreakEvenCycles;
-  static constexpr std::uint8_t kRetry = 64;
-
-  std::atomic<std::int16_t> balance_ = 0;  // cycles beyond those of break-even, kMost at most on either side
+  std::atomic<std::int16_t> balance_ = 0;  // cycles beyond those of break-even, within kMostBalance
   std::atomic<std::uint8_t> skipped_ = 1;
   std::atomic<std::uint8_t> length_ = 1;
 };

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "emulator/translator/tuning.hpp"
+
 namespace racebeam::translator {
 
 // Steps run in one way, translated or interpreted. A trial has three steps: the usual way, the other way, and
@@ -40,24 +42,19 @@ class StepTrial {
       usual += trial[0] + trial[2];
       other += 2 * trial[kOther];
     }
-    const bool other_wins = other + other / kMargin < usual;
+    const bool other_wins = other + other / tuning::kTrialMargin < usual;
     lost_ = other_wins ? lost_ + 1 : 0;
-    pause_ = other_wins ? kShortestPause : std::min(2 * pause_, interprets_ ? kLongestTried : kLongestPause);
-    if (lost_ == kMostLost) interprets_ = !interprets_, lost_ = 0;
-    trials_ = kTrials;
+    const int longest = interprets_ ? tuning::kLongestTried : tuning::kLongestPause;
+    pause_ = other_wins ? tuning::kShortestPause : std::min(2 * pause_, longest);
+    if (lost_ == tuning::kRoundsToLose) interprets_ = !interprets_, lost_ = 0;
+    trials_ = tuning::kTrialsOfRound;
     if (lost_ == 0) least_ = kUnknown;
   }
 
-  static constexpr int kSteps = 3, kOther = 1, kTrials = 4, kMostLost = 3;
-  static constexpr std::int64_t kMargin = 4;  // the winner is faster by this part
-  // Multiples of four, so that a round tries each of four successive steps. Games do different work in even
-  // and odd frames, and frame skip shows one frame of several.
-  static constexpr int kShortestPause = 4, kLongestPause = 1024;
-  static constexpr int kLongestTried = 64;  // while steps are interpreted: code that pays is soon found again
-  static constexpr int kFirstPause = 128;   // translation of a game's inner loops needs some of these steps
+  static constexpr int kSteps = 3, kOther = 1;  // the usual way, the other, the usual
 
   using Trial = std::array<std::int64_t, kSteps>;  // by the steps that are left after it
-  using Round = std::array<Trial, kTrials>;
+  using Round = std::array<Trial, tuning::kTrialsOfRound>;
   static constexpr Round kUnknown = [] {
     Round round{};
     for (Trial& trial : round) trial.fill(std::numeric_limits<std::int64_t>::max());
@@ -65,11 +62,11 @@ class StepTrial {
   }();
 
   bool interprets_ = false;
-  int left_ = kFirstPause + kSteps;  // steps until this trial has ended
-  int pause_ = kShortestPause;       // steps between trials
-  int trials_ = kTrials;             // of this round, not ended
-  int lost_ = 0;                     // rounds in turn
-  Round least_ = kUnknown;           // costs in the rounds in turn
+  int left_ = tuning::kFirstPause + kSteps;  // steps until this trial has ended
+  int pause_ = tuning::kShortestPause;       // steps between trials
+  int trials_ = tuning::kTrialsOfRound;      // of this round, not ended
+  int lost_ = 0;                             // rounds in turn
+  Round least_ = kUnknown;                   // costs in the rounds in turn
 };
 
 }  // namespace racebeam::translator

@@ -13,8 +13,12 @@
 #include "emulator/translator/image_code.hpp"
 #include "emulator/translator/step_trial.hpp"
 #include "emulator/translator/translation_budget.hpp"
+#include "emulator/translator/tuning.hpp"
 
 namespace racebeam {
+
+namespace tuning = translator::tuning;
+
 namespace {
 
 // No block takes more cycles. A block that starts this long before the line limit makes its TIA writes before
@@ -23,32 +27,23 @@ constexpr std::int32_t kMargin = 400;
 
 constexpr std::int32_t kFewestCycles = 2;  // of an instruction
 
-// Instructions that the interpreter runs at least where nothing can be translated: mostly short routines in
-// RAM.
-constexpr std::int32_t kOutsideImage = 8;
-
-// Runs of interpreted instructions. Those below kShortRun end exactly. Others end at the next jump or branch,
-// at most kRunSlack instructions later.
-constexpr std::int32_t kShortRun = 32, kRunSlack = 4096;
-
 // Back-off after steps that were too long for translated code, and were interpreted again. After one, the
-// next steps are interpreted at once: one, then three, up to 63. The count halves after 4 steps that
-// translated code completed, so that a game that thinks for some frames is translated again soon.
+// next steps are interpreted at once: one, then three, up to kLongestBackoff. The count halves after
+// kCalmSteps steps that translated code completed, so that a game that thinks for some frames is translated
+// again soon.
 class StepBackoff {
  public:
   bool skips_step() { return left_ > 0 && left_-- > 0; }
   void record(bool whole) {
     if (whole) {
-      if (++calm_ % kCalm == 0) length_ /= 2;
+      if (++calm_ % tuning::kCalmSteps == 0) length_ /= 2;
       return;
     }
     calm_ = 0;
-    left_ = length_ = std::min(2 * length_ + 1, kLongest);
+    left_ = length_ = std::min(2 * length_ + 1, tuning::kLongestBackoff);
   }
 
  private:
-  static constexpr int kLongest = 63, kCalm = 4;
-
   int length_ = 0, left_ = 0, calm_ = 0;  // steps
 };
 
@@ -59,14 +54,12 @@ class InterpretedRun {
  public:
   std::int32_t next(std::int32_t minimum) {
     const std::int32_t length = std::max(length_, minimum);
-    length_ = std::min(2 * length_, kLongest);
+    length_ = std::min(2 * length_, tuning::kLongestRun);
     return length;
   }
   void reset() { length_ = 1; }
 
  private:
-  static constexpr std::int32_t kLongest = 128;
-
   std::int32_t length_ = 1;
 };
 
@@ -223,7 +216,7 @@ std::int32_t Translator::Impl::run_block(Board& board, const Entry& entry) {
   const auto waited = static_cast<std::int32_t>(board.translated.waited - waited_before);
   const std::int32_t cycles = board.state.cycle - first - waited;
   if (!board.stop) entry.profitability->record(cycles);
-  if (cycles >= translator::Profitability::kBreakEvenCycles) interpreted_run.reset();
+  if (cycles >= tuning::kBreakEvenCycles) interpreted_run.reset();
   return interpret_next ? 1 : 0;
 }
 
@@ -276,11 +269,11 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
     const std::int32_t run =
         entry.start != nullptr
             ? impl_->run_block(board, entry)
-            : impl_->interpreted_run.next(entry.profitability != nullptr ? 1 : kOutsideImage);
+            : impl_->interpreted_run.next(entry.profitability != nullptr ? 1 : tuning::kOutsideImage);
     if (run == 0 || board.stop) continue;
-    const bool ends_exactly = run < kShortRun || left < run + kRunSlack;
+    const bool ends_exactly = run < tuning::kShortRun || left < run + tuning::kRunSlack;
     const std::int32_t enough = std::min(run, left);
-    interpret_some(board, ends_exactly ? enough : run + kRunSlack, enough);
+    interpret_some(board, ends_exactly ? enough : run + tuning::kRunSlack, enough);
   }
   return true;
 }

@@ -2,11 +2,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "emulator/translator/tuning.hpp"
+
 using racebeam::translator::Profitability;
 
 namespace {
 
-constexpr std::int32_t kEven = Profitability::kBreakEvenCycles;
+constexpr std::int32_t kEven = racebeam::translator::tuning::kBreakEvenCycles;
 
 int entered(Profitability& block, int times) {
   int count = 0;
