@@ -98,7 +98,7 @@ const Cases kWithDuel = {
     {"act TIMES", "act RIGHT*3", "act RIGHT"},
     {"reset", "act NOOP\nreset", "act NOOP", "look episode_frame"},
     {"reset seed", kOtherSticky + "\nreset seed=9", kOtherSticky + "\nreset", kAlternating},
-    {"reset random", kOtherSticky + "\nreset seed=random", kOtherSticky + "\nreset seed=8", kAlternating},
+    {"reset random", kOtherSticky + "\nreset seed=random", kOtherSticky + "\nreset seed=8", "settings"},
     {"reset N", kOtherSticky + "\nreset seed=9", kOtherSticky + "\nreset seed=10", kAlternating},
     {"peek", "peek 0", "poke 0 12\npeek 0"},
     {"peek INDEX", "peek 0", "peek 40"},
