@@ -41,6 +41,8 @@ show() {
       if [[ $command == watch ]]; then
         source=${racebeam_request#* }
         source=@${source%% *}
+      elif [[ $racebeam_request =~ ^restore\ .*\ machine=([0-9]+)$ ]]; then
+        source=$((BASH_REMATCH[1] + 1))
       fi
       racebeam_bytes "$source" "$key" "${encodings[${key#final_}]}" "$text" || return
       if [[ $key == "$stack_field" ]]; then push; key+=x$stack_depth; fi

@@ -32,6 +32,12 @@ function sizeOf(field, height) {
   return sizeOfSmall(field) ?? SIZES[field] ?? height * WIDTH * PIXELS[field];
 }
 
+/** The machine of the first group: 0 is that of load, 1 the first of open, which `machine=0` restores. */
+function firstMachine([command, , ...rest]) {
+  const restored = command === "restore" && rest.find((word) => word.startsWith("machine="));
+  return restored ? Number(restored.slice("machine=".length)) + 1 : 0;
+}
+
 /** What a delta makes of the array that the last ones have made. */
 function changed({ arrays, height }, field, text) {
   const array = arrays.get(field) ?? new Uint8Array(sizeOf(field, height));
@@ -59,11 +65,12 @@ export class Fields {
     const chosen = this.#chosenBy(words);
     const watched = words[0] === "watch" ? this.#watch(words, line) : undefined;
     const groups = [{}];
-    let source = watched ?? this.#machine(0);
+    const first = firstMachine(words);
+    let source = watched ?? this.#machine(first);
     for (const word of line.split(" ").slice(1)) {
       const equals = word.indexOf("=");
       if (word === "|") {
-        source = watched ?? this.#machine(groups.length);
+        source = watched ?? this.#machine(first + groups.length);
         groups.push({});
       } else if (equals >= 0 && !word.startsWith("raw=")) {
         const key = word.slice(0, equals);

@@ -125,13 +125,25 @@ function Fields:followed(count)
   return self.raw:sub(begin + 1, self.taken)
 end
 
+-- The machine of the first group: 0 is that of load, 1 the first of open, which `machine=0` restores.
+local function first_machine(words)
+  for at = 3, words[1] == "restore" and #words or 0 do
+    local restored = words[at]:match("^machine=(%d+)$")
+    if restored then
+      return tonumber(restored) + 1
+    end
+  end
+  return 0
+end
+
 -- The groups of a reply, the first of them at 1. `words`: those of the request; `raw`: the bytes that followed the line.
 function Fields:groups(words, line, raw)
   self:follow(words, line)
   self.raw, self.taken = raw, 0
   local chosen = self:chosen_by(words)
   local watched = words[1] == "watch" and self:watch(words, line)
-  local source = watched or self:machine(0)
+  local first = first_machine(words)
+  local source = watched or self:machine(first)
   local groups, at = { {} }, 3
   while true do
     local from, to = line:find("[^ ]+", at)
@@ -156,7 +168,7 @@ function Fields:groups(words, line, raw)
         end
       end
     elseif to == from and line:sub(from, to) == "|" then
-      source = watched or self:machine(#groups)
+      source = watched or self:machine(first + #groups)
       groups[#groups + 1] = {}
     end
     at = to + 2

@@ -309,6 +309,12 @@ def _watched_fields(words: list[str]) -> list[str]:
     return [word for word in words[2:] if "=" not in word]
 
 
+def _first_machine(words: list[str]) -> int:
+    """Returns the machine of the first group: 0 is that of load, 1 the first of open, which `machine=0` restores."""
+    restored = [word for word in words[2:] if word.startswith("machine=")] if words[:1] == ["restore"] else []
+    return int(restored[0].partition("=")[2]) + 1 if restored else 0
+
+
 class Observations:
     """The fields that a session observes, and the bytes that their deltas have made.
 
@@ -388,7 +394,7 @@ class Observations:
             return [self._decode_group(texts, game.arrays, encodings, game.height) for texts in groups]
         return [
             self._decode_group(texts, self._arrays.setdefault(machine, {}), encodings, self.height)
-            for machine, texts in enumerate(groups)
+            for machine, texts in enumerate(groups, _first_machine(words))
         ]
 
     def _encodings_of(self, words: list[str]) -> dict[str, str]:

@@ -34,9 +34,10 @@ class Fields {
     const Encodings once = looks || watches ? encodings(fields) : Encodings{};
     const Encodings& chosen = looks || watches ? once : chosen_;
     Source* const watched = watches ? &watched_session(words.at(0), fields, line) : nullptr;
+    const std::size_t first = first_machine(command, words);
     raw_ = raw;
-    return Reply(std::move(line), [&](Group::Value& value, std::size_t machine) {
-      decode_value(value, watched != nullptr ? *watched : this->machine(machine), chosen);
+    return Reply(std::move(line), [&](Group::Value& value, std::size_t group) {
+      decode_value(value, watched != nullptr ? *watched : machine(first + group), chosen);
     });
   }
 
@@ -71,6 +72,15 @@ class Fields {
     const std::size_t at = line.find(kHeight);
     if (at == std::string_view::npos) return std::nullopt;
     return to_number<std::size_t>(split(line.substr(at + kHeight.size()), ' ').at(0));
+  }
+
+  /// The machine of the first group: 0 is that of load, 1 the first of open, which `machine=0` restores.
+  static std::size_t first_machine(std::string_view command, const std::vector<std::string_view>& words) {
+    constexpr std::string_view kMachine = "machine=";
+    for (const std::string_view word : words)
+      if (command == "restore" && word.starts_with(kMachine))
+        return to_number<std::size_t>(word.substr(kMachine.size())) + 1;
+    return 0;
   }
 
   Source& machine(std::size_t number) {

@@ -43,9 +43,10 @@ final class Fields {
     boolean watches = command.equals("watch");
     List<String> asked = watches ? watchedFields(fields) : fields;
     Map<String, Encoding> encodings = watches || command.equals("look") && !fields.isEmpty() ? encodings(asked) : chosen;
+    int first = firstMachine(words);
     Group[] decoded = new Group[groups.size()];
     for (int number = 0; number < decoded.length; ++number) {
-      Source source = watches ? watched(fields.get(0), asked, groups.get(0)) : machine(number);
+      Source source = watches ? watched(fields.get(0), asked, groups.get(0)) : machine(first + number);
       decoded[number] = decode(source, groups.get(number), encodings, raw);
     }
     if (raw.hasRemaining()) {
@@ -57,6 +58,12 @@ final class Fields {
   /** The fields of a request {@code watch NAME [since=FRAME] FIELD...}. */
   private static List<String> watchedFields(List<String> words) {
     return words.stream().skip(1).filter(word -> word.indexOf('=') < 0).toList();
+  }
+
+  /** The machine of the first group: 0 is that of load, 1 the first of open, which {@code machine=0} restores. */
+  private static int firstMachine(List<String> words) {
+    return words.stream().skip(2).filter(word -> words.get(0).equals("restore") && word.startsWith("machine="))
+        .mapToInt(word -> Integer.parseInt(word.substring("machine=".length())) + 1).findFirst().orElse(0);
   }
 
   private Source machine(int number) {
