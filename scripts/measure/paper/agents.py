@@ -1,0 +1,165 @@
+"""The sections of docs/results.md about baselines and learners."""
+
+import statistics
+
+from plan_figures import ROOT
+
+from .parts import PARTIAL, Part, best, number, rows_of
+
+LEARNERS = {"basic": 8000, "lsh": 4000, "disco": 3000, "bass": 1000, "ram": 500}  # decisions a second: the goals
+
+
+class Agents(Part):
+    """Scores of agents that do not search."""
+
+    def baselines(self):
+        self.add("## Baselines")
+        if self.lacks("baselines"):
+            return
+        found = self.figures["baselines"]
+        random, const, perturb = (
+            found["scores"]["random"],
+            best(found, "const"),
+            best(self.shown("baselines"), "perturb"),
+        )
+        rows = []
+        for game in found["games"]:
+            theirs = self.paper.get(game, {})
+            rows.append(
+                [
+                    game,
+                    number(random[game]),
+                    number(theirs.get("random")),
+                    number(const[game][0]),
+                    const[game][1],
+                    number(theirs.get("const")),
+                    number(perturb[game][0]) if game in perturb else "-",
+                    perturb[game][1] if game in perturb else "-",
+                    number(theirs.get("perturb")),
+                ]
+            )
+        near = [
+            game
+            for game in random
+            if game != "skiing"
+            and game in self.paper
+            and abs(random[game] - self.paper[game]["random"]) <= abs(self.paper[game]["random"]) / 5
+        ]
+        same = [game for game in const if game in self.paper and const[game][0] == self.paper[game]["const"]]
+        self.say(f"""Means of {found["settings"]["random"]["evaluation_episodes"]} episodes. Const and Perturb are the
+            best of 18 policies, with
+            its action. In {len(near)} of {len(random)} games, the score of Random is within a fifth of the paper's.
+            A constant action leaves nothing to chance without sticky actions, so that a difference of Const is one of
+            the emulator or of the games' rules: in {len(same)} of {len(const)} games there is none.""")
+        self.perturb(perturb, len(found["games"]))
+        self.add(
+            rows_of(
+                [
+                    "game",
+                    "Random",
+                    "paper",
+                    "Const",
+                    "action",
+                    "paper's Const",
+                    "Perturb",
+                    "action of Perturb",
+                    "paper's Perturb",
+                ],
+                *rows,
+            )
+        )
+
+    def perturb(self, perturb, games):
+        """How near Perturb is to the paper's. It is within a fifth if the scores differ by at most a fifth of it."""
+        if PARTIAL in self.figures:
+            self.say(f"""Perturb, which chose an action for 5 frames before, has been run again in {len(perturb)} of
+                {games} games. The other games have a dash.""")
+        far = [
+            f"{game} ({number(score)} for {number(theirs)})"
+            for game, (score, _) in perturb.items()
+            if (theirs := self.paper.get(game, {}).get("perturb")) is not None and abs(score - theirs) > abs(theirs) / 5
+        ]
+        self.say(f"""Perturb's score is within a fifth of the paper's in {len(perturb) - len(far)} of {len(perturb)}
+            games{": not in " + ", ".join(far) if far else ""}.""")
+
+    def learners(self):
+        self.add("## Learners, in an hour")
+        if self.lacks("hour"):
+            return
+        found = self.figures["hour"]
+        scores = found["scores"]
+        agents = [agent for agent in scores if agent in LEARNERS]
+        random, trial = scores["random"], found["settings"][agents[0]]
+        self.say(f"""{trial["trials"]} trials of {trial["training_frames"] // trial["frame_skip"]:,} decisions and
+            {trial["evaluation_episodes"]} evaluation episodes each. All took {number(found["seconds"] / 7200, 2)}
+            hours of processor time on
+            each of two cores (goal: 1, at most 1.5), the discovery of backgrounds and classes not included. In
+            brackets: the paper's
+            scores, after 5,000 episodes.""")
+        self.add(
+            rows_of(
+                ["game", "Random", *agents],
+                *(
+                    [
+                        game,
+                        f"{number(random[game])} ({number(self.paper[game]['random'])})",
+                        *(f"{number(scores[agent].get(game))} ({number(self.paper[game][agent])})" for agent in agents),
+                    ]
+                    for game in found["games"]
+                ),
+            )
+        )
+        self.say(f"""Games in which the mean of each learner is above that of Random (goal: at least three), and its
+            speed, emulation included. {trial["trials"]} trials are too few to tell such a difference from chance:
+            `racebeam-evaluate` gives the number of games its interval, and tests each game.""")
+        speeds = found["speeds"]
+        self.add(
+            rows_of(
+                ["learner", "games above Random", "decisions a second, mean of the games", "lowest", "highest", "goal"],
+                *(
+                    [
+                        agent,
+                        str(sum(scores[agent].get(game, random[game]) > random[game] for game in random)),
+                        number(statistics.mean(speeds[agent].values()), 0),
+                        number(min(speeds[agent].values()), 0),
+                        number(max(speeds[agent].values()), 0),
+                        number(LEARNERS[agent], 0),
+                    ]
+                    for agent in agents
+                ),
+            )
+        )
+        if (ROOT / "docs/pictures/learning-curves.svg").exists():
+            self.add("![Scores of training episodes by frames, a panel for each game](pictures/learning-curves.svg)")
+
+    def long_training(self):
+        self.add("## Basic, for 2,000,000 decisions")
+        if self.lacks("basic"):
+            return
+        found = self.figures["basic"]
+        scores, random = found["scores"]["basic"], found["scores"]["random"]
+        self.add(
+            rows_of(
+                ["game", "Basic", "paper's Basic", "Random"],
+                *(
+                    [game, number(scores.get(game)), number(self.paper[game]["basic"]), number(random[game])]
+                    for game in found["games"]
+                ),
+            )
+        )
+
+    def disco(self):
+        self.add("## DISCO, whole training")
+        if self.lacks("disco"):
+            return
+        found = self.figures["disco"]
+        scores, counts = found["scores"]["disco"], found["episodes"]["disco"]
+        self.add(
+            rows_of(
+                ["game", "DISCO", "paper's DISCO", "evaluation episodes"],
+                *(
+                    [game, number(scores.get(game)), number(self.paper[game]["disco"]), f"{counts.get(game, 0):,}"]
+                    for game in found["games"]
+                ),
+            )
+        )

@@ -1,0 +1,155 @@
+"""The sections of docs/results.md about how the plans were run."""
+
+import textwrap
+
+from .parts import PARTIAL, PLANS, WIDTH, Part, episodes, number, rows_of
+
+# Agents that have changed: the plan and the agent; whether settings are those of the agent as it is now; what it did.
+CHANGED = (
+    (
+        "baselines",
+        "perturb",
+        lambda settings: settings["frame_skip"] == 1,
+        "an action for 5 frames; now for each frame",
+    ),
+    (
+        "hour",
+        "disco",
+        lambda settings: "count_instances" in settings,
+        "left out objects that hardly move, followed others for 8 pixels a decision, and had two bits for a velocity",
+    ),
+    (
+        "full_tree",
+        "full_tree",
+        lambda settings: "reuse_tree" in settings,
+        "of equal actions, could choose one that ends the episode",
+    ),
+    (
+        "iw1",
+        "iw1",
+        lambda settings: "reuse_tree" in settings,
+        "built its tree anew for each decision, and opened nodes with a reward like others",
+    ),
+)
+MACHINE = ("processor", "version")  # of machine.txt: what the table of plans shows
+
+
+class Conditions(Part):
+    """What was run, where, and why figures differ."""
+
+    def introduction(self):
+        self.add("# Results of the paper's benchmark")
+        self.say("""This document has the scores that racebeam's agents reach, beside those that were published.
+            `scripts/measure/paper_results.py`
+            writes it from figures that `scripts/measure/plan_figures.py` gathered from the results of each plan; no
+            figure is typed by hand. "The paper" is Bellemare et al. 2013. Where it is
+            silent, [paper-notes.md](paper-notes.md) says what racebeam does.""")
+
+    def conditions(self):
+        self.add("## Commands, machine, versions")
+        self.say("""The plans are part of the program. `scripts/measure/paper_plans FOLDER PLAN` runs a plan, verifies
+            its rows, and gathers its figures. Times are
+            seconds of processor time, so that other programs hardly change them.""")
+        rows = []
+        for name in (*PLANS, *({PARTIAL} & set(self.figures))):
+            found = self.figures.get(name)
+            rows.append(
+                [
+                    self.title(name),
+                    *(
+                        [
+                            f"{found['units']:,}",
+                            f"{episodes(found):,}",
+                            str(found["diverged"]),
+                            number(found["seconds"] / 3600, 2),
+                            *(found["machine"].get(key, "-") for key in MACHINE),
+                        ]
+                        if found
+                        else ["not run yet", *["-"] * (3 + len(MACHINE))]
+                    ),
+                ]
+            )
+        self.add(rows_of(["plan", "units", "episodes", "trials that diverged", "core-hours", *MACHINE], *rows))
+
+    def scale(self):
+        self.add("## What was scaled down")
+        self.say("""The plan `paper` has the paper's whole benchmark. `racebeam experiment paper --dry-run` prints what
+            it costs. The figures
+            of this document are from smaller plans:""")
+        self.add(
+            rows_of(
+                ["part", "paper", "here", "what that can show", "what it cannot show"],
+                [
+                    "baselines",
+                    "55 games; number of episodes not printed",
+                    "55 games, 30 episodes",
+                    "the paper's columns",
+                    "differences below the spread of 30 episodes",
+                ],
+                [
+                    "learners",
+                    "55 games, 30 trials of 5,000 episodes",
+                    "5 games, 2 trials of 200,000 decisions",
+                    "that each learner learns",
+                    "scores of whole training; tests between learners",
+                ],
+                [
+                    "Basic, longer",
+                    "5,000 episodes, 30 trials",
+                    "2,000,000 decisions, 1 trial",
+                    "scores of long training",
+                    "the spread over trials",
+                ],
+                [
+                    "UCT, full tree",
+                    "55 games, 10 episodes",
+                    "3 games and 1 game, 1 episode",
+                    "the budget's strength and cost",
+                    "means; other games",
+                ],
+                [
+                    "IW(1)",
+                    f"{sum('iw1' in scores for scores in self.paper.values())} games",
+                    "2 games, 1 episode",
+                    "the same",
+                    "the same",
+                ],
+            )
+        )
+
+    def differences(self):
+        self.add("## Why figures differ from the published ones")
+        self.add(
+            "\n".join(
+                textwrap.fill("- " + " ".join(text.split()), WIDTH, subsequent_indent="  ")
+                for text in (
+                    """The emulator: the paper used ALE of 2012. racebeam is exact to ALE 0.12, whose emulator and
+                    games' rules have changed
+            since.""",
+                    """Starts: each episode begins at power-on with its own seed, and without the human
+                    trajectories and NOOPs that
+            others used. Games that draw nothing from their seed give a policy without chance the same episode each
+            time.""",
+                    """Rewards: some rules differ. Skiing's rewards were near 0 then, and add up to about -17,000 for
+                    random play now.
+            Its row cannot be compared.""",
+                    """Single episodes: searches play one, so that an early death costs all that would follow.""",
+                    """Choices: the paper leaves much open ([paper-notes.md](paper-notes.md)).""",
+                )
+            )
+        )
+
+    def changes(self):
+        rows = [
+            [f"`{plan}`", agent, then]
+            for plan, agent, is_now, then in CHANGED
+            if (settings := self.shown(plan).get("settings", {}).get(agent)) and not is_now(settings)
+        ]
+        if not rows:
+            return
+        self.add("## Agents that have changed since")
+        self.say("""These agents did not do what their authors' do when the plans were run
+            ([paper-notes.md](paper-notes.md)). The
+            agents are mended; their figures in this document are still those of before. `racebeam experiment` makes
+            new ones.""")
+        self.add(rows_of(["plan", "agent", "what the agent did"], *rows))

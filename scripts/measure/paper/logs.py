@@ -1,0 +1,79 @@
+"""The sections of docs/results.md about the logs of episodes."""
+
+from .agents import LEARNERS
+from .parts import Part, number, rows_of, share_of_bench
+
+
+class Logs(Part):
+    """Verification and size of logs."""
+
+    def verification(self):
+        self.add("## Verification")
+        self.say("""`racebeam verify` plays each episode again from its log. It confirms score, frames, end and state
+            hashes. That proves
+            that these actions give this score, not which agent chose them ([episodes.md](episodes.md)).
+            `scripts/check/verify-with-ale` plays the same logs in ALE. "Of the bench" is the speed beside that of
+            `racebeam bench --screen none` for the same games, frames and frame skip; the start of the process
+            counts.""")
+        rows, none = [], {}
+        for name, found in self.figures.items():
+            none.setdefault(found["machine"].get("processor", "-"), {}).update(found["bench"]["none"])
+            verified, ale = found["verified"], found["ale"] or {}
+            if verified:
+                rows.append(
+                    [
+                        self.title(name),
+                        *(f"{verified[key]:,}" for key in ("confirmed", "wrong", "not_checked")),
+                        number(verified["frames"] / verified["seconds"], 0),
+                        share_of_bench(verified),
+                        number(100 * verified["seconds"] / found["seconds"], 1) + "%",
+                        *(f"{ale[key]:,}" if ale else "-" for key in ("agree", "differ")),
+                    ]
+                )
+        if not rows:
+            self.say("Not run yet.")
+            return
+        unverified = [self.title(name) for name, found in self.figures.items() if not found["verified"]]
+        if unverified:
+            self.say(f"Not verified yet: {', '.join(unverified)}.")
+        self.add(
+            rows_of(
+                [
+                    "plan",
+                    "confirmed",
+                    "wrong",
+                    "not checked",
+                    "frames a second and core",
+                    "of the bench",
+                    "of the time of the run",
+                    "ALE agrees",
+                    "ALE does not",
+                ],
+                *rows,
+            )
+        )
+        for processor, speeds in none.items():
+            if speeds:
+                self.say(
+                    f"`racebeam bench --screen none --frame-skip 5` on {processor}, frames a second: "
+                    + ", ".join(f"{game} {number(speed, 0)}" for game, speed in speeds.items())
+                    + "."
+                )
+
+    def logs(self):
+        self.add("## Logs")
+        rows = []
+        for name, agents, measure, goal in (
+            ("baselines", ("random",), "largest", "at most 12,288"),
+            ("hour", tuple(LEARNERS), "median", "under 2,048"),
+        ):
+            sizes = self.figures[name]["log_bytes"] if name in self.figures else {}
+            rows += [
+                [f"`{name}`", agent, measure, number(sizes[agent][measure], 0), goal]
+                for agent in agents
+                if agent in sizes
+            ]
+        if rows:
+            self.add(rows_of(["plan", "agent", "size of", "bytes", "goal"], *rows))
+        else:
+            self.say("Not run yet.")

@@ -1,0 +1,93 @@
+"""The parts of docs/results.md: paragraphs, tables, and the figures that they show."""
+
+import json
+import re
+import textwrap
+
+from plan_figures import ROOT, table
+
+PUBLISHED = ROOT / "evaluation/racebeam_evaluation/data"
+WIDTH = 100
+PLANS = ("baselines", "hour", "basic", "disco", "uct", "uct10", "uct50", "uct150", "full_tree", "iw1")
+PARTIAL = "baselines-partial"
+
+
+def published(name):
+    """{game: {agent: score}} of a file of published scores; a score that lacks is left out."""
+    rows = {row.pop("game"): row for row in table(PUBLISHED / f"{name}.csv")}
+    return {game: {agent: float(score) for agent, score in row.items() if score} for game, row in rows.items()}
+
+
+def paper():
+    learners, planners, successors = map(published, ("paper2013/learners", "paper2013/planners", "successors"))
+    return {game: learners[game] | planners[game] | successors.get(game, {}) for game in learners}
+
+
+def number(value, digits=1):
+    return f"{round(value, digits) + 0:,.{digits}f}" if value is not None else "-"  # + 0: not -0.0
+
+
+def rows_of(header, *rows):
+    """A Markdown table. The columns of numbers are aligned to the right."""
+    numeric = [all(re.fullmatch(r"-|[-0-9.,]+%?", row[i]) for row in rows) for i in range(len(header))]
+    lines = [header, ["---:" if each else "---" for each in numeric], *rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def prose(text):
+    return textwrap.fill(" ".join(text.split()), WIDTH, break_long_words=False, break_on_hyphens=False)
+
+
+def episodes(found):
+    return sum(count for games in found["episodes"].values() for count in games.values())
+
+
+def share_of_bench(verified):
+    """The speed of the verification beside the bench's; "-" if the bench was not run for all of its games."""
+    seconds = verified.get("bench_seconds")
+    return number(seconds / verified["seconds"], 2) if seconds else "-"
+
+
+def best(found, kind):
+    """{game: (score, action)} of the best of the 18 agents of a kind."""
+    scores = {
+        agent.removeprefix(kind + "_"): each for agent, each in found["scores"].items() if agent.startswith(kind + "_")
+    }
+    return {
+        game: max(((each[game], action) for action, each in scores.items() if game in each), key=lambda pair: pair[0])
+        for game in found["games"]
+    }
+
+
+class Part:
+    """Writes the parts of a document, in order. A subclass has a method for each section."""
+
+    def __init__(self, folder):
+        self.figures = {
+            name: json.loads((folder / f"{name}.json").read_text())
+            for name in (*PLANS, PARTIAL)
+            if (folder / f"{name}.json").exists()
+        }
+        self.paper = paper()
+        self.parts = []
+
+    def add(self, *parts):
+        self.parts += parts
+
+    def say(self, text):
+        self.add(prose(text))
+
+    def lacks(self, *names):
+        """Says which of the plans were not run, and returns whether one was not."""
+        missing = [name for name in names if name not in self.figures]
+        for name in missing:
+            self.say(f"Not run yet: `racebeam experiment {name}`.")
+        return bool(missing)
+
+    def title(self, name):
+        """What a table calls a plan."""
+        return f"`baselines`, {len(self.figures[name]['games'])} games again" if name == PARTIAL else f"`{name}`"
+
+    def shown(self, plan):
+        """The figures whose changed agents the document shows."""
+        return self.figures.get(f"{plan}-partial", self.figures.get(plan, {}))
