@@ -16,7 +16,7 @@ from ..errors import InvalidInput
 from ..vector.inputs import array_of, check_shape, seeds_of
 from ..vector.machines import Actions, Joysticks, Seeds
 from ..vector.results import Bools, Info, Numbers, Results, Step
-from ..wire.remote_machines import STICK
+from ..wire.action_words import STICK
 from .interface import check_game, plain_errors
 from .single import AtariEnv
 

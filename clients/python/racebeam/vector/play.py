@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ..arguments import value_or
 from ..errors import InvalidInput
-from ..wire.remote_machines import Halves
+from ..wire.halves import Halves
 from .each import VectorOfEach
 from .inputs import indices_of, joysticks_of, mask_of, seeds_of
 from .machines import Actions, Joysticks

@@ -65,18 +65,7 @@ def check_types(method: Method) -> Method:
 class RemoteGame:
     """A session with a game on a server: settings, loading, and what the game has.
 
-    Args:
-        server: Address of the server, as `racebeam.connect` takes it.
-        token: Token that the server asks for, or None.
-        timeout: Seconds to wait for each reply, or None for no limit.
-
-    Attributes:
-        session: The session with the server.
-        turn: The lock of the thread that uses the session.
-
-    Raises:
-        ConnectionError: If no server answers.
-        TimeoutError: If no server answers in time.
+    `RemoteInterface` describes the arguments, the attributes and the errors.
     """
 
     def __init__(self, server: str, token: str | None = None, timeout: float | None = None) -> None:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-import re
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,69 +15,17 @@ from ..errors import InvalidInput
 from ..vector.machines import Actions, Joysticks, Seeds
 from ..vector.results import Bools, Numbers, Pixels, Results
 from ..vector_options import VectorOptions
-from .messages import Reply, Values
+from .action_words import joystick_words, with_strengths
+from .halves import Halves
+from .last_reply import FLAGS, NUMBERS, LastReply
 from .remote import STATE, RemoteInterface
 
 NO_LIMITS = (-(2**31), 2**31 - 1)
-NUMBERS = ("reward", "raw_reward", "lives", "frame", "episode_frame")  # rows of Results.numbers
-FLAGS = ("terminated", "truncated", "game_over")
-VALUE = re.compile(r"=(-?\d+)")
-FINAL_NUMBERS = ("final_lives", "final_frame", "final_episode_frame")
-
-# Numbers of actions by fire, then from down to up, then from left to right.
-STICK = np.array([[[9, 5, 8], [4, 0, 3], [7, 2, 6]], [[17, 13, 16], [12, 1, 11], [15, 10, 14]]])
 
 
 def _word(member: Any) -> str:
     """Returns the word of the protocol for the member of an enumeration."""
     return str(member.name).lower().replace("_", "-")
-
-
-class Halves:
-    """Splits a call into a half that begins it, and `receive`, which ends it. No other call may come between them."""
-
-    _count: int
-    _pending: Callable[[Results], None] | None = None  # the second half of the call that began
-
-    def playing(self) -> int:
-        """Returns how many machines were sent and not yet received: all or none."""
-        return 0 if self._pending is None else self._count
-
-    def drop(self, results: Results) -> None:
-        """Receives what was sent, and drops it.
-
-        Args:
-            results: Scratch memory.
-        """
-        self.receive(results)
-
-    def receive(self, results: Results) -> None:
-        """Ends the call that began.
-
-        Args:
-            results: Receives its results.
-
-        Raises:
-            InvalidInput: If no call began.
-        """
-        raise NotImplementedError
-
-    def _check_all(self, machines: Numbers) -> None:
-        if not np.array_equal(machines, range(self._count)):
-            raise InvalidInput(
-                f"environments {machines} are to play; servers play all {self._count} environments together"
-            )
-
-    def _check_half(self, is_second: bool) -> None:
-        if is_second and self._pending is None:
-            raise InvalidInput(f"0 machines play, and a receive takes {self._count}; send some first")
-        if not is_second and self._pending is not None:
-            raise InvalidInput(f"{self._count} machines play; receive them first")
-
-    def _take_pending(self) -> Callable[[Results], None]:
-        pending, self._pending = self._pending, None
-        assert pending is not None
-        return pending
 
 
 class RemoteMachines(Halves):
@@ -112,16 +59,13 @@ class RemoteMachines(Halves):
         self._session = self._machine.session
         self._load(game, rom, settings, options.rules)
         self._actions = self._read_actions(settings)
-        self._field = _field(settings, self.height())
-        names = " ".join(f"{name}=" for name in (*NUMBERS, *FLAGS, self._field))
-        self._plain = "machines=" + f" | {names}" * self._count + " raw="
-        self._reply: Reply | None = None  # what the machines showed last, until it is decoded
-        self._decoded: list[Values] = []
+        field = _field(settings, self.height())
+        self.last = LastReply(self._session, self._count, field)
         self._machine.ask(
             self._session.observe,
             *NUMBERS,
             *FLAGS,
-            self._field + (":raw" if "raw" in self._session.offered else ":base64"),
+            field + (":raw" if "raw" in self._session.offered else ":base64"),
             *(["rgb:zlib"] if settings.screens else []),
         )
         self._open(settings)
@@ -150,7 +94,7 @@ class RemoteMachines(Halves):
     def _open(self, settings: VectorSettings) -> None:
         if not settings.fire and settings.start is not ResetOrder.FIRE_NOOPS:
             raise InvalidInput(f"start is {_word(settings.start)!r} without FIRE, which a server does not play")
-        self._decoded = self._machine.ask(
+        self.last.values = self._machine.ask(
             self._session.open,
             self._count,
             _word(settings.autoreset),
@@ -161,7 +105,7 @@ class RemoteMachines(Halves):
             pool=int(settings.pool),
         )
         if settings.seed == 0:
-            self._decoded = self._machine.ask(self._session.restart, seed=0)
+            self.last.values = self._machine.ask(self._session.restart, seed=0)
 
     def _read_actions(self, settings: VectorSettings) -> list[int]:
         machine = self._machine
@@ -197,7 +141,7 @@ class RemoteMachines(Halves):
 
     def step_joysticks(self, joysticks: Joysticks, threshold: float, results: Results) -> None:
         """Steps all machines with continuous actions."""
-        self._ask(results, "step", *self.joystick_words(joysticks, threshold))
+        self._ask(results, "step", *joystick_words(joysticks, threshold))
 
     def send(self, actions: Actions, machines: Numbers) -> None:
         """Begins a step of all machines."""
@@ -205,7 +149,7 @@ class RemoteMachines(Halves):
 
     def send_joysticks(self, joysticks: Joysticks, threshold: float, machines: Numbers) -> None:
         """Begins a step of all machines with continuous actions."""
-        self._send(self.joystick_words(joysticks, threshold), machines)
+        self._send(joystick_words(joysticks, threshold), machines)
 
     def send_strengths(self, actions: Actions, strengths: npt.NDArray[np.float32], machines: Numbers) -> None:
         """Begins a step of all machines with the strengths of their paddles, 0 to 1."""
@@ -295,8 +239,8 @@ class RemoteMachines(Halves):
         Args:
             results: Receives what the machines show.
         """
-        self._reply = self._machine.ask(self._session.receive_plain)
-        self.show_last(results)
+        self.last.keep(self._machine.ask(self._session.receive_plain))
+        self.last.fill(results)
 
     def words(self, actions: Actions) -> list[int]:
         """Converts actions to the words of `step`.
@@ -314,26 +258,6 @@ class RemoteMachines(Halves):
             wrong = next(int(action) for action in actions if not 0 <= action < len(self._actions))
             raise IndexError(f"action {wrong} is out of range; accepted: 0 to {len(self._actions) - 1}")
         return [self._actions[action] for action in actions]
-
-    @staticmethod
-    def joystick_words(joysticks: Joysticks, threshold: float) -> list[str]:
-        """Converts continuous actions to the words of `step`, ACTION@STRENGTH.
-
-        Compares in float32, as the emulator does.
-
-        Args:
-            joysticks: float32 array of shape (n, 3): radius, angle in radians and fire.
-            threshold: Deflection from which a direction or the button counts as pressed.
-
-        Returns:
-            A word for each machine.
-        """
-        radius, angle, fire = joysticks.T
-        limit = np.float32(threshold)
-        parts = [(radius * part(angle.astype(np.float64)).astype(np.float32)) for part in (np.cos, np.sin)]
-        column, row = (1 + (part > limit).astype(int) - (part < -limit) for part in parts)
-        actions = STICK[(fire > limit).astype(int), row, column]
-        return [f"{action}@{strength:.9g}" for action, strength in zip(actions, radius, strict=True)]
 
     # States, which pass through the session under one name
 
@@ -377,7 +301,7 @@ class RemoteMachines(Halves):
         with self._exclusively():
             self._machine.ask(self._session.import_state, STATE, state.__getstate__())
             try:
-                self._last[machine] = self._machine.ask(self._session.restore, STATE, machine=machine)
+                self.last.values[machine] = self._machine.ask(self._session.restore, STATE, machine=machine)
             finally:
                 if not self.is_waiting():
                     self._machine.ask(self._session.drop, STATE)
@@ -386,92 +310,10 @@ class RemoteMachines(Halves):
         if not 0 <= machine < self._count:
             raise IndexError(f"environment {machine} is out of range; accepted: 0 to {self._count - 1}")
 
-    # Results
-
-    @property
-    def _last(self) -> list[Values]:
-        """What the machines showed last, decoded."""
-        if self._reply is not None:
-            self._decoded, self._reply = self._session.decode_plain(self._reply)[1:], None
-        return self._decoded
-
-    def show_last(self, results: Results) -> None:
-        """Fills results from the last reply.
-
-        Args:
-            results: Receives what the machines show.
-        """
-        results.env_id[:] = range(self._count)
-        if self._reply is None or not self._fill_at_once(self._reply, results):
-            self._fill_each(results)
-
-    def _fill_at_once(self, reply: Reply, results: Results) -> bool:
-        """Reads a reply that has exactly the observed fields as a whole, many times faster than field by field.
-
-        Returns:
-            Whether the reply has them.
-        """
-        if VALUE.sub("=", reply.text) != self._plain:
-            return False
-        observations = _observations(results)
-        values = np.array([int(text) for text in VALUE.findall(reply.text)[1:-1]]).reshape(self._count, -1)
-        if len(reply.data) != observations.nbytes or (values[:, -1] != observations[0].nbytes).any():
-            return False
-        results.numbers[:-1] = values[:, : len(NUMBERS)].T
-        results.flags[(0, 1, 3), :] = values[:, len(NUMBERS) : -1].T
-        results.finished[:] = False
-        observations[:] = np.frombuffer(reply.data, np.uint8).reshape(observations.shape)
-        return True
-
-    def _fill_each(self, results: Results) -> None:
-        observations = _observations(results)
-        for machine, values in enumerate(self._last):
-            results.numbers[:-1, machine] = [values[name] for name in NUMBERS]
-            results.flags[(0, 1, 3), machine] = [values[name] for name in FLAGS]
-            observations[machine] = np.frombuffer(values[self._field], np.uint8).reshape(observations.shape[1:])
-            results.finished[machine] = FINAL_NUMBERS[0] in values
-            if results.finished[machine]:
-                self._fill_finals(results, machine, values, "final_")
-
-    def show_last_as_final(self, results: Results) -> None:
-        """Fills the final observations from the last reply, as if all episodes had ended with it.
-
-        Args:
-            results: Receives the final observations.
-        """
-        for machine, values in enumerate(self._last):
-            self._fill_finals(results, machine, values, "")
-        results.finished[:] = True
-
-    def _fill_finals(self, results: Results, machine: int, values: Values, prefix: str) -> None:
-        assert results.final_observations is not None and results.final_numbers is not None
-        finals = results.final_observations
-        finals[machine] = np.frombuffer(values[prefix + self._field], np.uint8).reshape(finals.shape[1:])
-        results.final_numbers[:, machine] = [values[prefix + name.removeprefix("final_")] for name in FINAL_NUMBERS]
-
     def screen(self, machine: int) -> Pixels:
         """Returns the screen of a machine, uint8 of shape (height, 160, 3)."""
         self._check_half(False)
-        return np.frombuffer(self._last[machine]["rgb"], np.uint8).reshape(-1, 160, 3).copy()
-
-
-def _observations(results: Results) -> Pixels:
-    observations = results.ram if results.observations is None else results.observations
-    assert observations is not None
-    return observations
-
-
-def with_strengths(words: Sequence[object], strengths: npt.NDArray[np.float32]) -> list[str]:
-    """Adds the strengths of paddles to the words of `step`.
-
-    Args:
-        words: A word for each machine.
-        strengths: A strength for each machine.
-
-    Returns:
-        The words as ACTION@STRENGTH.
-    """
-    return [f"{word}@{strength:.9g}" for word, strength in zip(words, strengths, strict=True)]
+        return self.last.screen(machine)
 
 
 def _field(settings: VectorSettings, height: int) -> str:

@@ -20,8 +20,10 @@ from ..vector.autoreset import AutoresetMode
 from ..vector.machines import Actions, Joysticks, Seeds
 from ..vector.results import Bools, Numbers, Pixels, Results
 from ..vector_options import VectorOptions
+from .action_words import joystick_words, with_strengths
+from .halves import Halves
 from .messages import Refused
-from .remote_machines import Halves, RemoteMachines, with_strengths
+from .remote_machines import RemoteMachines
 
 LEAVING = ("stopping", "busy", "idle", "internal")  # the errors after which a server closes the session
 
@@ -232,7 +234,7 @@ class SpreadMachines(Halves):
         return [part.machines.words(actions[part.rows]) for part in self._parts]
 
     def _joystick_words(self, joysticks: Joysticks, threshold: float) -> list[list[Any]]:
-        return [part.machines.joystick_words(joysticks[part.rows], threshold) for part in self._parts]
+        return [joystick_words(joysticks[part.rows], threshold) for part in self._parts]
 
     def _begin(self, words: list[list[Any]]) -> Callable[[Results], None]:
         """Begins a step on all servers at the same time.
@@ -335,13 +337,13 @@ class SpreadMachines(Halves):
     # Losing a server
 
     def _truncate(self, part: _Part, failure: Exception, results: Results) -> None:
-        last = part.machines
+        last = part.machines.last
         self._move(part, failure)
         if self._options.autoreset_mode is AutoresetMode.SAME_STEP:
             self._ask(part, lambda part: part.machines.show(results))
-            last.show_last_as_final(results)
+            last.fill_finals(results)
         else:
-            last.show_last(results)
+            last.fill(results)
             part.is_fresh = self._options.autoreset_mode is AutoresetMode.NEXT_STEP
         results.rewards[:] = results.raw_rewards[:] = 0
         results.terminated[:] = False
