@@ -1,0 +1,65 @@
+"""Tests of what scripts/site does besides mkdocs: the pages that it makes, and the check of links."""
+
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+from tree import ROOT, documents
+
+sys.path.insert(0, str(ROOT / "docs/site"))
+import links  # noqa: E402
+import pages  # noqa: E402
+
+
+class Pages(unittest.TestCase):
+    def test_links_to_folders_and_files_are_kept_where_they_lead_somewhere(self):
+        linked = set()
+        text = "[a](spec) [b](pictures) [c](../README.md#x) [d](pictures/draw.py)\n```\n[e](spec)\n```\n"
+        made = pages.for_the_site(pathlib.Path("docs/one.md"), text, linked)
+        self.assertEqual(
+            made, "[a](spec/README.md) b [c](../README.md#x) [d](pictures/draw.py)\n```\n[e](spec)\n```\n"
+        )
+        self.assertEqual(linked, {pathlib.Path("docs/pictures/draw.py")})
+
+    def test_the_tables_are_those_of_the_description(self):
+        protocol = pages.description.read()
+        for title, heads in pages.TABLES.values():
+            page = pages.table_page(protocol, title, heads)
+            for head in heads:
+                self.assertIn(head, page)
+        self.assertIn("| `bad-action` |", pages.table_page(protocol, *pages.TABLES["errors"]))
+
+    def test_each_public_name_of_python_is_on_a_page(self):
+        page = pages.python_page("racebeam", "All")
+        for name in pages.public_names("racebeam"):
+            self.assertRegex(page, rf"(::: racebeam\.|`){name}\b")
+        self.assertIn("`Action`", page)  # compiled
+        self.assertIn("::: racebeam.AtariEnv\n", page)
+
+    def test_the_menu_has_each_document(self):
+        menu = (ROOT / "docs/site/mkdocs.yml").read_text().partition("\nnav:\n")[2]
+        listed = set(re.findall(r"[\w./-]+\.md", menu))
+        self.assertEqual({str(path) for path in documents()} - listed, set())
+
+
+class Links(unittest.TestCase):
+    def faults(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "one.html").write_text(text)
+            (root / "two.html").write_text('<h1 id="here">Two</h1>')
+            return list(links.faults(root.resolve()))
+
+    def test_links_that_lead_somewhere_are_accepted(self):
+        for target in ("two.html", "two.html#here", "#", "https://example.org/x", "mailto:a@example.org"):
+            self.assertEqual(self.faults(f'<a href="{target}">a</a>'), [])
+
+    def test_links_that_do_not_are_refused(self):
+        self.assertEqual(self.faults('<img src="a.png">'), ["one.html: there is no a.png"])
+        self.assertEqual(self.faults('<a href="two.html#x">'), ["one.html: two.html#x has no such anchor"])
+
+
+if __name__ == "__main__":
+    unittest.main()
