@@ -1,12 +1,14 @@
 """The packages that are not made here: Dockerfile, compose file, Homebrew's formula, Arch's PKGBUILD. Where a linter or
 a packager is installed, it accepts them."""
 
+import json
 import os
 import pathlib
 import re
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 from harness import BINARY, main, sanitized
@@ -76,6 +78,34 @@ class Recipes(unittest.TestCase):
         self.assertEqual(set(re.findall(r"containerPort: (\d+)", pods)), set(exposed))
         self.assertEqual(set(re.findall(r"image: (.+)", pods)), {re.search(r"docker build .* -t (\S+)", lines[0])[1]})
         self.assertIn('ENTRYPOINT ["racebeam"]', lines)  # the pods' commands begin with it, too
+
+    @needs("bash")
+    def test_the_container_knows_whether_its_server_is_well(self):
+        [command] = re.findall(r"(?m)^  CMD (\[.*\])$", (PACKAGES / "docker/Dockerfile").read_text())
+        ready = self.folder / "ready"
+        options = ["--listen", f"unix:{self.folder}/socket", "--http", "127.0.0.1:0", "--ready-file", ready]
+        server = subprocess.Popen([BINARY, "serve", *options], stderr=subprocess.DEVNULL)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.kill)
+        while not ready.exists():
+            self.assertIsNone(server.poll())
+            time.sleep(0.01)
+        port = ready.read_text().split()[-1].rpartition(":")[2]
+
+        def status(*change):
+            words = [word.replace("7801", port).replace(*change) for word in json.loads(command)]
+            return subprocess.run(words, stderr=subprocess.DEVNULL).returncode
+
+        self.assertEqual(status("", ""), 0)
+        self.assertNotEqual(status("healthz", "nothing"), 0)
+        server.kill()
+        server.wait()
+        self.assertNotEqual(status("", ""), 0)
+
+    def test_the_ports_of_the_container_are_published(self):
+        exposed = re.search(r"(?m)^EXPOSE (.*)$", (PACKAGES / "docker/Dockerfile").read_text())[1].split()
+        published = re.findall(r'- "127.0.0.1:(\d+):(\d+)"', (PACKAGES / "docker/compose.yaml").read_text())
+        self.assertEqual(published, [(port, port) for port in exposed])
 
     def test_the_container_gets_no_image(self):
         ignored = (SOURCE / ".dockerignore").read_text().splitlines()
