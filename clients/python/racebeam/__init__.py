@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     import os
 
     from .env import AtariEnv
+    from .single.record_log import RecordLog
     from .vector_env import AtariVectorEnv
 
 __version__ = importlib.metadata.version("racebeam")
@@ -43,6 +44,7 @@ __all__ = [
     "InvalidInput",
     "LoggerMode",
     "MissingImage",
+    "RecordLog",
     "Refused",
     "Session",
     "UnknownGame",
@@ -55,7 +57,7 @@ __all__ = [
     "register_ale_ids",
 ]
 
-_NEED_GYMNASIUM = {"AtariEnv": ".env", "AtariVectorEnv": ".vector_env"}
+_NEED_GYMNASIUM = {"AtariEnv": ".env", "AtariVectorEnv": ".vector_env", "RecordLog": ".single.record_log"}
 _HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
 
 

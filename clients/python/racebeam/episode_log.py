@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import importlib.metadata
 import os
 import struct
@@ -42,6 +43,172 @@ class Episode(NamedTuple):
     hashes: list[int]
 
 
+class Start(NamedTuple):
+    """How an episode begins at power-on, in the words of the line protocol's `load`.
+
+    Attributes:
+        game: Name of the game.
+        seed: Seed of the game, from 1 to 2**32 - 2.
+        frame_skip: Frames of an action.
+        sticky: Probability that a frame repeats the previous action.
+        max_episode_frames: Frames after which the episode is truncated; 0 for no limit.
+        action_set: "full", or "minimal" for the actions that have an effect in the game.
+        rules: "ale-0.12" or "fixed".
+        life_loss: "ignored", or "restart" if a lost life ends the episode.
+        mode: Mode of the game, or None for its default.
+        difficulty: Difficulty of the game. None: no reset follows power-on.
+        rom: Path or bytes of the image, or None for that of the game.
+    """
+
+    game: str
+    seed: int
+    frame_skip: int
+    sticky: float = 0.0
+    max_episode_frames: int = 0
+    action_set: str = "full"
+    rules: str = "ale-0.12"
+    life_loss: str = "ignored"
+    mode: int | None = None
+    difficulty: int | None = None
+    rom: images.Rom | None = None
+
+    @property
+    def image(self) -> images.Rom:
+        """The image of the game.
+
+        Raises:
+            MissingImage: If no image of the game is found.
+        """
+        return images.find(self.game) if self.rom is None else self.rom
+
+    @property
+    def settings(self) -> dict[str, str]:
+        """The settings, as words of `load`."""
+        words = {name: str(getattr(self, name)) for name in self._fields[1:-1] if getattr(self, name) is not None}
+        return words | {"sticky": f"{self.sticky:.9g}"}
+
+    def power_on(self) -> ALEInterface:
+        """Returns an interface at the beginning of the episode.
+
+        Raises:
+            UnknownGame: If no game has this name.
+            MissingImage: If no image of the game is found.
+            InvalidInput: If a setting is out of range.
+        """
+        images.check_name(self.game)
+        if not 1 <= self.seed <= MOST_SEED:
+            raise InvalidInput(f"the seed is {self.seed}; it takes 1 to {MOST_SEED}")
+        ale = ALEInterface()
+        ale.setInt("random_seed", self.seed - 2**32 if self.seed >= 2**31 else self.seed)
+        ale.setInt("frame_skip", self.frame_skip)
+        ale.setFloat("repeat_action_probability", self.sticky)
+        ale.setInt("max_num_frames_per_episode", self.max_episode_frames)
+        ale.setString("rules", self.rules)
+        ale.setBool("truncate_on_loss_of_life", self.life_loss == "restart")
+        ale.loadROM(self.image, self.game)
+        if self.mode is not None:
+            ale.setMode(self.mode)
+        if self.difficulty is not None:
+            ale.setDifficulty(self.difficulty)
+        if self.mode is not None or self.difficulty is not None:
+            ale.reset_game()
+        return ale
+
+
+class Origin(NamedTuple):
+    """Who played.
+
+    Attributes:
+        agent: Name of the agent, a word.
+        trial: Number of the trial, from 1.
+        episode: Number of the episode, from 1.
+        agent_seed: Seed of the agent.
+    """
+
+    agent: str = "agent"
+    trial: int = 1
+    episode: int = 1
+    agent_seed: int = 0
+
+
+def play(start: Start, actions: Sequence[int]) -> Episode:
+    """Plays actions from the start to the end of the episode.
+
+    Args:
+        start: How the episode begins.
+        actions: Numbers of `Action`, 0 to 17.
+
+    Returns:
+        How the episode ended.
+
+    Raises:
+        UnknownGame: If no game has this name.
+        MissingImage: If no image of the game is found.
+        InvalidInput: If an action or a setting is out of range.
+    """
+    ale = start.power_on()
+    score, played, first = 0, 0, ale.getFrameNumber()
+    hashes = []
+    for action in actions:
+        if ale.game_over():
+            break
+        score += ale.act(action)
+        played += 1
+        if played % DECISIONS_PER_HASH == 0:
+            hashes.append(_core.state_hash(ale))
+    if len(hashes) < played // DECISIONS_PER_HASH + 1:
+        hashes.append(_core.state_hash(ale))
+    is_terminated = _is_terminated(ale, start)
+    return Episode(score, ale.getFrameNumber() - first, played, ale.game_over(), is_terminated, ale.lives(), hashes)
+
+
+def _is_terminated(ale: ALEInterface, start: Start) -> bool:
+    """With life_loss=restart, a lost life terminates, and only the limit of frames truncates."""
+    if start.life_loss != "restart" or ale.game_over(with_truncation=False):
+        return bool(ale.game_over(with_truncation=False))
+    return ale.game_over() and not 0 < start.max_episode_frames <= ale.getEpisodeFrameNumber()
+
+
+def log_of(start: Start, actions: Sequence[int], episode: Episode, origin: Origin) -> tuple[bytes, dict[str, str]]:
+    """Makes the log of an episode, and its row of results.csv.
+
+    Args:
+        start: How it began.
+        actions: What was played.
+        episode: How it ended.
+        origin: Who played.
+
+    Returns:
+        The bytes of the log, and the row's columns by name.
+    """
+    ended = {
+        "score": str(episode.score),
+        "frames": str(episode.frames),
+        "decisions": str(episode.decisions),
+        "end": "terminated" if episode.is_terminated else "truncated",
+        "lives": str(episode.lives),
+    }
+    played = {
+        "unit": f"{start.game}-{origin.agent}-{origin.trial}",
+        "agent": origin.agent,
+        "trial": str(origin.trial),
+        "episode": str(origin.episode),
+        "agent_seed": str(origin.agent_seed),
+        "version": importlib.metadata.version("racebeam"),
+    }
+    md5, _ = _core.identify(start.image)
+    text = f"load {start.game} {_words(start.settings)}\nimage {md5}\nfrom {_words(played)}\nended {_words(ended)}\n\n"
+    hashes = struct.pack(f"<{len(episode.hashes)}Q", *episode.hashes)
+    log = _seal(text.encode() + hashes + bytes(actions[: episode.decisions]))
+    row = played | ended | {"game": start.game, "image_md5": md5, "environment_seed": str(start.seed)}
+    digest = hashlib.sha256(log).hexdigest()
+    return log, row | {"state_hash": f"{episode.hashes[-1]:016x}", "log_digest": digest}
+
+
+def _words(pairs: dict[str, str]) -> str:
+    return " ".join(f"{key}={value}" for key, value in pairs.items())
+
+
 def replay(
     game: str, actions: Sequence[int], *, seed: int, frame_skip: int, sticky: float = 0.0, max_episode_frames: int = 0
 ) -> Episode:
@@ -68,28 +235,7 @@ def replay(
         >>> replay("beamfall", [1] * 10, seed=7, frame_skip=4).frames
         40
     """
-    images.check_name(game)
-    if not 1 <= seed <= MOST_SEED:
-        raise InvalidInput(f"the seed is {seed}; it takes 1 to {MOST_SEED}")
-    ale = ALEInterface()
-    ale.setInt("random_seed", seed - 2**32 if seed >= 2**31 else seed)
-    ale.setInt("frame_skip", frame_skip)
-    ale.setFloat("repeat_action_probability", sticky)
-    ale.setInt("max_num_frames_per_episode", max_episode_frames)
-    ale.loadROM(images.find(game), game)
-    score, played, first = 0, 0, ale.getFrameNumber()
-    hashes = []
-    for action in actions:
-        if ale.game_over():
-            break
-        score += ale.act(action)
-        played += 1
-        if played % DECISIONS_PER_HASH == 0:
-            hashes.append(_core.state_hash(ale))
-    if len(hashes) < played // DECISIONS_PER_HASH + 1:
-        hashes.append(_core.state_hash(ale))
-    is_terminated = ale.game_over(with_truncation=False)
-    return Episode(score, ale.getFrameNumber() - first, played, ale.game_over(), is_terminated, ale.lives(), hashes)
+    return play(Start(game, seed, frame_skip, sticky, max_episode_frames), actions)
 
 
 def write_log(
@@ -127,25 +273,13 @@ def write_log(
     name = os.fspath(path)
     if not name.endswith(".episode"):
         raise InvalidInput(f"the log is {name!r}; its name must end in .episode")
-    episode = replay(
-        game, actions, seed=seed, frame_skip=frame_skip, sticky=sticky, max_episode_frames=max_episode_frames
-    )
+    start = Start(game, seed, frame_skip, sticky, max_episode_frames)
+    episode = play(start, actions)
     if not episode.is_over:
         raise InvalidInput(f"the episode is not over after {len(actions)} actions; a log has a whole episode")
-    md5, _ = _core.identify(images.find(game))
-    end = "terminated" if episode.is_terminated else "truncated"
-    text = (
-        f"load {game} seed={seed} frame_skip={frame_skip} sticky={sticky:.9g} "
-        f"max_episode_frames={max_episode_frames}\n"
-        f"image {md5}\n"
-        f"from unit={game}-{agent}-1 agent={agent} trial=1 episode=1 agent_seed={agent_seed} "
-        f"version={importlib.metadata.version('racebeam')}\n"
-        f"ended score={episode.score} frames={episode.frames} decisions={episode.decisions} end={end} "
-        f"lives={episode.lives}\n\n"
-    )
-    hashes = struct.pack(f"<{len(episode.hashes)}Q", *episode.hashes)
+    log, _ = log_of(start, actions, episode, Origin(agent, agent_seed=agent_seed))
     with open(name, "wb") as file:
-        file.write(_seal(text.encode() + hashes + bytes(actions[: episode.decisions])))
+        file.write(log)
     return episode
 
 

@@ -57,6 +57,11 @@ class EnvWithGame(EnvWithActions):
             if number is not None:
                 self.ale.setInt(key, number)
 
+    @property
+    def state_hash(self) -> int:
+        """Hash of the machine's state, as logs of episodes have it. Games with equal hashes continue equally."""
+        return int(self.ale.state_hash())
+
     # Seeds and images
 
     def seed_game(self, seed: int | None = None) -> tuple[int, int]:

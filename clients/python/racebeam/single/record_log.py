@@ -1,0 +1,260 @@
+"""RecordLog: the episodes of an AtariEnv as a submission, which `racebeam verify` confirms (docs/evaluation.md)."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import pathlib
+import re
+import warnings
+from typing import Any, SupportsFloat
+
+import gymnasium
+import numpy as np
+
+from ..env import AtariEnv
+from ..episode_log import MOST_SEED, Episode, Origin, Start, log_of, play
+from ..errors import InvalidInput
+
+__all__ = ["RecordLog"]
+
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
+COLUMNS = (
+    "unit,game,image_md5,agent,trial,episode,environment_seed,agent_seed,score,frames,decisions,end,lives,state_hash,"
+    "log_digest,version"
+)
+# The presets of evaluation: frame_skip, sticky, action_set and max_episode_frames. Those with no-ops are missing, since
+# no-ops that an environment plays are not in a log.
+PRESETS = {"paper2013": (5, 0.0, "full", 18000), "machado2018": (5, 0.25, "full", 18000)}
+
+
+class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
+    """Writes a log of each episode of an `AtariEnv` into a new folder, a submission.
+
+    It wraps the environment directly, or what `gymnasium.make` returns: wrappers that change actions go around it. A
+    game that `life_loss` splits into several episodes is one episode of the log. Without a seed, `reset` powers the
+    game on with a seed of its own, since a log says from which seed its episode can be played again.
+
+    An episode that was left before its end, or in which a state was restored, has no log, nor has one whose log cannot
+    be written. A warning says so.
+
+    Args:
+        env: The environment. Its `frameskip` is a number, its `noop_max` 0, and it does not clip rewards.
+        folder: Path of the folder, which does not exist yet.
+        agent: Name of the agent: letters, digits, "_", "." and "-".
+        version: Version of the agent.
+        training_frames: Frames of training that the agent had.
+        trial: Number of the trial, from 1.
+        agent_seed: Seed of the agent.
+        phrase: The phrase that the seeds of the episodes follow from, or None.
+        about: Other keys of agent.toml: "words", "link" and "role".
+
+    Attributes:
+        logged: Number of the episodes that have a log.
+        unlogged: Number of those that have none.
+
+    Raises:
+        InvalidInput: If an argument is wrong, or the environment plays what a log cannot repeat.
+        FileExistsError: If the folder exists.
+        OSError: If it cannot be made.
+
+    Example:
+        >>> import tempfile
+        >>> import racebeam
+        >>> env = racebeam.AtariEnv("beamfall", preset="machado2018")
+        >>> env = racebeam.RecordLog(env, tempfile.mkdtemp() + "/mine", agent="still")
+        >>> observation, info = env.reset()
+        >>> over = False
+        >>> while not over:
+        ...     _, _, terminated, truncated, _ = env.step(0)
+        ...     over = terminated or truncated
+        >>> env.logged
+        1
+    """
+
+    def __init__(
+        self,
+        env: gymnasium.Env[Any, Any],
+        folder: str | os.PathLike[str],
+        *,
+        agent: str = "agent",
+        version: str = "1",
+        training_frames: int = 0,
+        trial: int = 1,
+        agent_seed: int = 0,
+        phrase: str | None = None,
+        about: dict[str, str] | None = None,
+    ) -> None:
+        super().__init__(env)
+        if not NAME.fullmatch(agent):
+            raise InvalidInput(f"agent is {agent!r}; it takes 1 to 64 letters, digits, '_', '.' and '-'")
+        self._base = _checked(env)
+        self._template = _template_of(self._base)
+        self._origin, self._phrase = Origin(agent, trial, 1, agent_seed), phrase
+        self._seeds = np.random.default_rng()
+        self._start: Start | None = None  # of the episode that is played
+        self._actions: list[int] = []
+        self.logged = self.unlogged = 0
+        self._folder = pathlib.Path(folder)
+        self._folder.mkdir()
+        words: dict[str, object] = {
+            "agent": agent,
+            "version": version,
+            "preset": _preset_of(self._template),
+            "training_frames": training_frames,
+            **({} if phrase is None else {"phrase": phrase}),
+            **(about or {}),
+        }
+        _write(
+            self._folder / "agent.toml",
+            "".join(f"{key} = {json.dumps(word, ensure_ascii=False)}\n" for key, word in words.items()),
+        )
+        _write(self._folder / "results.csv", COLUMNS + "\n")
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Begins an episode, at power-on if the game is over or has not begun.
+
+        Args:
+            seed: Seed, as `AtariEnv.reset` takes it; not with a phrase.
+            options: As `AtariEnv.reset` takes them.
+
+        Returns:
+            The observation, and the info.
+
+        Raises:
+            InvalidInput: If a seed is given where the phrase gives it.
+        """
+        if seed is not None and self._phrase is not None:
+            raise InvalidInput(f"the seed is {seed}; with a phrase, reset takes none")
+        if self._start is not None and seed is None and self._base._life_loss.continues:
+            return self.env.reset(options=options)  # the next life of the same game
+        self._leave()
+        if seed is None:
+            game_seed = self._next_seed()
+            self._base.ale.setInt("random_seed", game_seed - 2**32 if game_seed >= 2**31 else game_seed)
+            self._base.load_game()
+            self._base._life_loss.continues = False
+            result = self.env.reset(options=options)
+        else:
+            result = self.env.reset(seed=seed, options=options)
+            game_seed = int(result[1]["seeds"][1])
+        self._start = self._template._replace(seed=game_seed, difficulty=self._base.ale.getDifficulty())
+        return result
+
+    def step(self, action: Any) -> tuple[Any, SupportsFloat, bool, bool, dict[str, Any]]:
+        """Plays an action, and writes the log if the game is over.
+
+        Args:
+            action: Index of an action.
+
+        Returns:
+            What the environment returns.
+        """
+        result = self.env.step(action)
+        if self._start is not None:
+            self._actions.append(self._base._parse_action(action)[0])
+            if self._base.ale.game_over():
+                self._finish(self._start)
+        return result
+
+    def close(self) -> None:
+        """Closes the environment."""
+        self._leave()
+        super().close()
+
+    def _next_seed(self) -> int:
+        if self._phrase is None:
+            return int(self._seeds.integers(1, MOST_SEED, endpoint=True))
+        facts = (self._phrase, self._template.game, str(self._origin.trial), str(self.logged + 1))
+        digits = hashlib.sha256("\n".join(facts).encode()).hexdigest()[:8]
+        return max(int(digits, 16) & 0x7FFFFFFF, 1)
+
+    def _leave(self) -> None:
+        if self._start is not None and self._actions:
+            self._skip("it was left before its end")
+        self._start, self._actions = None, []
+
+    def _finish(self, start: Start) -> None:
+        actions, self._start, self._actions = self._actions, None, []
+        try:
+            episode = play(start, actions)
+            if not episode.is_over or episode.hashes[-1] != self._base.ale.state_hash():
+                return self._skip("the same actions lead to another state; a state was restored in it, or RAM was set")
+            self._keep(start, actions, episode)
+        except (InvalidInput, OSError) as error:
+            self._skip(str(error))
+
+    def _skip(self, why: str) -> None:
+        self.unlogged += 1
+        warnings.warn(f"an episode of {self._template.game} has no log: {why}", stacklevel=4)
+
+    def _keep(self, start: Start, actions: list[int], episode: Episode) -> None:
+        log, row = log_of(start, actions, episode, self._origin._replace(episode=self.logged + 1))
+        unit = self._folder / "logs" / row["unit"]
+        unit.mkdir(parents=True, exist_ok=True)
+        path, table = unit / f"{row['episode']}.episode", self._folder / "results.csv"
+        size = table.stat().st_size
+        _write(path, log)
+        try:
+            with open(table, "a", encoding="utf-8") as file:
+                file.write(",".join(row[column] for column in COLUMNS.split(",")) + "\n")
+        except OSError:
+            os.truncate(table, size)
+            path.unlink()
+            raise
+        self.logged += 1
+
+
+def _write(path: pathlib.Path, contents: bytes | str) -> None:
+    """Writes a whole file or none."""
+    aside = path.with_name(f".{path.name}.part")
+    try:
+        aside.write_bytes(contents.encode() if isinstance(contents, str) else contents)
+        aside.replace(path)
+    except OSError:
+        aside.unlink(missing_ok=True)
+        raise
+
+
+def _checked(env: gymnasium.Env[Any, Any]) -> AtariEnv:
+    base = env.unwrapped
+    if not isinstance(base, AtariEnv):
+        raise InvalidInput(f"env is {env!r}; RecordLog takes an AtariEnv, or wrappers around one")
+    low, high = base._reward_range or (-np.inf, np.inf)
+    for wrong, sentence in (
+        (base.continuous, "continuous is True; a log has indices of actions"),
+        (base._two_player, "two_player is True; a log has the actions of player A"),
+        (not isinstance(base._frameskip, int), f"frameskip is {base._frameskip!r}; a log takes a number"),
+        (base._noop_max != 0, f"noop_max is {base._noop_max}; a log takes 0, and the no-ops as actions"),
+        (base._game is None or base._game_file, "the game has a file of its own; a log takes one of the catalogue"),
+        ((low, high) != (-np.inf, np.inf), f"reward_range is ({low}, {high}); a log has whole rewards"),
+    ):
+        if wrong:
+            raise InvalidInput(sentence)
+    return base
+
+
+def _template_of(base: AtariEnv) -> Start:
+    """The start of the environment's episodes, without a seed and a difficulty."""
+    frames: Any = base._frameskip
+    is_full = len(base._action_set) == len(base.ale.getLegalActionSet())
+    return Start(
+        str(base._game),
+        0,
+        frames,
+        base.ale.getFloat("repeat_action_probability"),
+        base.ale.getInt("max_num_frames_per_episode"),
+        "full" if is_full else "minimal",
+        base.ale.getString("rules"),
+        "restart" if base._life_loss.word == "restart" else "ignored",
+        base._game_mode,
+        rom=base._rom,
+    )
+
+
+def _preset_of(start: Start) -> str:
+    if start.rules != "ale-0.12" or start.life_loss != "ignored":
+        return "other"
+    settings = (start.frame_skip, start.sticky, start.action_set, start.max_episode_frames)
+    return next((name for name, wanted in PRESETS.items() if wanted == settings), "other")

@@ -1,0 +1,174 @@
+"""RecordLog leaves a submission that `racebeam verify` confirms, and that it refuses once somebody has changed it."""
+
+import csv
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("numpy", "gymnasium")
+
+import numpy as np
+import racebeam.program
+from racebeam import InvalidInput, RecordLog
+from racebeam.episode_log import Origin, Start, log_of, play
+from racebeam.single.record_log import COLUMNS
+
+
+def play_games(env, games, seed=None):
+    """Plays at random until so many games are logged."""
+    random, left = np.random.default_rng(3), games
+    while left:
+        env.reset(seed=seed)
+        over = False
+        while not over:
+            *_, terminated, truncated, _ = env.step(int(random.integers(env.action_space.n)))
+            over = terminated or truncated
+        left -= env.unwrapped.ale.game_over()
+    return env
+
+
+class Submissions(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = pathlib.Path(self.scratch.name, "mine")
+
+    def record(self, games=2, phrase=None, agent="random", **arguments):
+        self.env = RecordLog(racebeam.AtariEnv("beamfall", **arguments), self.folder, agent=agent, phrase=phrase)
+        return play_games(self.env, games)
+
+    def verify(self):
+        done = subprocess.run([racebeam.program.path(), "verify", self.folder], capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+    def rows(self):
+        with open(self.folder / "results.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def write_rows(self, rows):
+        with open(self.folder / "results.csv", "w", newline="") as file:
+            table = csv.DictWriter(file, rows[0], lineterminator="\n")
+            table.writeheader()
+            table.writerows(rows)
+
+    def test_episodes_are_confirmed(self):
+        for number, arguments in enumerate(
+            (
+                {"preset": "machado2018"},
+                {"preset": "paper2013"},
+                {"life_loss": "end"},
+                {"life_loss": "restart", "difficulty": 0, "frameskip": 2},
+                {"full_action_space": True, "repeat_action_probability": 0.1, "max_num_frames_per_episode": 301},
+            )
+        ):
+            self.folder = pathlib.Path(self.scratch.name, str(number))
+            with self.subTest(**arguments):
+                env = self.record(**arguments)
+                self.assertEqual((env.logged, env.unlogged), (2, 0))
+                status, told = self.verify()
+                self.assertEqual((status, told.split(";")[0]), (0, "2 rows confirmed, 0 wrong, 0 could not be checked"))
+                self.assertIn(
+                    f'preset = "{arguments.get("preset", "other")}"', (self.folder / "agent.toml").read_text()
+                )
+
+    def test_the_seed_of_reset_and_the_hash_are_those_of_the_log(self):
+        env = RecordLog(racebeam.AtariEnv("beamfall"), self.folder)
+        _, info = env.reset(seed=5)
+        env = play_games(env, 1, seed=5)
+        (row,) = self.rows()
+        self.assertEqual(row["environment_seed"], str(info["seeds"][1]))
+        self.assertEqual(row["state_hash"], f"{env.unwrapped.state_hash:016x}")
+
+    def test_seeds_follow_from_a_phrase(self):
+        self.record(phrase="a headline of tomorrow")
+        self.assertEqual(self.verify()[0], 0)
+        with self.assertRaisesRegex(InvalidInput, "with a phrase, reset takes none"):
+            self.env.reset(seed=1)
+
+    def test_what_was_changed_is_refused(self):
+        self.record(phrase="a headline of tomorrow")
+        rows = self.rows()
+        self.write_rows([rows[0] | {"score": str(int(rows[0]["score"]) + 1)}, rows[1]])
+        status, told = self.verify()
+        self.assertEqual(status, 1)
+        self.assertRegex(told, "score is '.*'; its log has")
+        swapped = {"environment_seed": rows[1]["environment_seed"]}
+        self.write_rows([rows[0] | swapped, rows[1]])
+        status, told = self.verify()
+        self.assertEqual(status, 1)
+        self.assertIn("environment_seed", told)
+
+    def test_an_action_that_was_changed_is_refused(self):
+        start = Start("beamfall", 7, 4, max_episode_frames=400)
+        episode = play(start, [1] * 100)
+        log, row = log_of(start, [1] * 49 + [4] + [1] * 50, episode, Origin("liar"))
+        unit = self.folder / "logs" / row["unit"]
+        unit.mkdir(parents=True)
+        (unit / "1.episode").write_bytes(log)
+        (self.folder / "agent.toml").write_text('agent = "liar"\n')
+        self.write_rows([{column: row[column] for column in COLUMNS.split(",")}])
+        status, told = self.verify()
+        self.assertEqual(status, 1, told)
+        self.assertIn("not confirmed", told)
+
+    def test_episodes_that_cannot_be_repeated_have_no_log(self):
+        env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=200), self.folder)
+        env.reset()
+        env.step(1)
+        with self.assertWarnsRegex(UserWarning, "no log: it was left before its end"):
+            env.reset()
+        state = env.unwrapped.clone_state()
+        for _ in range(20):
+            env.step(1)
+        env.unwrapped.restore_state(state)
+        with self.assertWarnsRegex(UserWarning, "no log: .* a state was restored in it"):
+            for _ in range(60):
+                env.step(2)
+        self.assertEqual((env.logged, env.unlogged, self.rows()), (0, 2, []))
+
+    def test_a_full_disk_is_told_and_the_game_goes_on(self):
+        env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
+        try:
+            with self.assertWarnsRegex(UserWarning, "no log: .*large"):
+                play_games(env, 1)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        play_games(env, 1)
+        self.assertEqual((env.logged, env.unlogged, len(self.rows())), (1, 1, 1))
+        self.assertEqual(self.verify()[0], 0)
+
+    def test_bad_arguments_are_refused_and_leave_nothing(self):
+        for agent in ("", "../x", "a b", "a/b", "x" * 65):
+            with self.assertRaisesRegex(InvalidInput, "agent is"):
+                self.record(agent=agent)
+        for arguments in (
+            {"continuous": True},
+            {"frameskip": (2, 5)},
+            {"noop_max": 30},
+            {"reward_range": (-1, 1)},
+        ):
+            with self.assertRaises(InvalidInput, msg=arguments):
+                self.record(**arguments)
+        self.assertFalse(self.folder.exists())
+
+    def test_two_programs_cannot_share_a_folder(self):
+        self.record(1)
+        with self.assertRaises(FileExistsError):
+            self.record(1)
+        self.assertEqual(self.verify()[0], 0)
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("always")
+    os.umask(0o022)
+    package.main()
