@@ -110,6 +110,13 @@ class Data(unittest.TestCase):
         self.assertEqual(successors.loc["asterix"].to_list(), [153400, 3996.6])
         self.assertEqual(successors.count().to_list(), [54, 52])
 
+    def test_machado2018(self):
+        theirs = published("machado2018")
+        self.assertEqual(theirs["agent"].value_counts().to_dict(), {"dqn": 60, "blob_prost": 60})
+        self.assertEqual(set(published("atari57").index) - set(theirs.index), {"surround"})
+        self.assertEqual(len(theirs.select_dtypes("number").columns), 8)
+        self.assertFalse(theirs.isna().any(axis=None))
+
     def test_a_beginner(self):
         self.assertEqual(
             published("paper2013/human")["human"].to_dict(),

@@ -222,6 +222,12 @@ class Reports(unittest.TestCase):
         self.assertTrue(table[2].startswith("asterix,basic,2,3."), table[2])
         self.assertTrue(table[2].endswith(",2,n/a,n/a,0,n/a,n/a,0,n/a,n/a,0"), table[2])
         self.assertIn("figures/learning-curves.svg", files)
+        theirs = files["tables/machado2018-published.csv"].decode().splitlines()
+        self.assertEqual(
+            theirs[1], "game,agent,10 M,10 M deviation,50 M,50 M deviation,100 M,100 M deviation,200 M,200 M deviation"
+        )
+        self.assertIn("asterix,dqn,1732.6,314.6,3122.6,96.4,3423.4,213.6,2866.8,1354.6", theirs)
+        self.assertIn("asterix,blob_prost,2146.8,364.8,3417.8,445.3,3767.8,354.9,4358,431.6", theirs)
 
     def test_atari100k(self):
         files = self.evaluated("atari", self.results, "--report", "atari100k")

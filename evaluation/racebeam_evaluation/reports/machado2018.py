@@ -8,7 +8,7 @@ import pandas as pd
 from ..bootstrap import Bootstrap
 from ..curves import WINDOW, checkpoint, with_trained
 from ..errors import BadInput
-from ..games import in_order
+from ..games import in_order, published
 from ..output.report import Report
 from ..output.table import Table
 from ..results import Results
@@ -38,6 +38,17 @@ def evaluate(results: Results, bootstrap: Bootstrap, _: bool = False) -> Report:
             digits=1,
         )
     )
+    theirs = published_checkpoints(list(set(results.curves["game"])))
+    if not theirs.empty:
+        report.add_table(
+            Table(
+                "machado2018-published",
+                "The same of the agents of Machado et al. 2018, in these games.",
+                theirs,
+                sources,
+                digits=1,
+            )
+        )
     add_training(report, results, scores_of(results), bootstrap)
     return report
 
@@ -57,6 +68,12 @@ def checkpoints(curves: pd.DataFrame) -> pd.DataFrame:
                 row |= {millions: means.mean(), f"{millions} deviation": means.std(), f"{millions} trials": len(means)}
             rows.append(row)
     return pd.DataFrame(rows)
+
+
+def published_checkpoints(games: list[str]) -> pd.DataFrame:
+    """A row for each of the games and each agent of Machado et al. 2018, as `checkpoints` has them."""
+    theirs = published("machado2018")
+    return theirs.loc[[game for game in in_order(games) if game in theirs.index]].reset_index()
 
 
 def _at(trial: pd.DataFrame, frames: int) -> float:
