@@ -65,7 +65,7 @@ class TranslationBudget {
   static constexpr std::int64_t kCapacity = 4'000'000;
   // What a machine has when it starts. Most games have then translated the code that they begin with before
   // they have run for a few frames.
-  static constexpr std::int64_t kCredit = 1'500'000;
+  static constexpr std::int64_t kCredit = 800'000;
   // Of it, what the system does for the memory of the code, which is not charged: pages of short-lived
   // machines.
   static constexpr std::int64_t kStartCost = 200'000;

@@ -72,7 +72,7 @@ TEST_CASE("Pauses in steps do not add to the budget of a program that translates
   CHECK(run(busy, 1000) <= undisturbed + 5);
 }
 
-constexpr std::int64_t kCredit = 1'300 * kMicrosecond;  // without what the system takes
+constexpr std::int64_t kCredit = 600 * kMicrosecond;  // without what the system takes
 
 // Spends the credit, and the little that the steps meanwhile add.
 void spend_credit(TranslationBudget& budget) { run(budget, 100); }
