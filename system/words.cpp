@@ -94,8 +94,8 @@ std::string_view cut_behind(std::string_view& text, char mark) {
 }
 
 std::string_view checked_name(std::string_view text, std::string_view what) {
-  constexpr std::size_t kLongest = 64;
-  if (!text.empty() && text.size() <= kLongest && std::ranges::all_of(text, is_name_letter)) return text;
+  constexpr std::size_t kLongestName = 64;
+  if (!text.empty() && text.size() <= kLongestName && std::ranges::all_of(text, is_name_letter)) return text;
   throw InvalidInput(quote(text) + " is not a name for a " + std::string(what) +
                      "; it takes 1 to 64 letters, digits, - and _");
 }

@@ -18,7 +18,7 @@ namespace racebeam {
 namespace {
 
 constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
-constexpr std::int64_t kMostFrames = std::numeric_limits<int>::max();
+constexpr std::int64_t kMostNumber = std::numeric_limits<int>::max();
 constexpr int kLeastReward = std::numeric_limits<int>::min(), kMostReward = std::numeric_limits<int>::max();
 constexpr int kMostFrameSkip = 1000;  // an act is never interrupted
 constexpr int kMostNoops = 1000;
@@ -156,11 +156,11 @@ constexpr std::array kSettings = {
               out.append(digits.data(),
                          std::to_chars(digits.data(), digits.data() + digits.size(), s.machine.sticky).ptr);
             }),
-    setting("mode", READ(s.mode = whole(value, "mode", 0, kMostFrames)), ECHO(std::int64_t{e.mode()})),
-    setting("difficulty", READ(s.difficulty = whole(value, "difficulty", 0, kMostFrames)),
+    setting("mode", READ(s.mode = whole(value, "mode", 0, kMostNumber)), ECHO(std::int64_t{e.mode()})),
+    setting("difficulty", READ(s.difficulty = whole(value, "difficulty", 0, kMostNumber)),
             ECHO(std::int64_t{e.difficulty()})),
     setting("max_episode_frames",
-            READ(s.machine.max_episode_frames = whole(value, "max_episode_frames", 0, kMostFrames)),
+            READ(s.machine.max_episode_frames = whole(value, "max_episode_frames", 0, kMostNumber)),
             ECHO(std::int64_t{s.machine.max_episode_frames})),
     setting("life_loss", READ(set_life_loss(s, life_loss_of(value))),
             [](std::string& out, const PlaySettings& s, const Environment&) {
