@@ -28,7 +28,7 @@ class Images {
   // name: a game of the catalogue, the stem of an unknown image's file, or an MD5. Returns null if there is
   // no such image.
   const Cartridge* find(std::string_view name) const;
-  // The image of these bytes. Null if there is none.
+  // The image of these bytes. Null if no image has them.
   std::shared_ptr<const Image> same(const Image& image) const;
   std::vector<std::string_view> names() const;  // without the MD5s
   // A game of the catalogue, or of an image that is here. Null if there is no such game, or it has no rule.

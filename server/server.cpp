@@ -44,7 +44,7 @@ class Server {
   void start();
   void open_http();
   void tell_limits() const;       // to the log
-  int files_for_clients() const;  // throws std::runtime_error if there are none
+  int files_for_clients() const;  // throws std::runtime_error if no file is left
   void publish();                 // the ready file and the announce file
   std::string announcement() const;
   Task<> obey();  // handles signals

@@ -21,7 +21,7 @@ using Words = std::span<const std::string_view>;
 
 // Splits at blanks; several in a row count as one. Reuses the memory of `words`.
 void split(std::string_view line, std::vector<std::string_view>& words);
-std::string_view next_word(std::string_view& line);  // removes it from the line; empty: there is none
+std::string_view next_word(std::string_view& line);  // removes it from the line; empty: the line has no more
 
 // The whole text as a number; nothing for any other text, "nan" and "inf" included.
 template <typename Number>
@@ -43,7 +43,7 @@ std::int64_t number_within(std::string_view text, std::string_view what, std::in
 struct KeyValue {
   std::string_view key, value;
 };
-// Throws InvalidArguments if there is no '='.
+// Throws InvalidArguments if the word lacks '='.
 KeyValue key_value(std::string_view word);
 
 // The value of key=value, if `command` accepts only this key. Throws InvalidArguments.
@@ -83,7 +83,7 @@ auto value_for(std::string_view word, std::string_view what, const Rows& rows) {
 
 [[noreturn]] void refuse_twice(std::string_view key);  // InvalidArguments
 
-// Removes the first `mark` and the text after it from `text`. Returns the text after it; "" if there is no
+// Removes the first `mark` and the text after it from `text`. Returns the text after it; "" without a
 // mark.
 std::string_view cut_behind(std::string_view& text, char mark);
 

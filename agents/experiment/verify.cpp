@@ -55,7 +55,7 @@ class RowJudge {
     const std::string reason =
         first_difference(row, row_of_divergence(plan_, unit), "a trial of the plan that diverged has");
     if (!reason.empty()) return {Judgement::kWrong, reason};
-    return {Judgement::kUnchecked, "the trial diverged; there is no episode to play"};
+    return {Judgement::kUnchecked, "the trial diverged, so that it has no episode to play"};
   }
 
   std::string against_plan(const ResultRow& row, const PlanRows::Place& place) const {

@@ -9,7 +9,7 @@ namespace racebeam {
 // that of a WebSocket or a page.
 std::string page_address(const std::string& address);
 
-// The page of the first WebSocket in an announce file; empty if the file has none. `token` gets the file's
+// The page of the first WebSocket in an announce file; empty if the file names no WebSocket. `token` gets the file's
 // token. Throws std::exception if the file cannot be read.
 std::string announced_page(const std::string& path, std::string& token);
 

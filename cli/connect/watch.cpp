@@ -31,7 +31,7 @@ constexpr auto kWatchFooter =
 With --terminal, draws one of them in the terminal, as --graphics says. Pictures that the line does not carry in time
 are left out. Keys: n the next session, p the one before, q the end. ADDRESS is then that of racebeam connect:
 tcp://HOST:PORT, tls://HOST:PORT, unix:PATH or file:PATH. If standard output is not a terminal, one picture is written;
-the exit status is 1 if there is none.
+the exit status is 1 if none exists.
 
 Without --terminal, opens the server's page in a browser, and prints its address; ADDRESS is then ws://HOST:PORT,
 wss://HOST:PORT, http://HOST:PORT or https://HOST:PORT.

@@ -258,7 +258,7 @@ void BlockEmitter::jmp_indirect(const Instruction& instruction) {
   exit_out_of_line(outside, instruction, {0, NzHome::kNumber, CarryHome::kNumber, false});
 }
 
-// Loads the code of the block at the offset in edx into rsi. Jumps to `none` if there is none, or the limit
+// Loads the code of the block at the offset in edx into rsi. Jumps to `none` if it does not exist, or the limit
 // is reached.
 void BlockEmitter::find_block(Xbyak::Label& none) {
   constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;

@@ -44,7 +44,7 @@ struct View {
 
 class ImageCode {
  public:
-  // The code of this image with room for more. Null if there is none and `make` is false. Images are compared
+  // The code of this image with room for more. Null if it does not exist and `make` is false. Images are compared
   // by their bytes. wiring: of the cartridge scheme, since two machines can run one image under different
   // schemes. Null, too, if the capacity of all code is used up. Throws std::system_error if the system
   // refuses executable memory.

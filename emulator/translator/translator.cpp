@@ -113,7 +113,7 @@ struct Translator::Impl {
     translator::View* view = nullptr;
   };
 
-  // Translated code of the instruction at PC. `start` is null if there is none, and so is `profitability`
+  // Translated code of the instruction at PC. `start` is null if it does not exist, and so is `profitability`
   // where none can be made.
   struct Entry {
     const void* start = nullptr;

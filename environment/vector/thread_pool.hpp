@@ -59,7 +59,7 @@ class ThreadPool {
     Queue& operator=(const Queue&) = delete;
 
     void push(std::span<const std::size_t> numbers);
-    bool work_once();  // runs one task on the caller's thread; false if there is none
+    bool work_once();  // runs one task on the caller's thread; false if none waits
 
    private:
     friend class ThreadPool;

@@ -20,7 +20,7 @@ namespace racebeam {
 struct ClassicService {
   std::function<Environment(Pace* pace)> power_on;  // makes a machine for each session; thread-safe
   ClassicOptions options;
-  std::shared_ptr<MemoryBudget> memory;          // of all sessions; null: there is no limit
+  std::shared_ptr<MemoryBudget> memory;          // of all sessions; null: unlimited
   std::shared_ptr<Disposal> disposal = nullptr;  // of ended sessions; null: they are destroyed at once
 };
 

@@ -40,7 +40,7 @@ struct LoadedGame {
   Cartridge cartridge;
   std::unique_ptr<CodeOwner> own_image;  // null: the image is the server's
   PlaySettings settings;
-  std::unique_ptr<LoadedMachine> loaded;  // null: there is no game
+  std::unique_ptr<LoadedMachine> loaded;  // null: no game is loaded
   States states;
   std::int64_t episode = 1;  // of the loaded machine, from 1
   int last_action = 0;       // of player A, played on it

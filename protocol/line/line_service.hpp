@@ -48,7 +48,7 @@ struct LineService {
   std::size_t threads = 1;               // of `parallel`
   Admission admission;                   // empty: no token is required
   CpuKind cpu = CpuKind::kAuto;          // of all machines
-  std::shared_ptr<MemoryBudget> memory;  // of all sessions; null: there is no limit
+  std::shared_ptr<MemoryBudget> memory;  // of all sessions; null: unlimited
   std::shared_ptr<Disposal> disposal;    // of what sessions leave; null: they destroy it themselves
   bool strict = false;                   // the first error ends a session; for scripts
   std::shared_ptr<Shares> shares = std::make_shared<Shares>();

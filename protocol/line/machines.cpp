@@ -207,7 +207,7 @@ void Machines::add_texts(Reply& reply) {
   }
 }
 
-// Long values are written in the machine's own work, or in that of a request about this machine alone.
+// Long values are written in the machine's own work, or in that of a request about only this machine.
 void Machines::Host::observe(std::size_t number, const std::vector<Field>& fields) {
   seats_[number]->view.emplace(
       fields, [this, &own = seats_[number]->pacer] { (own.in_progress() ? own : context_.pacer).breathe(); });

@@ -78,7 +78,7 @@ class Session {
   Clock::time_point looked_;  // when the clock was last read
   Clock::duration worked_{};  // duration of the last run()
 
-  // The server's metrics; null if it has none.
+  // The server's metrics; null if it keeps no metrics.
   Meter* meter_;
   std::size_t command_ = 0;  // row of the request's command in the table
   bool refused_ = false;

@@ -97,7 +97,7 @@ class Shares {
   void remove(const Share& share);                // if it is there
   std::string next_name();                        // session-1, session-2 and so on
 
-  std::shared_ptr<Share> find(std::string_view name) const;  // null: there is none
+  std::shared_ptr<Share> find(std::string_view name) const;  // null: unknown
   std::vector<std::shared_ptr<Share>> all() const;
 
  private:

@@ -14,7 +14,7 @@ class States {
  public:
   using Map = std::map<std::string, Slot::Saved, std::less<>>;
 
-  const Slot::Saved* find(std::string_view name) const;  // null: there is none of this name
+  const Slot::Saved* find(std::string_view name) const;  // null: unknown
   bool contains(std::string_view name) const { return by_name_.contains(name); }
   void put(std::string_view name, Slot::Saved place);  // in the place of one of the same name
   void drop(std::string_view name);                    // if it is there

@@ -66,7 +66,7 @@ class MemoryBudget {
 // The part of a budget that one owner has taken; its destructor returns it.
 class MemoryShare {
  public:
-  explicit MemoryShare(std::shared_ptr<MemoryBudget> budget)  // null: there is no limit
+  explicit MemoryShare(std::shared_ptr<MemoryBudget> budget)  // null: unlimited
       : budget_(std::move(budget)) {}
   ~MemoryShare() { set(0); }
   MemoryShare(const MemoryShare&) = delete;

@@ -16,7 +16,7 @@ namespace {
 constexpr int kWakingSignal = SIGUSR1;
 
 // A pipe holds 64 KiB unless it is told otherwise: a longer reply, of many machines, would wait for its
-// reader in between. Where it is no pipe, or may not be larger, it stays as it is.
+// reader in between. Where it is not a pipe, or may not be larger, it stays as it is.
 void make_room(int pipe) {
   constexpr int kRoom = 1 << 18;
   if (::fcntl(pipe, F_GETPIPE_SZ) < kRoom) ::fcntl(pipe, F_SETPIPE_SZ, kRoom);

@@ -43,7 +43,7 @@ class ConnectionAcceptor {
   void check(const Listener& listener) const;  // throws unless it is safe
   const Service& service_of(const Listener& listener) const;
   Task<> welcome(Listener& listener);
-  // The reason against one more session; nothing if there is none.
+  // The reason against one more session; nothing if one more fits.
   std::optional<std::string> obstacle(const Service& service);
   // Admits the client at once, or when memory has been made for it. All this is on the first loop's thread.
   void receive(std::shared_ptr<Client> client, const Service& service, Carrier carrier,

@@ -19,7 +19,7 @@ struct Services {
   std::optional<Service> classic, line;
 };
 
-// The budget of the sessions of a service; null: there is no limit.
+// The budget of the sessions of a service; null: unlimited.
 inline const std::shared_ptr<MemoryBudget>& memory_of(const Service& service) {
   return std::visit(
       [](const auto& kind) -> const auto& { return kind.memory; }, service);

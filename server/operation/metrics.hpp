@@ -30,7 +30,7 @@ class Metrics {
 
   std::string text() const;  // thread-safe
 
-  std::shared_ptr<const MemoryBudget> memory;  // of all sessions; null: there is no limit
+  std::shared_ptr<const MemoryBudget> memory;  // of all sessions; null: unlimited
 
   // Counted by any thread:
   std::atomic<std::int64_t> sessions_open = 0, sessions_classic = 0, sessions_line = 0;

@@ -41,7 +41,7 @@ void write_file(const std::string& path, const std::string& text) {
   if (!(file << text).flush()) throw std::runtime_error("can't write " + path);
 }
 
-// Prints the lines that differ, with their setting. Returns whether there are none.
+// Prints the lines that differ, with their setting. Returns whether all are equal.
 bool same_lines(const std::string& game, const std::string& kept, const std::string& shown) {
   std::istringstream kept_lines(kept), shown_lines(shown);
   std::string kept_line, shown_line, setting;

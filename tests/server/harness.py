@@ -277,6 +277,6 @@ def main(*needed):
     """Runs the tests of the calling file. Without the things in `needed`, it is skipped."""
     missing = [what for what, found in needed if not found]
     if missing:
-        print("SKIPPED: there is no " + ", no ".join(missing))
+        print("SKIPPED: not found: " + ", ".join(missing))
         sys.exit(SKIPPED)
     unittest.main(module="__main__", verbosity=2)

@@ -21,7 +21,7 @@ def wait_for(path):
     deadline = time.monotonic() + PATIENCE
     while not os.path.exists(path):
         if time.monotonic() > deadline:
-            raise AssertionError(f"there is no {path}")
+            raise AssertionError(f"{path} does not exist")
         time.sleep(0.005)
     with open(path) as file:
         return file.read()

@@ -124,7 +124,7 @@ class Netcat(unittest.TestCase):
     def test_a_conversation_ends_with_its_input_or_with_quit(self):
         usage = subprocess.run("nc -h", shell=True, capture_output=True).stderr
         if b"OpenBSD" not in usage:
-            self.skipTest("there is no OpenBSD netcat here")
+            self.skipTest("needs OpenBSD's netcat")
         requests = b"load beamfall seed=1\nact FIRE*9\nlook screen:hex\n"
         expected = run("serve", "--stdio", data=requests)[1]
         with serve() as server:

@@ -8,7 +8,7 @@
 namespace racebeam {
 namespace {
 
-// Tools that make images of these schemes write a text into them. FC's are no text, but code that its
+// Tools that make images of these schemes write a text into them. FC's are not text, but code that its
 // programs have.
 struct Text {
   std::string_view text;

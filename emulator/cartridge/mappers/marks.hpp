@@ -11,7 +11,7 @@ namespace racebeam {
 // The scheme that a text in the image names; empty if no text does.
 std::string_view scheme_by_text(const Rom& rom);
 
-// The scheme whose hot spots the image's code accesses; empty if there is none.
+// The scheme whose hot spots the image's code accesses; empty if it accesses none.
 std::string_view scheme_by_accesses(const Rom& rom);
 
 }  // namespace racebeam

@@ -19,7 +19,7 @@ constexpr unsigned kBank = 2048, kBios = 3;
 constexpr unsigned kLoad = 8448, kHeader = 8192, kPage = 256;
 constexpr std::uint16_t kConfigure = 0x1FF8, kLoader = 0x1850;
 
-// A BIOS of our own, since the specification has none. (The reference's also shows a picture for some
+// A BIOS of our own, since the specification does not have one. (The reference's also shows a picture for some
 // frames.) From $F80A it clears RAM and requests load 0; from $F800 it requests the load whose number is in
 // $FA. It starts the program with the last six bytes of RAM, CMP $FFF8 and JMP: with the configuration and at
 // the address that came with the load.

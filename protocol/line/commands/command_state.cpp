@@ -126,7 +126,7 @@ void restore_machine(Context& context, const Slot::Saved& place, std::string_vie
   context.machines.add_view(number, reply);
 }
 
-// A whole state, or that of a console alone.
+// A whole state, or only that of a console.
 Slot::Saved imported(std::span<const std::uint8_t> bytes, const Environment& machine) {
   try {
     if (is_saved_slot(bytes)) return saved_slot(bytes, machine);

@@ -50,7 +50,7 @@ class Agents(Part):
             best of 18 policies, with
             its action. In {len(near)} of {len(random)} games, the score of Random is within a fifth of the paper's.
             A constant action leaves nothing to chance without sticky actions, so that a difference of Const is one of
-            the emulator or of the games' rules: in {len(same)} of {len(const)} games there is none.""")
+            the emulator or of the games' rules: in {len(same)} of {len(const)} games they do not differ.""")
         self.perturb(perturb, len(found["games"]))
         self.add(
             rows_of(

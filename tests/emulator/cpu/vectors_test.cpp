@@ -107,7 +107,7 @@ class FlatMachine {
     return nullptr;
   }
 
-  // The first difference; empty if there is none.
+  // The first difference; empty if all is equal.
   std::string run_vector(const Vector& vector, int cycles) {
     put(vector.before);
     racebeam::interpret(board(), 1);

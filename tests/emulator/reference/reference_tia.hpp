@@ -35,7 +35,7 @@ class ReferenceTia {
   int current() const { return current_; }
   void take_machine_of(const ReferenceTia& other);  // everything but the two buffers
 
-  // The differences between the two machines, in words; empty if there are none.
+  // The differences between the two machines, in words; empty if all is equal.
   std::string difference(const TiaState& tia) const;
   void meet(unsigned packed);  // sets the latches from two bits a collision register
 

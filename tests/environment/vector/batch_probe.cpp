@@ -81,7 +81,7 @@ void write(const BatchResults& results) {
   std::fflush(stdout);
 }
 
-// The next actions as acts; false: there are none.
+// The next actions as acts; false: no more follow.
 bool read_acts(const Batch& batch, std::vector<Act>& acts) {
   acts.clear();
   std::vector<float> parts(3 * batch.size());

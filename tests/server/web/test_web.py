@@ -129,11 +129,11 @@ class BesideThePage(Case):
         self.assertIn("there are 1 sessions", refused.text)
         self.assertTrue(wire.ask(b"act NOOP").startswith(b"ok "))
 
-    def test_a_server_without_the_line_protocol_has_none(self):
+    def test_a_server_without_the_line_protocol_offers_no_session(self):
         self.start("--rom", "builtin:beamfall", listen="classic+tcp://127.0.0.1:0")
         self.assertEqual(self.refusal("http").status, 403)
 
-    def test_beyond_this_machine_there_are_none_without_tokens(self):
+    def test_beyond_this_machine_sessions_need_tokens(self):
         with Server("serve", "--listen", "unix:s", "--http", "0.0.0.0:0") as server:
             port = int(server.wait_for(r"health and metrics on http://0\.0\.0\.0:(\d+)").group(1))
             with self.assertRaises(Refused) as refused:

@@ -67,7 +67,7 @@ describe("the view Replay", () => {
     await page.locator("#film-kind").selectOption("webm");
     await page.getByRole("button", { name: "Make it on the server" }).click();
     await until(async () => /\.webm: |ffmpeg is not installed/.test(
-      `${await told.textContent()} ${await page.locator("#log-problem").textContent()}`), "a film, or why there is none");
+      `${await told.textContent()} ${await page.locator("#log-problem").textContent()}`), "a film, or the reason against one");
   });
 
   test("it runs at the speed that is chosen", async () => {

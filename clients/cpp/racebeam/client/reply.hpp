@@ -29,7 +29,7 @@ Number to_number(std::string_view text) {
   return number;
 }
 
-/// The words of a text, between separators. An empty text has none.
+/// The words of a text, between separators. An empty text has no words.
 inline std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   while (!text.empty()) {
