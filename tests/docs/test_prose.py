@@ -42,7 +42,7 @@ class Prose(unittest.TestCase):
             "def _game_shown(self):",
         ):
             self.assertEqual(len(list(faults("a", line))), 1, line)
-        self.assertEqual(list(faults("a", '"unknown game \'x\'; accepted: a, b"')), [])
+        self.assertEqual(list(faults("a", "\"unknown game 'x'; accepted: a, b\"")), [])
 
 
 if __name__ == "__main__":

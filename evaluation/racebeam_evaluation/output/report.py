@@ -39,11 +39,11 @@ class Report:
         sections = [f"# {self.title}", " ".join(self.introduction), *self.untested]
         sections += ["\n".join(f"- {line}" for line in made_from(self.sources))] if self.sources else []
         for part in self.parts:
-            sections += [f"## {'Table' if isinstance(part, Table) else 'Figure'} {part.name}", self._shown(part)]
+            sections += [f"## {'Table' if isinstance(part, Table) else 'Figure'} {part.name}", self._lines_of(part)]
         return "\n\n".join(section.rstrip("\n") for section in sections if section) + "\n"
 
     @staticmethod
-    def _shown(part: Table | Picture) -> str:
+    def _lines_of(part: Table | Picture) -> str:
         if isinstance(part, Picture):
             return f"{part.caption}\n\n![{part.caption}](figures/{part.name}.svg)"
         if len(part.frame) > _MOST_ROWS:

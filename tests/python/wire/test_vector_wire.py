@@ -16,7 +16,7 @@ package.require("gymnasium", "numpy")
 import gymnasium
 import numpy as np
 from racebeam import AtariVectorEnv, InvalidInput
-from racebeam.wire.remote_machines import RemoteMachines
+from racebeam.wire.last_reply import LastReply
 from vector_servers import Compared, server
 
 SETTINGS = (
@@ -94,7 +94,7 @@ class Same(Compared):
     def test_a_reply_without_ends_is_read_as_a_whole(self):
         with (
             server() as (address, _),
-            unittest.mock.patch.object(RemoteMachines, "_fill_each", side_effect=AssertionError),
+            unittest.mock.patch.object(LastReply, "_fill_each", side_effect=AssertionError),
         ):
             for settings in (
                 {},

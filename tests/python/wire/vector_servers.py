@@ -44,13 +44,13 @@ class Compared(unittest.TestCase):
         for one, other in zip(shown[:-1], expected[:-1]):
             self.assertEqual((one.dtype, one.shape), (other.dtype, other.shape))
             self.assertTrue(np.array_equal(one, other))
-        self.check_told(shown[-1], expected[-1])
+        self.check_info(shown[-1], expected[-1])
 
-    def check_told(self, told, expected):
+    def check_info(self, told, expected):
         self.assertEqual(list(told), list(expected))
         for key, value in expected.items():
             if isinstance(value, dict):
-                self.check_told(told[key], value)
+                self.check_info(told[key], value)
             elif value.dtype == object:
                 self.assertTrue(
                     all(one is other is None or np.array_equal(one, other) for one, other in zip(told[key], value)), key
