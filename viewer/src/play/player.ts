@@ -131,11 +131,14 @@ export class Player {
     }
   }
 
-  /** Observes more fields, such as grey84x84x1:delta. */
+  /** Observes more fields, such as grey84x84x1:delta. A game that pauses is shown with them at once. */
   async observe(extra: string[]): Promise<void> {
     this.#extra = extra;
     if (this.#game) {
       await this.#session.observe(...FIELDS, ...extra);
+      if (this.motion === "paused" && !this.#busy) {
+        await this.#look();
+      }
     }
   }
 
@@ -199,7 +202,13 @@ export class Player {
       await Promise.all(acts.slice(at, at + SENT_AHEAD).map((act) => this.#send(act).reply));
     }
     await this.#session.observe(...FIELDS, ...this.#extra);
-    await this.#show(this.#session.look("terminated", "truncated", "lives", "screen", "audio:raw", "ram:raw"), this.now);
+    await this.#look();
+  }
+
+  /** Shows the present moment. A look has no deltas: it leaves those of acts as they are. */
+  async #look(): Promise<void> {
+    const extra = this.#extra.map((field) => field.replace(":delta", ""));
+    await this.#show(this.#session.look("terminated", "truncated", "lives", "screen", "audio:raw", "ram:raw", ...extra), this.now);
   }
 
   /** Sends an act, and a request to save the moment before it if it is time. */

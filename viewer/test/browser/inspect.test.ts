@@ -25,8 +25,8 @@ describe("the panels of Inspect", () => {
   afterEach(() => assert.deepEqual(tabs.problems(), []));
 
   /** The byte that the grid shows for an address. */
-  async function byte(address: number): Promise<number> {
-    return parseInt(await page.locator("#ram td").nth(1 + address - 0x80).textContent() ?? "", 16);
+  async function byte(address: number, where = page): Promise<number> {
+    return parseInt(await where.locator("#ram td").nth(1 + address - 0x80).textContent() ?? "", 16);
   }
 
   /** Flies and fires until the score has changed, and pauses. If the game is over, a new one begins. */
@@ -50,6 +50,16 @@ describe("the panels of Inspect", () => {
     const bcd = (value: number) => 10 * (value >> 4) + (value & 15);
     await until(async () => 100 * bcd(await byte(0x83)) + bcd(await byte(0x84)) === await numberIn(page, "#score"), "the score in RAM");
     await until(async () => await byte(0x81) === await numberIn(page, "#lives"), "the lives in RAM");
+  });
+
+  test("the panels show a game that has not begun to run", async () => {
+    const other = await tabs.open(server.address);
+    await other.getByRole("button", { name: "Play beamfall" }).waitFor();
+    await other.locator("#inspect").click();
+    await until(async () => await byte(0x81, other) === await numberIn(other, "#lives"), "the lives in RAM");
+    await until(async () => /[0-9A-F]{2}/.test(await other.locator("#tia dd").first().textContent() ?? ""), "a register");
+    assert.equal(await numberIn(other, "#frame"), 0);
+    await other.context().close();
   });
 
   test("the bytes that the rule reads have names", async () => {
