@@ -30,7 +30,8 @@ def faults(folder):
             parts = urllib.parse.urlsplit(target)
             if parts.scheme or parts.netloc:
                 continue
-            place = (path.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else path
+            base = folder if parts.path.startswith("/") else path.parent
+            place = (base / urllib.parse.unquote(parts.path).lstrip("/")).resolve() if parts.path else path
             if not place.exists():
                 yield f"{path.relative_to(folder)}: there is no {target}"
             elif place in pages and urllib.parse.unquote(parts.fragment) not in pages[place].anchors:
