@@ -10,15 +10,12 @@
 #endif
 
 namespace racebeam {
-namespace {
-
-constexpr std::size_t kRow = kLinePixels;
-
-}  // namespace
 
 // Most of a row is background. All forms but that of AVX-512 therefore copy a group of pixels that equals the
 // last group.
 struct Brightness::Forms {
+  static constexpr std::size_t kRow = kLinePixels;
+
   template <std::size_t pictures>
   static std::uint8_t brightest(const Brightness& own, const Rows<pictures>& rows, std::size_t x) {
     std::uint8_t most = own.of(rows[0][x]);

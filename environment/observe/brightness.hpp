@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "emulator/base/simd.hpp"
@@ -41,7 +42,7 @@ class Brightness {
   Make<2> make_brighter_;
   // For AVX2: the even entries of the table, by 16. All but the first 16 are differences (XOR) from those
   // before.
-  alignas(16) std::array<std::array<std::uint8_t, 16>, 8> steps_;
+  alignas(16) std::array<std::array<std::uint8_t, 16>, 8> steps_{};
 };
 
 }  // namespace racebeam

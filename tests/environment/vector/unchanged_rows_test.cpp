@@ -193,8 +193,14 @@ TEST_CASE("A batch that skips unchanged rows shows what single machines show of 
     for (Beside& batch : batches) {
       batch.step(random, random() % 4 != 0);
       if (random() % 5 == 0) loaded.push_back(batch.save(random() % batch.size()));
-      if (random() % 5 == 0) batch.load(loaded[random() % loaded.size()]);
-      if (random() % 15 == 0) batch.reset(random);
+      // Twice, the second time shows the same lines.
+      if (random() % 5 == 0) {
+        const Loaded& one = loaded[random() % loaded.size()];
+        for (auto times = random() % 3; times < 3; ++times) batch.load(one);
+      }
+      if (random() % 15 == 0) {
+        for (auto times = random() % 3; times < 3; ++times) batch.reset(random);
+      }
       if (random() % 15 == 0) batch.forget(random() % batch.size());
     }
   }
