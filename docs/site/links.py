@@ -33,7 +33,7 @@ def faults(folder):
             base = folder if parts.path.startswith("/") else path.parent
             place = (base / urllib.parse.unquote(parts.path).lstrip("/")).resolve() if parts.path else path
             if not place.exists():
-                yield f"{path.relative_to(folder)}: there is no {target}"
+                yield f"{path.relative_to(folder)}: {target} does not exist"
             elif place in pages and urllib.parse.unquote(parts.fragment) not in pages[place].anchors:
                 yield f"{path.relative_to(folder)}: {target} has no such anchor"
 

@@ -46,11 +46,18 @@ def hash_comments(text):
     return "\n".join(line.strip().lstrip("# ") for line in text.splitlines())
 
 
+def menu_comments(text):
+    """Comments of a list of pages, some of which are made by a script."""
+    return "\n".join(line.partition("#")[2] for line in text.splitlines())
+
+
 def comments(path, text):
     if path.suffix in (".cpp", ".hpp", ".inc", ".h", ".cc"):
         return slash_comments(text)
     if path.suffix == ".py" or text.startswith("#!/usr/bin/env python3"):
         return python_comments(text)
+    if path.suffix == ".yml":
+        return menu_comments(text)
     return hash_comments(text)
 
 

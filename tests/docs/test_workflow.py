@@ -23,7 +23,7 @@ LEFT_OUT = {
     "scripts/reference": "scripts/test runs it",
     "scripts/run-tests": "scripts/test runs it",
     "scripts/setup": "it installs",
-    "scripts/signature": "it prints a digest, which a person compares",
+    "scripts/check/signature": "it prints a digest, which a person compares",
     "scripts/version": "tests/cli/test_version.py runs it",
     "scripts/wheel": "a test of ctest",
     "scripts/check/api": "a test of ctest",
@@ -89,7 +89,7 @@ class Nightly(unittest.TestCase):
 
     def test_a_step_that_is_not_there_is_refused(self):
         run = subprocess.run([ROOT / ".ci/nightly", "moon"], capture_output=True, text=True)
-        self.assertEqual((run.returncode, run.stderr), (2, "nightly: there is no step 'moon'; --list has them\n"))
+        self.assertEqual((run.returncode, run.stderr), (2, "nightly: unknown step 'moon'; --list has the steps\n"))
 
 
 class Steps(unittest.TestCase):

@@ -52,7 +52,7 @@ TEST_CASE("A word that does not belong is told from a value that is not accepted
                        Message("'sead=1' is not accepted here; reset takes seed="));
   CHECK_THROWS_MATCHES(refuse_twice("seed"), InvalidArguments, Message("seed is given twice"));
   CHECK_THROWS_MATCHES(refuse_name("fruit", "aple", kFruit), InvalidArguments,
-                       Message("there is no fruit 'aple'; did you mean apple? There are apple pear plum"));
+                       Message("unknown fruit 'aple'; did you mean apple? Accepted: apple pear plum"));
   try {
     choice_of("lemon", "fruit", kFruit);
     FAIL("a lemon is not accepted");
