@@ -59,7 +59,7 @@ class Links(unittest.TestCase):
             self.assertEqual(self.faults(f'<a href="{target}">a</a>'), [])
 
     def test_links_that_do_not_are_refused(self):
-        self.assertEqual(self.faults('<img src="a.png">'), ["one.html: there is no a.png"])
+        self.assertEqual(self.faults('<img src="a.png">'), ["one.html: a.png does not exist"])
         self.assertEqual(self.faults('<a href="two.html#x">'), ["one.html: two.html#x has no such anchor"])
 
 
