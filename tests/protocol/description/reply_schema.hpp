@@ -13,6 +13,7 @@
 #include "environment/settings/play_settings.hpp"
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
+#include "protocol/request_error.hpp"
 #include "system/named_rows.hpp"
 #include "system/words.hpp"
 
