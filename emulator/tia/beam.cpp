@@ -70,6 +70,7 @@ void Beam::aim(FrameBuffer& picture, const FrameBuffer* other, RenderMode mode, 
   unsought_ = draws_pixels() ? Collisions{0} : static_cast<Collisions>(~sought);
   sought_objects_ = objects_of(static_cast<Collisions>(~unsought_));
   cleared_ = false;
+  collided_ = tia_.cursor;
   look_afresh();
   if (!draws_pixels()) meetings_ = unsought_ | tia_.collisions;
 }
@@ -102,6 +103,17 @@ void Beam::draw_beyond(std::int32_t clock) {
     draw_span(begin, clocks);
     if (completes) end_line();
   } while (tia_.cursor < clock);
+}
+
+void Beam::collide_to(std::int32_t clock) {
+  if (clock <= tia_.cursor) return;
+  if (exact_spans() || tia_.cursor < start() || clock > line_end() || clock > end())
+    return draw_beyond(clock);
+  const int at_cursor = kLinePixels - tia_.left;
+  const int first = std::max(at_cursor + std::max(collided_ - tia_.cursor, 0), 0);
+  const int last = at_cursor + clock - tia_.cursor;
+  if (last > first && !tia_.vblank) collide(first, last);
+  collided_ = clock;
 }
 
 // The address of the row of the cursor, which is at pixel `first`. Without pixels the picture may have no
@@ -185,7 +197,8 @@ RACEBEAM_INLINE void Beam::draw_visible(std::uint8_t* row, int first, int last) 
   }
   const bool score = (tia_.enabled & object_bit(kPlayfield)) != 0 && (tia_.ctrlpf & 2) != 0;
   seen_ |= tia_.enabled | kLit | (score ? kScoreSeen : 0);
-  collide(first, last);
+  const int collided = last - (tia_.cursor - collided_);  // collide_to() has been here
+  if (collided < last) collide(std::max(first, collided), last);
   if (draws_pixels()) draw_pixels_(line_, tia_, row, first, last);
   if (exact_spans()) spill(row, first, last);
 }
@@ -198,7 +211,9 @@ RACEBEAM_INLINE void Beam::collide(int first, int last) {
     line_.refresh(tia_, stale);
     stale_ ^= stale;
   }
-  const Collisions found = racebeam::meetings(line_, first, last, meetings_);
+  const auto sought = static_cast<Collisions>(line_.overlaps & ~meetings_);
+  if (sought == 0) return;
+  const Collisions found = racebeam::meetings(line_, first, last, sought);
   meetings_ |= found;
   tia_.collisions |= found;
 }

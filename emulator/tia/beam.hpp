@@ -56,6 +56,10 @@ class Beam {
     if (clock > tia_.cursor && !pass_blank(clock) && !passes_none(clock, part)) draw_beyond(clock);
   }
 
+  // Computes the collisions up to `clock`, so that the latches can be read or cleared. The pixels are left
+  // until a register changes, or the line ends.
+  void collide_to(std::int32_t clock);
+
   // Moves the cursor to `clock` without drawing. The ends of lines are still processed.
   void pass_to(std::int32_t clock);
 
@@ -182,6 +186,7 @@ class Beam {
   Collisions unsought_ = 0;  // pairs that are not sought
   std::uint8_t sought_objects_ = 0;
   bool cleared_ = false;
+  std::int32_t collided_ = 0;   // up to this clock, or the cursor, the collisions are known
   std::int32_t forgotten_ = 0;  // up to this pixel, forget_row() has been called
   RenderMode mode_ = RenderMode::kDrawn;
 };

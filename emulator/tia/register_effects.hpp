@@ -392,10 +392,10 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(std::int32_t cycle) 
   tia_.hmove_clock = static_cast<std::uint32_t>(clock);
 }
 
-// Pixels that are not drawn yet may still collide, so they are drawn before the latches are cleared.
+// Pixels that are not drawn yet may have collided before the latches are cleared.
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::clear_collisions(std::int32_t clock) {
-  painter_.draw_to(clock, kAllObjects);
+  painter_.collide_to(clock);
   painter_.clear_collisions();
 }
 

@@ -5,6 +5,7 @@
 // - draw_to(clock, objects): these objects (bit n: Object n), or colours, change at `clock`.
 // - draw_before(clock, part): the same for a part of the playfield.
 // - come_to(clock): the ends of lines before `clock` must be processed, too.
+// - collide_to(clock): the latches are read or cleared at `clock`.
 // - reach(clock): the beam is at `clock`; nothing changes.
 // After a change:
 // - changed(objects): registers of these objects have changed.
@@ -37,6 +38,10 @@ struct RenderPolicy {
     reach(clock);
     beam.draw_to(reached);
   }
+  RACEBEAM_INLINE void collide_to(std::int32_t clock) const {
+    reach(clock);
+    beam.collide_to(reached);
+  }
   static constexpr bool looks() { return true; }
   static constexpr bool minds(unsigned) { return true; }
   RACEBEAM_INLINE void changed(std::uint8_t objects) const { beam.changed(objects); }
@@ -61,6 +66,7 @@ struct TrackPolicy {
   RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart&) const {
     draw_to(clock, object_bit(kPlayfield));
   }
+  RACEBEAM_INLINE void collide_to(std::int32_t clock) const { draw_to(clock, kAllObjects); }
   RACEBEAM_INLINE bool minds(unsigned objects) const { return (sought & objects) != 0; }
   RACEBEAM_INLINE void come_to(std::int32_t clock) const {
     reach(clock);
@@ -88,6 +94,7 @@ struct ReplayPolicy {
   RACEBEAM_INLINE void reach(std::int32_t) const {}
   RACEBEAM_INLINE void draw_to(std::int32_t, unsigned) const {}
   RACEBEAM_INLINE void draw_before(std::int32_t, const PlayfieldPart&) const {}
+  RACEBEAM_INLINE void collide_to(std::int32_t) const {}
   static constexpr bool looks() { return false; }
   RACEBEAM_INLINE void come_to(std::int32_t) const {}
   static constexpr bool minds(unsigned) { return false; }

@@ -116,7 +116,9 @@ void Tia::catch_up(std::int32_t cycle) {
 
 void Tia::find_collisions(std::int32_t cycle, Collisions asked) {
   asked_ |= asked;
-  if (play_log(cycle, asked)) touch(cycle);
+  if (!play_log(cycle, asked)) return;
+  if (!beam_.draws_pixels()) return touch(cycle);
+  RenderPolicy{beam_, reached_}.collide_to(3 * cycle);
 }
 
 void Tia::touch(std::int32_t cycle) {
@@ -179,7 +181,7 @@ bool Tia::at_line() const {
 bool Tia::take_lines(Collisions asked) {
   std::uint32_t origin = line_origin();
   while (beam_.line_can_end()) {
-    if (beam_.at_line_start()) {
+    if (beam_.at_line_start() && recorded_ == nullptr) {
       if (reached_ > tia_.cursor) return false;
       if (recall_lines(origin, asked)) return true;
       if (!beam_.line_can_end()) return false;

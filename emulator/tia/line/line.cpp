@@ -37,6 +37,16 @@ constexpr auto make_possible() {
 }
 static_assert(make_possible().back() == kAllPairs);
 
+// The pairs with an object of each set.
+constexpr auto make_pairs_of() {
+  std::array<Collisions, 64> table{};
+  for (unsigned objects = 0; objects < 64; ++objects)
+    for (const Pair& p : kPairs)
+      if (objects & (bit(p.a) | bit(p.b))) table[objects] |= p.latch;
+  return table;
+}
+constexpr auto kPairsOf = make_pairs_of();
+
 // kPairs by the number of the latch's bit. Bit 12, D6 of CXBLPF, is unused.
 constexpr auto make_pair_of_latch() {
   std::array<Pair, 16> table{};
@@ -73,6 +83,10 @@ void Line::refresh(const TiaState& tia, std::uint8_t objects) {
   }
   if (objects & bit(kBall)) draw_ball(mask[kBall], tia), note(kBall);
   if (objects & bit(kPlayfield)) draw_playfield(mask[kPlayfield], tia), note(kPlayfield);
+  const Collisions changed = kPairsOf[objects & kAllObjects];
+  overlaps = static_cast<Collisions>(overlaps & ~changed);
+  const auto possible = static_cast<Collisions>(kPossibleMeetings[covered] & changed);
+  overlaps |= meetings(*this, 0, kLinePixels, possible);
 }
 
 constinit const std::array<Collisions, 64> kPossibleMeetings = make_possible();
@@ -86,8 +100,8 @@ std::uint8_t objects_of(Collisions pairs) {
   return static_cast<std::uint8_t>(objects);
 }
 
-Collisions meetings(const Line& line, int first, int last, Collisions known) {
-  unsigned left = kPossibleMeetings[line.covered] & ~known;
+Collisions meetings(const Line& line, int first, int last, Collisions pairs) {
+  unsigned left = pairs;
   if (left == 0) return 0;
   const PixelMask clip = PixelMask::range(first, last);
   Collisions found = 0;

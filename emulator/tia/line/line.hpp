@@ -19,6 +19,7 @@ enum Color : unsigned { kColup0, kColup1, kColupf, kColubk };  // indices of Tia
 struct Line {
   std::array<PixelMask, kObjects> mask;  // by Object
   std::uint8_t covered = 0;              // bit n: mask n has pixels
+  Collisions overlaps = 0;               // the pairs whose masks share pixels
   TiaRegisters shown;                    // the registers that the masks were made from
 
   std::uint8_t outdated(const TiaRegisters& tia) const;     // objects whose registers have changed since
@@ -36,7 +37,7 @@ inline bool can_meet(std::uint8_t objects, Collisions known) {
   return (kPossibleMeetings[objects] & ~known) != 0;
 }
 
-// The pairs that meet in these pixels. Those in `known` are not computed.
-Collisions meetings(const Line& line, int first, int last, Collisions known);
+// The pairs among these that meet in these pixels.
+Collisions meetings(const Line& line, int first, int last, Collisions pairs);
 
 }  // namespace racebeam

@@ -146,9 +146,11 @@ RACEBEAM_AVX2 void draw_avx2(const Line& line, const TiaRegisters& tia, std::uin
     for (std::uint8_t* at = row + 64 * word; shown != 0; at += 32) {
       if (const auto bits = static_cast<std::uint32_t>(shown); bits != 0) {
         __m256i pixels = _mm256_set1_epi8(static_cast<char>(tia.color[kColubk]));
-        pixels = painted_avx2(pixels, static_cast<std::uint32_t>(colupf), tia.color[kColupf]);
-        pixels = painted_avx2(pixels, static_cast<std::uint32_t>(colup1), tia.color[kColup1]);
-        pixels = painted_avx2(pixels, static_cast<std::uint32_t>(colup0), tia.color[kColup0]);
+        if (static_cast<std::uint32_t>(colupf | colup1 | colup0) != 0) {  // else only the background is seen
+          pixels = painted_avx2(pixels, static_cast<std::uint32_t>(colupf), tia.color[kColupf]);
+          pixels = painted_avx2(pixels, static_cast<std::uint32_t>(colup1), tia.color[kColup1]);
+          pixels = painted_avx2(pixels, static_cast<std::uint32_t>(colup0), tia.color[kColup0]);
+        }
         auto* const place = reinterpret_cast<__m256i*>(at);
         if (bits != ~std::uint32_t{0})
           pixels = _mm256_blendv_epi8(_mm256_load_si256(place), pixels, bytes_of(bits));

@@ -38,6 +38,7 @@ struct Listener {
   void draw_to(std::int32_t clock, unsigned) const { reach(clock); }
   void draw_before(std::int32_t clock, const PlayfieldPart&) const { reach(clock); }
   void come_to(std::int32_t clock) const { reach(clock); }
+  void collide_to(std::int32_t clock) const { reach(clock); }
   bool looks() const { return compares; }
   static bool minds(unsigned) { return false; }
   void changed(std::uint8_t) const {}
