@@ -204,7 +204,7 @@ TEST_CASE("an image of 32 to 2047 bytes repeats in 2K, up to their end") {
 }
 
 TEST_CASE("built-in images are loaded by name") {
-  CHECK_THROWS_WITH(load_image("builtin:nobody"), Contains("no such built-in image"));
+  CHECK_THROWS_WITH(load_image("builtin:nobody"), Contains("unknown built-in image"));
   for (const BuiltInImage& built_in : builtin_images()) {
     INFO(built_in.name);
     const auto image = load_image("builtin:" + std::string(built_in.name));

@@ -142,7 +142,7 @@ TEST_CASE("an unknown name is refused with those that are like it") {
                     Contains("'seaqest'") && Contains("did you mean seaquest"));
   CHECK_THROWS_WITH(recognise(image(kNobody, "x"), "montezuma"), Contains("montezuma_revenge"));
   CHECK_THROWS_WITH(recognise(image(kNobody, "x"), "xyzzyplugh"), Contains("`racebeam games`"));
-  CHECK_THROWS_WITH(recognise(image(kNobody, "x"), ""), Contains("no game ''"));
+  CHECK_THROWS_WITH(recognise(image(kNobody, "x"), ""), Contains("unknown game ''"));
 }
 
 TEST_CASE("names that are like another are found, the nearest first") {

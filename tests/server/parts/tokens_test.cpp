@@ -56,7 +56,7 @@ TEST_CASE("Empty lines and comments are no tokens") {
   CHECK_FALSE(tokens.admits(comment));
   CHECK_FALSE(tokens.admits(kShort.substr(1)));
   for (const std::string& text : {std::string(), std::string("\n"), comment + "\n"})
-    check_refused(folder, text, "there is no token in " + folder.path("tokens"));
+    check_refused(folder, text, folder.path("tokens") + " has no token");
 }
 
 TEST_CASE("A line that is not a token is named by its number") {
