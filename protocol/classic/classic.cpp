@@ -100,10 +100,9 @@ void ClassicSession::take_action(std::string_view line) {
 void ClassicSession::act(int a, int b) {
   const bool accepted = is_player_a(a) || a == kResetAction || paddles_ || environment_.game_over();
   if (!accepted) {
-    throw ClassicError(
-        kUnknownActionStatus,
-        "action " + std::to_string(a) +
-            " is out of range; accepted: 0-17, 40 (nothing), 43 (save), 44 (load) and 45 (reset)");
+    throw ClassicError(kUnknownActionStatus,
+                       "the client asked for action " + std::to_string(a) +
+                           "; accepted: 0-17, 40 (nothing), 43 (save), 44 (load) and 45 (reset)");
   }
   const int before = environment_.frame_number();
   reward_ = recorded_act(is_player_a(a) ? a : 0, is_player_b(b) ? b : kActions);

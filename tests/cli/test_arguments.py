@@ -131,7 +131,7 @@ class Options(Case):
     def test_what_the_console_of_an_image_does_not_take(self):
         for command, *words in MACHINES:
             for option, value, reason in (
-                ("--scheme", "4A50", "the cartridge scheme 4A50 is not implemented"),
+                ("--scheme", "4A50", "unsupported cartridge scheme '4A50'"),
                 ("--left", "keyboard", "joystick, paddles"),
                 ("--right", "mouse", "joystick, paddles"),
                 ("--format", "hd", "auto, ntsc, pal, pal60, secam"),

@@ -136,13 +136,13 @@ long taken(std::size_t machines) {
 
 // A machine has two pictures, the grey one of which it makes the small screen, and a stack of four of these,
 // which results have once more.
-TEST_CASE("A machine of a batch takes less than 68 KiB beside its pictures") {
+TEST_CASE("A machine of a batch takes less than 70 KiB beside its pictures") {
   constexpr long kPictures = 3 * 210 * 160 + 2 * 4 * 84 * 84;
   taken(48);  // resets that all machines share are met for the first time
   const long of_one = (taken(48) - taken(16)) / 32;
   INFO(of_one << " bytes");
   CHECK(of_one > kPictures);
-  CHECK(of_one - kPictures < 68 * 1024);
+  CHECK(of_one - kPictures < 70 * 1024);
 }
 
 // How many machines have results among the first `count`, each counted once, that have played.

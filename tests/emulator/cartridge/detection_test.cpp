@@ -189,7 +189,7 @@ TEST_CASE("An unsuitable image is refused with the reason") {
   CHECK_THROWS_AS(scheme_of(Rom{}), std::invalid_argument);
   CHECK_THROWS_WITH(scheme_of(mixed(4096), "F9"),
                     Catch::Contains("unknown cartridge scheme 'F9'") && Catch::Contains("F8"));
-  CHECK_THROWS_WITH(scheme_of(mixed(8192), "WD"), Catch::Contains("scheme WD is not implemented"));
+  CHECK_THROWS_WITH(scheme_of(mixed(8192), "WD"), Catch::Contains("unsupported cartridge scheme 'WD'"));
 }
 
 // An image with `text` at three places.

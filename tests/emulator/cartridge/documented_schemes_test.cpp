@@ -46,7 +46,7 @@ TEST_CASE("A scheme is either implemented or refused by its name") {
   for (const std::string_view name : unsupported_schemes()) {
     INFO(name);
     CHECK_THROWS_WITH(scheme_of(rom, name),
-                      Catch::Contains("the cartridge scheme " + std::string(name) + " is not implemented"));
+                      Catch::Contains("unsupported cartridge scheme '" + std::string(name) + "'"));
   }
 }
 

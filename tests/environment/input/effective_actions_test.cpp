@@ -115,7 +115,8 @@ TEST_CASE("With joysticks, numbers that are not actions are refused") {
   const LegalActions all(all_actions(), false);
   for (const int a : {18, 35, 36, 41, 43, 50, 99}) {
     CHECK_THROWS_WITH(all.check(pressing(a)),
-                      Catch::Contains("no action " + std::to_string(a)) && Catch::Contains("0 to 17"));
+                      Catch::Contains("action " + std::to_string(a) + " of player A is out of range") &&
+                          Catch::Contains("0 to 17"));
   }
   for (const int b : {41, 50, 1000})
     CHECK_THROWS_WITH(all.check(pressing(0, b)), Catch::Contains("18 to 35"));

@@ -114,7 +114,7 @@ class Own(unittest.TestCase):
         self.assertEqual(envs.single_observation_space.shape[1], 220)
         for words, sentence in (
             ({"scheme": "F8"}, "8192"),
-            ({"scheme": "4A50"}, "4A50 is not implemented"),
+            ({"scheme": "4A50"}, "unsupported cartridge scheme '4A50'"),
             ({"left": "keyboard"}, "joystick, paddles"),
             ({"height": 99}, "100 to 256"),
         ):
