@@ -123,7 +123,7 @@ TEST_CASE("help says what it has help on") {
     CHECK_THAT(reply, Contains(std::string(" ").append(topic.name)));
   CHECK_THAT(client.ask("help stiky"),
              StartsWith("error bad-arguments unknown word 'stiky'; did you mean sticky?"));
-  CHECK_THAT(client.ask("help xyzzy"), EndsWith("; help without a word says what there is"));
+  CHECK_THAT(client.ask("help xyzzy"), EndsWith("; help without a word lists all"));
 }
 
 TEST_CASE("For a person help is folded to the width of the terminal, and says the same") {

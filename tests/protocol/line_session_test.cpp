@@ -273,7 +273,7 @@ TEST_CASE("Limits are reported and enforced") {
 TEST_CASE("Errors name what is accepted") {
   LineClient client;
   client.ask(kLoad);
-  CHECK_THAT(client.ask("open 2 same-step"), Contains("open takes autoreset="));
+  CHECK_THAT(client.ask("open 2 same-step"), Contains("; accepted: autoreset="));
   CHECK_THAT(client.ask("save a b"), Contains("save takes generator="));
   CHECK_THAT(client.ask("hello tok=1"), Contains("hello takes token="));
   CHECK_THAT(client.ask("observe none reward"), Contains("none stands alone"));
