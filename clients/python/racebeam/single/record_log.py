@@ -220,7 +220,7 @@ def _write(path: pathlib.Path, contents: bytes | str) -> None:
 def _checked(env: gymnasium.Env[Any, Any]) -> AtariEnv:
     base = env.unwrapped
     if not isinstance(base, AtariEnv):
-        raise InvalidInput(f"env is {env!r}; RecordLog takes an AtariEnv, or wrappers around one")
+        raise InvalidInput(f"env is of class {type(env).__name__}; RecordLog takes an AtariEnv, or wrappers around one")
     low, high = base._reward_range or (-np.inf, np.inf)
     for wrong, sentence in (
         (base.continuous, "continuous is True; a log has indices of actions"),
