@@ -61,7 +61,8 @@ class SubmissionJudge {
       : folder_(folder), logs_(images, threads, cpu) {}
 
   RowVerdict judge(const ResultRow& row) {
-    if (is_divergence(row)) return {Judgement::kUnchecked, "the trial diverged, so that it has no episode to play"};
+    if (is_divergence(row))
+      return {Judgement::kUnchecked, "the trial diverged, so that it has no episode to play"};
     return judge_episode(row);
   }
 

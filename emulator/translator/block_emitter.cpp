@@ -258,8 +258,8 @@ void BlockEmitter::jmp_indirect(const Instruction& instruction) {
   exit_out_of_line(outside, instruction, {0, NzHome::kNumber, CarryHome::kNumber, false});
 }
 
-// Loads the code of the block at the offset in edx into rsi. Jumps to `none` if it does not exist, or the limit
-// is reached.
+// Loads the code of the block at the offset in edx into rsi. Jumps to `none` if it does not exist, or the
+// limit is reached.
 void BlockEmitter::find_block(Xbyak::Label& none) {
   constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
   as_.cmp(as_.edx, as_.window.code.span);

@@ -44,10 +44,10 @@ struct View {
 
 class ImageCode {
  public:
-  // The code of this image with room for more. Null if it does not exist and `make` is false. Images are compared
-  // by their bytes. wiring: of the cartridge scheme, since two machines can run one image under different
-  // schemes. Null, too, if the capacity of all code is used up. Throws std::system_error if the system
-  // refuses executable memory.
+  // The code of this image with room for more. Null if it does not exist and `make` is false. Images are
+  // compared by their bytes. wiring: of the cartridge scheme, since two machines can run one image under
+  // different schemes. Null, too, if the capacity of all code is used up. Throws std::system_error if the
+  // system refuses executable memory.
   static std::shared_ptr<ImageCode> of(const Rom& rom, const Wiring& wiring, bool make);
 
   ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity, bool shared);

@@ -1,7 +1,7 @@
 // FA2, of Star Castle: six or seven banks of 4K, selected at $1FF5-$1FFB, and 256 bytes of RAM, written at
 // $1000-$10FF and read at $1100-$11FF. An image may have 1K of the board's own code in front. An access to
-// $1FF4 would save the RAM in flash memory, or load it. This one has no such memory: the operation ends at once, which bit
-// 6 shows, and changes nothing.
+// $1FF4 would save the RAM in flash memory, or load it. This one has no such memory: the operation ends at
+// once, which bit 6 shows, and changes nothing.
 #pragma once
 
 #include <algorithm>

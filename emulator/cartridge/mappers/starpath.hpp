@@ -19,10 +19,10 @@ constexpr unsigned kBank = 2048, kBios = 3;
 constexpr unsigned kLoad = 8448, kHeader = 8192, kPage = 256;
 constexpr std::uint16_t kConfigure = 0x1FF8, kLoader = 0x1850;
 
-// A BIOS of our own, since the specification does not have one. (The reference's also shows a picture for some
-// frames.) From $F80A it clears RAM and requests load 0; from $F800 it requests the load whose number is in
-// $FA. It starts the program with the last six bytes of RAM, CMP $FFF8 and JMP: with the configuration and at
-// the address that came with the load.
+// A BIOS of our own, since the specification does not have one. (The reference's also shows a picture for
+// some frames.) From $F80A it clears RAM and requests load 0; from $F800 it requests the load whose number is
+// in $FA. It starts the program with the last six bytes of RAM, CMP $FFF8 and JMP: with the configuration and
+// at the address that came with the load.
 inline constexpr std::uint8_t kBiosCode[] = {
     0xA5, 0xFA,                                      // F800  LDA $FA
     0x4C, 0x18, 0xF8,                                //       JMP $F818

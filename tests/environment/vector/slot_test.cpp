@@ -360,7 +360,8 @@ lives = 3 - ram[0x92]
 )";
 
 TEST_CASE("A lost life ends an act's episode as it was chosen, and the game goes on only where it may") {
-  for (const LifeLoss life_loss : {LifeLoss::kIgnored, LifeLoss::kReported, LifeLoss::kEnds, LifeLoss::kResets}) {
+  for (const LifeLoss life_loss :
+       {LifeLoss::kIgnored, LifeLoss::kReported, LifeLoss::kEnds, LifeLoss::kResets}) {
     for (const int left : {2, 0}) {
       Slot slot({test::counter_image(), test::game(kThreeLives, "three")}, acts(life_loss));
       slot.act({});
