@@ -1,4 +1,4 @@
-"""Checks that each link and picture of a built site leads to a file of it, and to an anchor there. Usage: links.py FOLDER"""
+"""Checks that each link and picture of a built site leads to a file and an anchor of it. Usage: links.py FOLDER"""
 
 import html.parser
 import pathlib

@@ -63,7 +63,9 @@ class Numbers(unittest.TestCase):
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "WHOLE_NUMBERS"
         )
         limits = {key.value: ast.unparse(value) for key, value in zip(limits.keys, limits.values)}
-        told = {name.strip("`"): takes for name, takes in table(page("docs/python/reference.md"), "| argument | takes |")}
+        told = {
+            name.strip("`"): takes for name, takes in table(page("docs/python/reference.md"), "| argument | takes |")
+        }
         for name in ("stack_num", "noop_max", "frameskip"):
             self.assertEqual(told[name].replace(" to ", ", "), limits[name].strip("()"))
 

@@ -18,9 +18,7 @@ class Pages(unittest.TestCase):
         linked = set()
         text = "[a](spec) [b](pictures) [c](../README.md#x) [d](pictures/draw.py)\n```\n[e](spec)\n```\n"
         made = pages.for_the_site(pathlib.Path("docs/one.md"), text, linked)
-        self.assertEqual(
-            made, "[a](spec/README.md) b [c](../README.md#x) [d](pictures/draw.py)\n```\n[e](spec)\n```\n"
-        )
+        self.assertEqual(made, "[a](spec/README.md) b [c](../README.md#x) [d](pictures/draw.py)\n```\n[e](spec)\n```\n")
         self.assertEqual(linked, {pathlib.Path("docs/pictures/draw.py")})
 
     def test_the_tables_are_those_of_the_description(self):
