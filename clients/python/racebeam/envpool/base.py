@@ -1,4 +1,4 @@
-"""What environments with EnvPool's interface share, whatever they return."""
+"""The part of EnvPool's interface that both of its kinds of environments share."""
 
 from __future__ import annotations
 
