@@ -13,7 +13,7 @@ def row(*cells):
 
 
 def current(rows):
-    """Those that have no better name."""
+    """The rows that are not deprecated."""
     return [one for one in rows if not one.deprecated]
 
 

@@ -52,7 +52,7 @@ def section(title, entries):
 
 
 def current(rows):
-    """Those that have no better name."""
+    """The rows that are not deprecated."""
     return [row for row in rows if not row.deprecated]
 
 
