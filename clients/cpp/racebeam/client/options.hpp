@@ -1,5 +1,5 @@
 /// @file
-/// How to connect to a server. Options are values: each session keeps a copy of its own.
+/// Options of a connection to a server. Each session copies the options that it is given.
 #pragma once
 
 #include <chrono>
