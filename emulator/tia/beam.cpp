@@ -227,9 +227,18 @@ void Beam::spill(std::uint8_t* row, int first, int last) {
   std::memset(row + last, row[group], static_cast<std::size_t>(group + 4 - last));
 }
 
+// Whether an HMOVE may have blanked pixels from `last` on. A span that ends in a line's blank makes up to 75
+// pixels of the line black (docs/spec/tia.md, 5). Those that are never drawn stay black.
+bool Beam::comb_may_pass(int last) const {
+  if (tia_.comb_armed) return true;
+  if (last < kCombEnd - kBlankClocks || last >= kCombEnd - 1) return false;
+  const std::int32_t line_start = tia_.cursor - kBlankClocks - last;
+  return row() == 0 || !is_since_hmove(line_start - kLineClocks + kCombEnd);
+}
+
 bool Beam::end_picture(std::int32_t begin) {
-  if (tia_.comb_armed) return false;
   const int line_clock = kLineClocks - tia_.left, last = line_clock - kBlankClocks;
+  if (comb_may_pass(last)) return false;
   const std::int32_t first_visible = tia_.cursor - line_clock + kBlankClocks;
   const int first = std::max(begin, first_visible) - first_visible;
   if (last > first && !tia_.vblank && draws_pixels())

@@ -155,6 +155,7 @@ class Beam {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(clock) - tia_.hmove_clock) > 0;
   }
 
+  bool comb_may_pass(int last) const;
   void draw_beyond(std::int32_t clock);
   void draw_in_line(std::int32_t clock);
   void forget_row();

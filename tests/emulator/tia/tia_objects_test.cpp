@@ -154,7 +154,7 @@ TEST_CASE("A line that repeats the one above has its collisions, also when only 
   play_alternately(meet, cleared);
 }
 
-// Frames that close within the pixels that an HMOVE blanks ahead of the beam.
+// Frames that stop within the pixels that an HMOVE blanks ahead of the beam. With a VSYNC before, they close.
 
 TEST_CASE("Every access in horizontal blank is an end of a span, though it changes nothing") {
   const Access accesses[] = {write(3, 12, WSYNC, 0),   write(3, 12, VSYNC, 0),
@@ -162,15 +162,17 @@ TEST_CASE("Every access in horizontal blank is an end of a span, though it chang
                              write(3, 12, 0x3F, 0),    write(3, 12, COLUBK, 0x40),
                              read(3, 12, 2),           {Access::kInput, 3 * kLineCycles + 12, 0, 0}};
   for (const Access& access : accesses)
-    for (int last = 23; last < 50; ++last) {
-      INFO("kind " << access.kind << ", register " << access.reg << ", the frame ends at cycle " << last);
-      Comparison machines = fresh();
-      machines.play(kColors + kBeyondWindow, kEnd);  // both buffers get something to show
-      machines.next_frame(kEnd);
-      machines.play(kBeyondWindow, kEnd);
-      machines.next_frame(kEnd);
-      machines.play({write(2, 3, HMOVE, 0), access, write(3, last, VSYNC, 0)}, kEnd);
-    }
+    for (int last = 23; last < 50; ++last)
+      for (const Script& begin : {Script{}, Script{write(0, 3, VSYNC, 2)}}) {
+        INFO("kind " << access.kind << ", register " << access.reg << ", the frame ends at cycle " << last
+                     << (begin.empty() ? "" : ", closed"));
+        Comparison machines = fresh();
+        machines.play(kColors + kBeyondWindow, kEnd);  // both buffers get something to show
+        machines.next_frame(kEnd);
+        machines.play(kBeyondWindow, kEnd);
+        machines.next_frame(kEnd);
+        machines.play(begin + Script{write(2, 3, HMOVE, 0), access, write(3, last, VSYNC, 0)}, kEnd);
+      }
 }
 
 }  // namespace
