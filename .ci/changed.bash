@@ -19,6 +19,7 @@ readonly step_names=(clang address thread fuzz)
 
 # A target of fuzz/, and the paths that it reads the inputs of.
 declare -A fuzz_paths=(
+  [access]='^server/(access|web/origin)'
   [classic_session]='^protocol/classic/'
   [config]='^cli/arguments/'
   [encodings]='^(protocol/encoding|system)/'
@@ -26,6 +27,8 @@ declare -A fuzz_paths=(
   [image]='^(games/(rom_image|zip_archive)|emulator/cartridge/)'
   [line_session]='^protocol/line/'
   [media]='^recording/'
+  [plan]='^agents/(experiment|kinds)/'
+  [rl_glue]='^protocol/classic/rl_glue'
   [state]='^(environment/saved|emulator/state)/'
 )
 readonly fuzz_targets=(fuzz/corpora/*)

@@ -2,38 +2,17 @@
 // output must have the same meaning.
 #include "cli/commands/config.hpp"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 
 #include "cli/arguments/subcommand.hpp"
+#include "fuzz/memory_file.hpp"
 #include "fuzz/target.hpp"
 
 namespace racebeam::fuzz {
 namespace {
-
-// A file in memory, without a name in a folder.
-class MemoryFile {
- public:
-  explicit MemoryFile(std::string_view text) : descriptor_(::memfd_create("config", MFD_CLOEXEC)) {
-    if (descriptor_ < 0 ||
-        ::write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-      throw std::runtime_error("cannot make a file in memory");
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
- private:
-  int descriptor_;
-};
 
 class CapturedOutput {
  public:
