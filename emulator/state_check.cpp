@@ -107,7 +107,7 @@ void check_cartridge(const CartridgeState& state, const CartridgeSlot& slot) {
   if (!slot.scheme.admits(slot, state))
     throw InvalidInput("invalid state: a cartridge of scheme " + std::string(slot.scheme.name) +
                        " has no such banks or registers");
-  const std::size_t used = slot.scheme.ram > kRamInState ? 0 : slot.scheme.ram;
+  const std::size_t used = slot.scheme.ram > kRamInState ? slot.scheme.registers : slot.scheme.ram;
   check_zeros("a byte behind the cartridge's RAM", std::span(state.ram).subspan(used));
 }
 

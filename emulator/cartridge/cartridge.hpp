@@ -62,6 +62,8 @@ struct Scheme : MapperOps {
   bool watches_tia;  // takes part in accesses to the TIA's addresses
   // Sees accesses to the RIOT's ports and timer, too; then watches_tia must be set. RAM is never watched.
   bool watches_riot = false;
+  unsigned registers = 0;   // bytes of the state in use where the RAM is beside it
+  unsigned most_image = 0;  // the most bytes of an image; 0: any number, of which the first are used
 };
 
 // RAM up to this size is part of the state. Larger RAM has a block of its own, which keeps the state of most

@@ -8,6 +8,7 @@
 
 #include "emulator/base/opcodes.hpp"
 #include "games/md5.hpp"
+#include "tests/support/thumb_code.hpp"
 
 namespace racebeam::test {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr unsigned kCartridge = 4096, kStarpathLoad = 8448, kStarpathPages = 24;
+constexpr unsigned kDpcPlusDriver = 3072, kDpcPlusBanks = 6 * 4096, kDpcPlusOthers = 5120;
 
 struct Range {
   unsigned first, size;
@@ -72,6 +74,12 @@ const std::vector<Recipe>& recipes() {
       {"MB", 65536, 4096, {{0x1FF0, 1}}},
       // The program's window shows ROM.
       {"MC", 131072, 1024, {{0x003C, 3}, {0x1000, 0xC00}, {0x1FFC, 2}}, {0xA9, 0x90, 0x85, 0x3F}},
+      // Fast fetch by a bit of RAM, and a call of the ARM.
+      {"DPC+",
+       32768,
+       4096,
+       {{0x1FF6, 6}, {0x1000, 0x28}, {0x1028, 0x58}, {0x1058, 3}},
+       {0xA5, 0x80, 0x29, 0x01, 0x8D, 0x58, 0x10, 0xA9, 0xFF, 0x8D, 0x5A, 0x10}},
   };
   return all;
 }
@@ -111,7 +119,8 @@ class Writer {
       bytes_[vector] = static_cast<std::uint8_t>(begin() & 0xFF);
       bytes_[vector + 1] = static_cast<std::uint8_t>(begin() >> 8);
     }
-    return recipe_.scheme == "AR" ? starpath_load() : units(recipe_.size);
+    if (recipe_.scheme == "AR") return starpath_load();
+    return recipe_.scheme == "DPC+" ? dpcplus() : units(recipe_.size);
   }
 
  private:
@@ -191,6 +200,25 @@ class Writer {
     for (unsigned page = 0; page < kStarpathPages; ++page)
       header[16 + page] = static_cast<std::uint8_t>(page / kPagesABank | page % kPagesABank << 2);
     return load;
+  }
+
+  Bytes random_bytes(std::size_t size) {
+    Bytes all(size);
+    for (std::uint8_t& byte : all) byte = static_cast<std::uint8_t>(below(256));
+    return all;
+  }
+
+  // The banks begin behind the driver. The ARM's program, in front of that of the 6507, reverses a byte of
+  // the display data, and adds it to others.
+  Bytes dpcplus() {
+    using namespace thumb;
+    thumb::put(bytes_, 8,
+               {mov_number(1, 1), lsl(1, 1, 30), mov_number(2, 3), lsl(2, 2, 10), add(1, 1, 2), ldrb(3, 1, 0),
+                alu(kMvn, 3, 3), strb(3, 1, 0), add_number(1, 16), ldr(4, 1, 0), add(4, 4, 3), str(4, 1, 0),
+                bx(kLr)});
+    Bytes all = random_bytes(kDpcPlusDriver), others = random_bytes(kDpcPlusOthers);
+    for (const Bytes& part : {units(kDpcPlusBanks), others}) all.insert(all.end(), part.begin(), part.end());
+    return all;
   }
 
   const Recipe& recipe_;

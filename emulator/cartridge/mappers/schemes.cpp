@@ -12,6 +12,7 @@
 #include "emulator/cartridge/mappers/coleco.hpp"
 #include "emulator/cartridge/mappers/commavid.hpp"
 #include "emulator/cartridge/mappers/dpc.hpp"
+#include "emulator/cartridge/mappers/dpcplus.hpp"
 #include "emulator/cartridge/mappers/dynacom.hpp"
 #include "emulator/cartridge/mappers/jentzsch.hpp"
 #include "emulator/cartridge/mappers/megacart.hpp"
@@ -44,6 +45,7 @@ constexpr MapperOps kE0       = {parker::reset,          parker::map,         pa
 constexpr MapperOps kE7       = {mnetwork::reset,        mnetwork::map,       mnetwork::read, mnetwork::write,       mnetwork::admits};
 constexpr MapperOps kFe       = {activision::reset,      activision::map,     no_hidden_page, kIgnore,               no_banks};
 constexpr MapperOps kDpc      = {dpc::reset,             dpc::map,            dpc::read,      dpc::write,            dpc::admits, dpc::power_on, dpc::port_reader};
+constexpr MapperOps kDpcPlus  = {dpcplus::reset,         dpcplus::map,        dpcplus::read,  dpcplus::write,        dpcplus::admits, nullptr, dpcplus::port_reader};
 constexpr MapperOps k3f       = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write,    tigervision::admits};
 constexpr MapperOps k3e       = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e, tigervision::admits_3e};
 constexpr MapperOps kJane     = {atari::reset,           atari::map,          coleco::read,   coleco::write,         atari::admits};
@@ -63,7 +65,8 @@ constexpr MapperOps kAr       = {starpath::reset,        starpath::map,       st
 constexpr MapperOps kMb       = {atari::reset,           atari::map,          dynacom::read,  dynacom::write,        atari::admits};
 constexpr MapperOps kMc       = {megacart::reset,        megacart::map,       megacart::read, megacart::write,       megacart::admits};
 
-constexpr unsigned kChip = sizeof(dpc::Chip);
+constexpr unsigned kChip = sizeof(dpc::Chip), kDpcPlusChip = sizeof(dpcplus::Chip);
+constexpr unsigned kDpcPlusLeast = dpcplus::kLeastImage, kDpcPlusMost = dpcplus::kMostImage;
 
 constexpr Scheme kSchemes[] = {
     // ops      name          image  hotspot banks init  ram  random  TIA
@@ -85,6 +88,7 @@ constexpr Scheme kSchemes[] = {
     {kE7,       "E7",          16384, 0,        0, 0,  2048, true,  false},
     {kFe,       "FE",           8192, 0,        0, 0,     0, false, false},
     {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false, false},
+    {kDpcPlus,  "DPC+", kDpcPlusLeast, 0xFF6,   6, 5, dpcplus::kRam, false, false, false, kDpcPlusChip, kDpcPlusMost},
     {k3f,       "3F",           2048, 0,        0, 0,     0, false, true},
     {k3e,       "3E",           2048, 0,        0, 0, 32768, true,  true},
     {k3e,       "3EX",          2048, 0,        0, 0, 262144, false, true},
@@ -138,10 +142,12 @@ const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {
                        "; usual sizes are 2048, 4096, 8192, 16384 and 32768 bytes");
   }
   const Scheme& scheme = scheme_named(asked_for);
-  if (rom.size() < scheme.image) {
-    throw InvalidInput("the cartridge scheme " + std::string(scheme.name) + " needs an image of at least " +
-                       std::to_string(scheme.image) + " bytes; this one has " + size);
-  }
+  const auto refuse_size = [&](const char* bound, unsigned bytes) {
+    throw InvalidInput("the cartridge scheme " + std::string(scheme.name) + " needs an image of " + bound +
+                       " " + std::to_string(bytes) + " bytes; this one has " + size);
+  };
+  if (rom.size() < scheme.image) refuse_size("at least", scheme.image);
+  if (scheme.most_image != 0 && rom.size() > scheme.most_image) refuse_size("at most", scheme.most_image);
   return scheme;
 }
 

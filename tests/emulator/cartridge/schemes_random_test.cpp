@@ -8,6 +8,7 @@
 
 #include "tests/emulator/bench.hpp"
 #include "tests/emulator/reference/reference_cartridges.hpp"
+#include "tests/emulator/reference/reference_dpcplus.hpp"
 
 namespace racebeam::test {
 namespace {
@@ -21,12 +22,26 @@ struct Case {
   std::size_t size;
   std::function<std::unique_ptr<CartridgeModel>(const Rom&)> model;
   std::vector<Range> lively;  // addresses with an effect
+  std::function<void(Rom&)> prepare = [](Rom&) {};
 };
 
 template <class Model>
 std::unique_ptr<CartridgeModel> make(const Rom& rom) {
   return std::make_unique<Model>(rom);
 }
+
+// Many LDA #, whose operands fast fetch exchanges, and a program for the ARM.
+void prepare_dpcplus(Rom& rom) {
+  for (std::size_t i = 0; i + 1 < rom.size(); i += 3 + rom[i] % 4U) {
+    rom[i] = 0xA9;
+    rom[i + 1] %= 0x50;
+  }
+  put_counting_program(rom);
+}
+
+const std::vector<Range> kDpcPlusPorts = {{0x1000, 0x28}, {0x1005, 1}, {0x1028, 0x58}, {0x1058, 3},
+                                          {0x105A, 1},    {0x1059, 1}, {0x1068, 8},    {0x1FF6, 6},
+                                          {0x1010, 8},    {0x1020, 4}, {0x1040, 16}};
 
 const std::vector<Case> kCases = {
     {"4KSC", 4096, make<Model4ksc>, {{0x1000, 0x100}}},
@@ -66,6 +81,9 @@ const std::vector<Case> kCases = {
      {{0x003C, 4}, {0x0000, 0x40}, {0x1000, 0x800}, {0x1FFC, 2}, {0x1C00, 0x400}}},
     {"AR", 8448, make<ModelAr>, {{0x1000, 0x100}, {0x1FF8, 1}}},
     {"DPC", 10495, make<ModelDpc>, {{0x1000, 0x40}, {0x1000, 8}, {0x1040, 0x40}, {0x1058, 8}, {0x1FF8, 2}}},
+    {"DPC+", 32768, make<ModelDpcPlus>, kDpcPlusPorts, prepare_dpcplus},
+    {"DPC+", 29696, make<ModelDpcPlus>, kDpcPlusPorts, prepare_dpcplus},
+    {"DPC+", 30001, make<ModelDpcPlus>, kDpcPlusPorts, prepare_dpcplus},
 };
 
 Properties asking_for(const char* scheme) {
@@ -94,7 +112,7 @@ class Trial {
       else if (what == 1)
         go_back();
       else if (what < 50)
-        write(address(), static_cast<unsigned>(below(256)));
+        write(address(), value());
       else
         read(address());
       cycle_ += below(60);
@@ -116,13 +134,26 @@ class Trial {
   Rom random_bytes() {
     Rom rom(case_.size);
     for (std::uint8_t& byte : rom) byte = static_cast<std::uint8_t>(random_());
+    case_.prepare(rom);
     return rom;
   }
 
+  // Sometimes one behind the last.
   unsigned address() {
+    if (last_ >= 0x1000 && last_ < 0x1FFF && below(4) == 0) return ++last_;
+    return last_ = any_address();
+  }
+
+  unsigned any_address() {
     if (below(4) == 0) return 0x1000 + static_cast<unsigned>(below(0x1000));
     const Range& range = case_.lively[static_cast<std::size_t>(below(static_cast<int>(case_.lively.size())))];
     return range.first + static_cast<unsigned>(below(static_cast<int>(range.size)));
+  }
+
+  // Values near 0 and 255 are those that select functions.
+  unsigned value() {
+    const auto any = static_cast<unsigned>(below(256));
+    return below(4) == 0 ? (any % 8 - 4) & 0xFF : any;
   }
 
   void read(unsigned a) {
@@ -160,6 +191,7 @@ class Trial {
   Bench bench_;
   std::unique_ptr<CartridgeModel> model_;
   int cycle_ = 0;
+  unsigned last_ = 0;
   Kept kept_;
 };
 

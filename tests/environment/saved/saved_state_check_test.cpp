@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "emulator/cartridge/mappers/dpc.hpp"
+#include "emulator/cartridge/mappers/dpcplus.hpp"
 #include "environment/saved/saved_state_format.hpp"
 #include "environment/saved_state.hpp"
 #include "tests/environment/steered.hpp"
@@ -94,7 +95,8 @@ const std::vector<Most> kMost = {
     {"03E0", 3, 7},   {"3E+", 0, 0xBF},     {"3E+", 1, 0xBF}, {"3E+", 2, 0xBF},   {"3E+", 3, 0xBF},
     {"FA2", 0, 6},    {"FC", 0, 7},         {"FC", 1, 7},     {"SB", 0, 31},      {"EF", 0, 15},
     {"EFSC", 0, 15},  {"DF", 0, 31},        {"DFSC", 0, 31},  {"BF", 0, 63},      {"BFSC", 0, 63},
-    {"MC", 0, kAny},  {"MC", 1, kAny},      {"MC", 2, kAny},  {"MC", 3, kAny},    {"MC", 4, 1}};
+    {"MC", 0, kAny},  {"MC", 1, kAny},      {"MC", 2, kAny},  {"MC", 3, kAny},    {"MC", 4, 1},
+    {"DPC+", 0, 5},   {"DPC+", 1, 1},       {"DPC+", 2, 1}};
 
 std::uint8_t most_of(std::string_view scheme, std::size_t index) {
   for (const Most& one : kMost)
@@ -133,7 +135,7 @@ TEST_CASE("E0's last window shows the last slice in every state") {
 }
 
 TEST_CASE("Bytes behind a cartridge's RAM must be zero") {
-  for (const std::string_view scheme : {"F8", "F8SC", "E7", "DPC", "AR"}) {
+  for (const std::string_view scheme : {"F8", "F8SC", "E7", "DPC", "DPC+", "AR"}) {
     INFO(scheme);
     Environment environment = random_machine(scheme);
     CHECK_THAT(refusal(environment, [](Values& values) { values.machine.cartridge.ram[255] = 1; }),
@@ -141,15 +143,21 @@ TEST_CASE("Bytes behind a cartridge's RAM must be zero") {
   }
 }
 
+// A refusal after `spoil` has changed the chip.
+template <class Chip>
+std::string refusal_of_chip(Environment& environment, const std::function<void(Chip&)>& spoil) {
+  return refusal(environment, [&](Values& values) {
+    Chip chip;
+    std::memcpy(&chip, values.machine.cartridge.ram.data(), sizeof chip);
+    spoil(chip);
+    std::memcpy(values.machine.cartridge.ram.data(), &chip, sizeof chip);
+  });
+}
+
 TEST_CASE("Registers that DPC's chip can't have are refused") {
   Environment environment = random_machine("DPC");
   const auto with_chip = [&](const std::function<void(dpc::Chip&)>& spoil) {
-    return refusal(environment, [&](Values& values) {
-      dpc::Chip chip;
-      std::memcpy(&chip, values.machine.cartridge.ram.data(), sizeof chip);
-      spoil(chip);
-      std::memcpy(values.machine.cartridge.ram.data(), &chip, sizeof chip);
-    });
+    return refusal_of_chip(environment, spoil);
   };
   const auto highest = [](dpc::Chip& chip) { chip.fetcher[7].counter = 2047, chip.fetcher[7].music = 1; };
   CHECK(with_chip(highest).empty());
@@ -163,6 +171,37 @@ TEST_CASE("Registers that DPC's chip can't have are refused") {
       [](dpc::Chip& chip) { chip.spare[6] = 1; }};
   for (const auto& spoil : spoilt)
     CHECK_THAT(with_chip(spoil), Catch::Contains("has no such banks or registers"));
+}
+
+TEST_CASE("Registers that DPC+'s chip can't have are refused") {
+  using dpcplus::Chip;
+  Environment environment = random_machine("DPC+");
+  const auto highest = [](Chip& chip) {
+    chip.fetcher.fill({4095, 255, 255});
+    chip.fractional.fill({4095, 255, 255});
+    chip.voice.fill({0xFFFFFFFF, 0xFFFFFFFF});
+    chip.waveform.fill(127);
+    chip.random = 0xFFFFFFFF;
+    chip.instructions = dpcplus::kMostInstructions;
+    chip.into_sample = dpcplus::kSampleParts - 1;
+    chip.parameters = 8;
+    chip.next = 0x1FFF, chip.missing = 2, chip.loads = 1, chip.stopped = 1;
+  };
+  CHECK(refusal_of_chip<Chip>(environment, highest).empty());
+  const std::function<void(Chip&)> spoilt[] = {
+      [](Chip& chip) { chip.fetcher[3].pointer = 4096; },
+      [](Chip& chip) { chip.fractional[7].pointer = 4096; },
+      [](Chip& chip) { chip.waveform[2] = 128; },
+      [](Chip& chip) { chip.instructions = dpcplus::kMostInstructions + 1; },
+      [](Chip& chip) { chip.into_sample = dpcplus::kSampleParts; },
+      [](Chip& chip) { chip.parameters = 9; },
+      [](Chip& chip) { chip.next = 0x2000; },
+      [](Chip& chip) { chip.missing = 3; },
+      [](Chip& chip) { chip.loads = 2; },
+      [](Chip& chip) { chip.stopped = 2; },
+      [](Chip& chip) { chip.spare[2] = 1; }};
+  for (const auto& spoil : spoilt)
+    CHECK_THAT(refusal_of_chip(environment, spoil), Catch::Contains("has no such banks or registers"));
 }
 
 TEST_CASE("Cartridge RAM of another size is refused") {
