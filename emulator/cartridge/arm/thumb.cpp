@@ -17,8 +17,9 @@ constexpr Word kAllButThumbBit = ~Word{1};
 
 // While an instruction is executed, r[kPc] is its address plus 4.
 struct Core : Registers {
-  const Memory& memory;
-  Word next;  // address of the next instruction
+  const Memory memory;
+  std::uint32_t left;  // instructions
+  Word next;           // address of the next one
   bool runs = true;
   Ending ending = Ending::kOutOfTime;
 
@@ -26,6 +27,7 @@ struct Core : Registers {
     ending = how;
     runs = false;
   }
+  void spend(int instructions) { left -= std::min(left, static_cast<std::uint32_t>(instructions)); }
   void jump(Word address) { next = address & kAllButThumbBit; }
 };
 
@@ -209,9 +211,11 @@ void move_stack(Core& core, Code code) {
   core.r[kSp] += field(code, 7, 1) != 0 ? Word{0} - distance : distance;
 }
 
-// Formats 14 and 15: several registers, the lowest one at the lowest address.
+// Formats 14 and 15: several registers, the lowest one at the lowest address. Each takes as long as an
+// instruction.
 
 Word store_listed(Core& core, Code list, Word address) {
+  core.spend(std::popcount(list & 0xFF));
   for (unsigned number = 0; number < kLowRegisters; ++number) {
     if (field(list, number, 1) == 0) continue;
     core.memory.store(address, core.r[number]);
@@ -221,6 +225,7 @@ Word store_listed(Core& core, Code list, Word address) {
 }
 
 Word load_listed(Core& core, Code list, Word address) {
+  core.spend(std::popcount(list & 0xFF));
   for (unsigned number = 0; number < kLowRegisters; ++number) {
     if (field(list, number, 1) == 0) continue;
     core.r[number] = core.memory.load<Word>(address);
@@ -382,6 +387,7 @@ constexpr auto kHandlers = [] {
 }();
 
 void execute_next(Core& core) {
+  --core.left;
   const std::uint8_t* bytes = core.memory.find(core.next, kHalf);
   if (bytes == nullptr) return core.end(Ending::kFault);
   const Code code = bytes[0] | Code{bytes[1]} << 8;
@@ -393,10 +399,11 @@ void execute_next(Core& core) {
 }  // namespace
 
 Ending run(const Memory& memory, Registers& registers, std::uint32_t& left) {
-  Core core{registers, memory, registers.r[kPc]};
-  for (; core.runs && left > 0; --left) execute_next(core);
+  Core core{registers, memory, left, registers.r[kPc]};
+  while (core.runs && core.left > 0) execute_next(core);
   registers = core;
   registers.r[kPc] = core.next;
+  left = core.left;
   return core.ending;
 }
 

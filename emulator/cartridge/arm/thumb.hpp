@@ -22,7 +22,8 @@ enum class Ending : std::uint8_t {
   kOutOfTime,  // all instructions are used up
 };
 
-// Runs code from registers.r[kPc] on, at most `left` instructions. Subtracts those that were executed.
+// Runs code from registers.r[kPc] on, until `left` instructions are used up. Subtracts those that were
+// executed. A register in a list counts as an instruction.
 Ending run(const Memory& memory, Registers& registers, std::uint32_t& left);
 
 }  // namespace racebeam::arm

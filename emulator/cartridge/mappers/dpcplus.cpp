@@ -47,17 +47,20 @@ std::uint16_t moved(std::uint16_t pointer, unsigned distance) {
   return static_cast<std::uint16_t>((pointer + distance) & kMostPointer);
 }
 
+void add_instructions(Chip& chip, std::int64_t cycles) {
+  const auto all = chip.instructions + kInstructionsPerCycle * static_cast<std::uint64_t>(cycles);
+  chip.instructions = static_cast<std::uint32_t>(std::min<std::uint64_t>(kMostInstructions, all));
+}
+
 // Time: the phases of the voices, and the instructions that the ARM may execute.
 void pass_time(CartridgeSlot& slot, std::int32_t cycle) {
-  std::uint32_t& clock = slot.machine.frame.cartridge_clock;
-  const auto passed = static_cast<std::int32_t>(static_cast<std::uint32_t>(cycle) - clock);
-  clock = static_cast<std::uint32_t>(cycle);
-  if (passed <= 0) return;
   Chip& chip = chip_of(slot);
-  const auto cycles = std::uint64_t(passed);
-  chip.instructions = static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(kMostInstructions, chip.instructions + kInstructionsPerCycle * cycles));
-  const std::uint64_t parts = chip.into_sample + kPartsPerCycle * cycles;
+  const auto before = static_cast<std::int32_t>(slot.machine.frame.cartridge_clock);
+  slot.machine.frame.cartridge_clock = static_cast<std::uint32_t>(cycle);
+  if (cycle <= before) return;
+  add_instructions(chip, std::int64_t{std::min(cycle, kCyclesOfFrame)} - std::min(before, kCyclesOfFrame));
+  const std::uint64_t parts =
+      chip.into_sample + kPartsPerCycle * static_cast<std::uint64_t>(std::int64_t{cycle} - before);
   chip.into_sample = static_cast<std::uint32_t>(parts % kSampleParts);
   for (Voice& voice : chip.voice)
     voice.phase += voice.frequency * static_cast<std::uint32_t>(parts / kSampleParts);

@@ -18,8 +18,9 @@ constexpr unsigned kRam = kDriver + kDisplaySize + kFrequencies;
 constexpr unsigned kLeastImage = kBanks * kBankSize + kDisplaySize + kFrequencies;  // without a driver
 constexpr unsigned kMostImage = kDriver + kLeastImage;
 
-// The ARM's time. An endless call ends when all is used up.
-constexpr std::uint32_t kInstructionsPerCycle = 16, kMostInstructions = 1U << 20;
+// The ARM's time. An endless call ends when all is used up. A frame that does not end gives no more of it.
+constexpr std::uint32_t kInstructionsPerCycle = 16, kMostInstructions = 1U << 19;
+constexpr std::int32_t kCyclesOfFrame = 32768;
 
 struct Fetcher {
   std::uint16_t pointer;  // 12 bits
