@@ -145,7 +145,7 @@ TEST_CASE("POP, MOV and ADD to PC stay in Thumb; BX to an even address returns")
   chip[1] = kStart + 16;
   CHECK(chip.run() == Ending::kReturned);
   CHECK(chip[arm::kSp] == kRam + 0x1008);
-  CHECK(chip.left == 97);
+  CHECK(chip.left == 96);  // a register in a list counts
 }
 
 TEST_CASE("Code runs in RAM, too, and changes itself there") {
