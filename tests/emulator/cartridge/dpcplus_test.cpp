@@ -185,9 +185,13 @@ TEST_CASE("DPC+: after a fault, or a call that never ends, the ARM stands still 
   }
 }
 
-// A call has a quarter of a million instructions. It counts before it is known whether it returns.
+// A quarter of a million instructions, and some more. A call counts before it is known whether it returns.
+Rom lengthy() {
+  return counting({mov_number(0, 1), lsl(0, 0, 17), sub_number(0, 1), branch_if(kNe, -2), bx(kLr)});
+}
+
 TEST_CASE("DPC+: the ARM has half a million instructions, and more for each cycle that has passed") {
-  const Rom rom = counting({mov_number(0, 1), lsl(0, 0, 17), sub_number(0, 1), branch_if(kNe, -2), bx(kLr)});
+  const Rom rom = lengthy();
   CHECK(calls_in(rom, 10) == 3);
   Bench bench(rom, asking_for_dpcplus());
   CHECK(calls_in(rom, 1, &bench) == 1);
@@ -195,6 +199,26 @@ TEST_CASE("DPC+: the ARM has half a million instructions, and more for each cycl
   CHECK(calls_in(rom, 10, &bench) == 3);
   bench.next_frame(bench.state.cycle + 40000);
   CHECK(calls_in(rom, 10, &bench) == 0);
+}
+
+void call_at(Bench& bench, int cycle) {
+  bench.write_at(cycle, 0x105A, 0xFF);
+  bench.see(0x1080, cycle);
+}
+
+TEST_CASE("DPC+: a frame that does not end gives the ARM instructions for 32768 cycles") {
+  Bench bench(lengthy(), asking_for_dpcplus());
+  for (int call = 0; call < 10; ++call) call_at(bench, 100000 * call);
+  CHECK(display(bench, 0) == 3);
+}
+
+TEST_CASE("DPC+: a clock that is ahead, in a state from elsewhere, gives the ARM no instructions") {
+  Bench bench(lengthy(), asking_for_dpcplus());
+  for (int call = 0; call < 10; ++call) {
+    bench.state.frame.cartridge_clock = 50;
+    call_at(bench, 0);
+  }
+  CHECK(display(bench, 0) == 2);
 }
 
 TEST_CASE("DPC+: three voices are waves of the display data, 20000 samples a second") {
