@@ -379,10 +379,11 @@ constexpr unsigned kUnusedBits = 6;  // no mask has one of the lower bits
 
 constexpr auto kHandlers = [] {
   std::array<Handler, (0x10000 >> kUnusedBits)> handlers{};
-  for (Code upper = 0; upper < handlers.size(); ++upper)
-    handlers[upper] = std::ranges::find_if(kFormats, [upper](const Format& format) {
-                        return (upper << kUnusedBits & format.mask) == format.bits;
-                      })->handler;
+  for (Code upper = 0; upper < handlers.size(); ++upper) {
+    const Format* format = kFormats;
+    while ((upper << kUnusedBits & format->mask) != format->bits) ++format;
+    handlers[upper] = format->handler;
+  }
   return handlers;
 }();
 
