@@ -15,7 +15,7 @@ import client  # noqa: E402
 LONGEST_REPLY = 1 << 20
 
 
-def shown(value):
+def text_of(value):
     return f"{len(value)}:{zlib.adler32(value):08x}" if isinstance(value, bytes) else str(value)
 
 
@@ -50,7 +50,7 @@ class Runner:
         self.last = groups[0]
         if self.stack:
             self.follow(command, groups[0])
-        return "ok" + " |".join("".join(f" {key}={shown(group[key])}" for key in sorted(group)) for group in groups)
+        return "ok" + " |".join("".join(f" {key}={text_of(group[key])}" for key in sorted(group)) for group in groups)
 
     def follow(self, command, group):
         """Shows the client's stack of screens, under the name that the server gives to such a field."""
@@ -103,7 +103,7 @@ class Runner:
 
     def picture(self, path):
         self.session.save_png(path)
-        return f"picture {shown(pathlib.Path(path).read_bytes())}"
+        return f"picture {text_of(pathlib.Path(path).read_bytes())}"
 
     def keep(self, variable, key):
         self.variables[variable] = str(self.last[key])

@@ -65,8 +65,8 @@ class Basic:
         colours = np.zeros(WIDTH * HEIGHT, np.uint8)
         pixels = np.frombuffer(screen, np.uint8)[: WIDTH * HEIGHT]
         colours[: len(pixels)] = pixels >> 1
-        changed = np.flatnonzero(colours != self.background)
-        return np.unique(self.first[changed] + colours[changed])
+        differing = np.flatnonzero(colours != self.background)
+        return np.unique(self.first[differing] + colours[differing])
 
 
 class Sarsa:
@@ -224,9 +224,9 @@ def show_progress(options, steps, start):
         done, total, unit = min(sum(steps), options.steps), options.steps, "steps with learning"
     else:
         done, total, unit = len(steps), options.training + options.evaluation, "episodes"
-    left = (time.monotonic() - start) * (total - done) / done
+    remaining = (time.monotonic() - start) * (total - done) / done
     bar = "#" * (30 * done // total)
-    print(f"\r[{bar:30}] {done:,} of {total:,} {unit}, {left:.0f} s left ", end="", file=sys.stderr)
+    print(f"\r[{bar:30}] {done:,} of {total:,} {unit}, {remaining:.0f} s left ", end="", file=sys.stderr)
     print(end="\n" if done == total else "", file=sys.stderr, flush=True)
 
 
@@ -237,8 +237,8 @@ def schedule(options, steps):
     """
     while sum(steps) < options.steps if options.steps else len(steps) < options.training:
         yield True, not options.evaluation and not options.steps and len(steps) == options.training - 1
-    for left in reversed(range(options.evaluation)):
-        yield False, left == 0
+    for remaining in reversed(range(options.evaluation)):
+        yield False, remaining == 0
 
 
 def read_options():

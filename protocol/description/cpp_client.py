@@ -47,9 +47,9 @@ def comment(command, shape, told):
 
 def method(command):
     kind, _, key = command.returns.partition(" ")
-    read, told = RESULTS[kind]
+    read, result = RESULTS[kind]
     shape = Shape(command)
-    head = comment(command, shape, told)
+    head = comment(command, shape, result)
     called = [read.replace("{key}", key), quoted(command.name), *(argument.name for argument in shape.required)]
     parameters = [f"{TYPES[argument.type]} {argument.name}" for argument in shape.required]
     if not shape.others:
@@ -131,18 +131,18 @@ def enumerator(encoding):
 
 
 def fields(protocol):
-    named = protocol.byte_fields
+    fields = protocol.byte_fields
     return (
         f"{HEAD}#pragma once\n\n#include <array>\n#include <cstddef>\n#include <string_view>\n#include <utility>\n\n"
         '#include "racebeam/client/config.hpp"\n#include "racebeam/client/encoding.hpp"\n\n'
         "namespace RACEBEAM_CLIENT_NAMESPACE::detail {\n\n"
         "/// What bytes are written in where the client does not say.\n"
-        + table("Encoding", "kUsual", ((field.name, enumerator(field.encoding)) for field in named))
+        + table("Encoding", "kUsual", ((field.name, enumerator(field.encoding)) for field in fields))
         + "/// Bytes of fields that always have the same number.\n"
-        + table("std::size_t", "kSizes", ((field.name, field.fixed_size) for field in named if field.fixed_size))
+        + table("std::size_t", "kSizes", ((field.name, field.fixed_size) for field in fields if field.fixed_size))
         + "/// Bytes of a pixel of fields that have the size of the screen.\n"
         + table(
-            "std::size_t", "kPixels", ((field.name, field.bytes_of_pixel) for field in named if not field.fixed_size)
+            "std::size_t", "kPixels", ((field.name, field.bytes_of_pixel) for field in fields if not field.fixed_size)
         )
         + "\n}  // namespace RACEBEAM_CLIENT_NAMESPACE::detail\n"
     )

@@ -233,11 +233,11 @@ def expect(condition, sentence):
 
 def rows(table, kind, document):
     """The rows of a table of the document, as objects."""
-    known = {field.name for field in dataclasses.fields(kind)}
+    names = {field.name for field in dataclasses.fields(kind)}
     for row in document.get(table, []):
-        unknown = set(row) - known
+        unknown = set(row) - names
         expect(
-            not unknown, f"rows of {table} have no {', '.join(sorted(unknown))}; they have {', '.join(sorted(known))}"
+            not unknown, f"rows of {table} have no {', '.join(sorted(unknown))}; they have {', '.join(sorted(names))}"
         )
         try:
             yield kind(
@@ -264,14 +264,14 @@ def completed(command, settings):
     """A command with its arguments as objects, and with what follows from them."""
     arguments = tuple(with_choices(Argument(**argument), settings) for argument in command.arguments)
     required = sum(1 for argument in arguments if not argument.optional)
-    most = math.inf if any(argument.is_repeated for argument in arguments) else len(arguments)
+    limit = math.inf if any(argument.is_repeated for argument in arguments) else len(arguments)
     return dataclasses.replace(
         command,
         arguments=arguments,
         method=command.method or command.name,
         usage=command.usage or " ".join(argument.usage for argument in arguments),
         least=required if command.least < 0 else command.least,
-        most=most if command.most < 0 else command.most,
+        most=limit if command.most < 0 else command.most,
     )
 
 

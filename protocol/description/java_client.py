@@ -68,10 +68,10 @@ def javadoc(command, parameters, result):
 
 def method(command, parameters):
     kind, _, key = command.returns.partition(" ")
-    result, body, told = (text.replace("{key}", key) for text in RESULTS[kind])
+    result, body, summary = (text.replace("{key}", key) for text in RESULTS[kind])
     line = " + ".join([f'"{command.name}"', *map(expression, parameters)])
     return (
-        javadoc(command, parameters, told)
+        javadoc(command, parameters, summary)
         + f"  public {result} {camel(command.method)}({', '.join(map(parameter, parameters))}) throws IOException {{\n"
         + f"    {body.replace('line{}', line)}\n  }}\n"
     )
@@ -113,14 +113,14 @@ def map_of(pairs):
 
 
 def fields(protocol):
-    named = protocol.byte_fields
-    usual = map_of((field.name, f"Encoding.{field.encoding.upper()}") for field in named)
-    sizes = map_of((field.name, field.fixed_size) for field in named if field.fixed_size)
-    pixels = map_of((field.name, field.bytes_of_pixel) for field in named if not field.fixed_size)
+    fields = protocol.byte_fields
+    defaults = map_of((field.name, f"Encoding.{field.encoding.upper()}") for field in fields)
+    sizes = map_of((field.name, field.fixed_size) for field in fields if field.fixed_size)
+    pixels = map_of((field.name, field.bytes_of_pixel) for field in fields if not field.fixed_size)
     return (
         f"{HEAD}import java.util.Map;\n\n/** The fields of bytes. */\nfinal class FieldTable {{\n"
         f"  /** What bytes are written in where the client does not say. */\n  static final Map<String, Encoding> "
-        f"USUAL = {usual};\n"
+        f"USUAL = {defaults};\n"
         f"  /** Bytes of fields that always have the same number. */\n  static final Map<String, Integer> SIZES = "
         f"{sizes};\n"
         f"  /** Bytes of a pixel of fields that have the size of the screen. */\n"

@@ -47,12 +47,12 @@ class Signature:
     def request(self):
         """The parts of the request, in its order."""
         yield f'"{self.command.name}"'
-        told = False
+        has_settings = False
         for argument in self.command.arguments:
             if argument.key and self.setting:
                 yield f'keyed("{argument.key}", {argument.name})'
-            elif argument.key and not told:
-                told = True
+            elif argument.key and not has_settings:
+                has_settings = True
                 yield "settings"
             elif argument.is_repeated:
                 yield f"...{argument.name}"

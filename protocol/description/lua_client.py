@@ -19,12 +19,12 @@ def parameters(signature):
 
 def request(command, signature):
     yield f'"{command.name}"'
-    told = False
+    has_settings = False
     for argument in command.arguments:
         if argument.key and signature.setting:
             yield f'keyed("{argument.key}", {argument.name})'
-        elif argument.key and not told:
-            told = True
+        elif argument.key and not has_settings:
+            has_settings = True
             yield 'settings or ""'
         elif argument.is_repeated:
             yield "..."

@@ -89,8 +89,8 @@ def setting(row):
 
 
 def field(row):
-    usual = f"bytes; without an encoding as {row.encoding}" if row.encoding else ""
-    return entry(row.name, row.summary_text, usual)
+    encoding = f"bytes; without an encoding as {row.encoding}" if row.encoding else ""
+    return entry(row.name, row.summary_text, encoding)
 
 
 def old(word):

@@ -128,23 +128,23 @@ def length(one):
 
 
 def fields(protocol):
-    usual = "".join(f'    "{field.name}": "{field.encoding}",\n' for field in protocol.byte_fields)
+    defaults = "".join(f'    "{field.name}": "{field.encoding}",\n' for field in protocol.byte_fields)
     shapes = "".join(
         f'    "{field.name}": ({", ".join(map(length, field.shape))}{"," * (len(field.shape) == 1)}),\n'
         for field in protocol.byte_fields
     )
     return (
-        f"# The encoding of each field when `observe` does not name one.\nUSUAL_ENCODING = {{\n{usual}}}\n"
+        f"# The encoding of each field when `observe` does not name one.\nUSUAL_ENCODING = {{\n{defaults}}}\n"
         f"SHAPES: dict[str, tuple[int | str, ...]] = {{\n{shapes}}}\n"
     )
 
 
 def files(protocol, read):
-    written = {
+    contents = {
         FIELDS: with_region(read(FIELDS), "", "#", "fields", fields(protocol)),
         COMMANDS: with_region(read(COMMANDS), "    ", "#", "commands", commands(protocol)),
     }
     modules = {
-        name: written.get(f"{FOLDER}/{name}.py") or read(f"{FOLDER}/{name}.py") for name in python_single_file.MODULES
+        name: contents.get(f"{FOLDER}/{name}.py") or read(f"{FOLDER}/{name}.py") for name in python_single_file.MODULES
     }
-    return written | {SINGLE_FILE: python_single_file.joined(modules)}
+    return contents | {SINGLE_FILE: python_single_file.joined(modules)}

@@ -194,10 +194,10 @@ def restore(path, parameters):
     """Reads parameters of the same shapes from a file of keep()."""
     leaves, tree = jax.tree.flatten(parameters)
     with np.load(path) as file:
-        kept = [file[f"arr_{index}"] for index in range(len(file.files))]
-    if [one.shape for one in kept] != [one.shape for one in leaves]:
+        arrays = [file[f"arr_{index}"] for index in range(len(file.files))]
+    if [one.shape for one in arrays] != [one.shape for one in leaves]:
         raise ValueError(f"{path} has a policy for another game, or for another --observe")
-    return jax.tree.unflatten(tree, kept)
+    return jax.tree.unflatten(tree, arrays)
 
 
 def play_games(options, parameters):
@@ -246,9 +246,9 @@ def film(path, frames):
 def show_progress(done, total, began):
     """Shows how far the program is, and how long it still takes, if a person looks on."""
     if sys.stderr.isatty():
-        left = (time.perf_counter() - began) * (total - done) / done
+        remaining = (time.perf_counter() - began) * (total - done) / done
         bar = "#" * (30 * done // total)
-        print(f"\r[{bar:30}] {done:,} of {total:,} steps, {left:.0f} s left ", end="", file=sys.stderr, flush=True)
+        print(f"\r[{bar:30}] {done:,} of {total:,} steps, {remaining:.0f} s left ", end="", file=sys.stderr, flush=True)
         print(end="\n" if done == total else "", file=sys.stderr)
 
 

@@ -85,12 +85,12 @@ class SlurmServers:
         try:
             executor = self._executor or submitit.AutoExecutor(folder=self._subfolder / "%j")
             executor.update_parameters(**{"name": "racebeam-servers", **self._parameters})
-            announced = [str(self._subfolder / f"server-{number}") for number in range(self._count)]
-            self.jobs = executor.map_array(_serve, [[*self._options, "--announce", file] for file in announced])
+            announcements = [str(self._subfolder / f"server-{number}") for number in range(self._count)]
+            self.jobs = executor.map_array(_serve, [[*self._options, "--announce", file] for file in announcements])
         except BaseException:
             self._end()
             raise
-        return [f"file:{file}?wait={self._wait:g}" for file in announced]
+        return [f"file:{file}?wait={self._wait:g}" for file in announcements]
 
     def __exit__(
         self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None

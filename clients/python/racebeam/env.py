@@ -178,7 +178,7 @@ class AtariEnv(EnvWithView):
         timeout: float | None = None,
         life_loss_ends: bool | None = None,
     ) -> None:
-        usual = preset_of(preset)
+        defaults = preset_of(preset)
         check_rules(rules)
         check_choice("obs_type", obs_type, tuple(VIEWS))
         check_choice("render_mode", render_mode, RENDER_MODES)
@@ -189,9 +189,9 @@ class AtariEnv(EnvWithView):
         check_source(game, self._rom, self._game_file, server)
         self._game_mode, self._game_difficulty = optional_whole("mode", mode), optional_whole("difficulty", difficulty)
         self._obs_type, self._view = obs_type, VIEWS[obs_type]
-        self._frameskip = frameskip_of(value_or(frameskip, usual.frameskip))
-        self._noop_max = whole("noop_max", value_or(noop_max, usual.noop_max), 0, MOST)
-        self._reward_range: tuple[float, float] | None = value_or(reward_range, usual.reward_range)
+        self._frameskip = frameskip_of(value_or(frameskip, defaults.frameskip))
+        self._noop_max = whole("noop_max", value_or(noop_max, defaults.noop_max), 0, MOST)
+        self._reward_range: tuple[float, float] | None = value_or(reward_range, defaults.reward_range)
         self._two_player = two_player
         self.continuous = continuous
         self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
@@ -203,18 +203,18 @@ class AtariEnv(EnvWithView):
         self._name = str(game)
         check_reward_range(self._reward_range)
         sticky = share(
-            "repeat_action_probability", value_or(repeat_action_probability, usual.repeat_action_probability)
+            "repeat_action_probability", value_or(repeat_action_probability, defaults.repeat_action_probability)
         )
         limit = optional_whole(
-            "max_num_frames_per_episode", value_or(max_num_frames_per_episode, usual.max_num_frames_per_episode)
+            "max_num_frames_per_episode", value_or(max_num_frames_per_episode, defaults.max_num_frames_per_episode)
         )
         truncates = flag(
             "life_loss_ends", value_or(renamed("life_loss_ends", life_loss_ends, "life_loss", None), False)
         )
-        word = value_or(life_loss, "ignored" if life_loss_ends is not None else usual.life_loss)
+        word = value_or(life_loss, "ignored" if life_loss_ends is not None else defaults.life_loss)
         check_choice("life_loss", word, LIFE_LOSSES)
         self._life_loss = LifeLoss(word)
-        is_full = flag("full_action_space", value_or(full_action_space, usual.full_action_space))
+        is_full = flag("full_action_space", value_or(full_action_space, defaults.full_action_space))
         if server is None and game is not None:
             self._check_game(game)
         self.ale: Any = self._interface(server, token, seconds("timeout", timeout))

@@ -181,14 +181,14 @@ def log_of(start: Start, actions: Sequence[int], episode: Episode, origin: Origi
     Returns:
         The bytes of the log, and the row's columns by name.
     """
-    ended = {
+    result = {
         "score": str(episode.score),
         "frames": str(episode.frames),
         "decisions": str(episode.decisions),
         "end": "terminated" if episode.is_terminated else "truncated",
         "lives": str(episode.lives),
     }
-    played = {
+    source = {
         "unit": f"{start.game}-{origin.agent}-{origin.trial}",
         "agent": origin.agent,
         "trial": str(origin.trial),
@@ -197,10 +197,10 @@ def log_of(start: Start, actions: Sequence[int], episode: Episode, origin: Origi
         "version": importlib.metadata.version("racebeam"),
     }
     md5, _ = _core.identify(start.image)
-    text = f"load {start.game} {_words(start.settings)}\nimage {md5}\nfrom {_words(played)}\nended {_words(ended)}\n\n"
+    text = f"load {start.game} {_words(start.settings)}\nimage {md5}\nfrom {_words(source)}\nended {_words(result)}\n\n"
     hashes = struct.pack(f"<{len(episode.hashes)}Q", *episode.hashes)
     log = _seal(text.encode() + hashes + bytes(actions[: episode.decisions]))
-    row = played | ended | {"game": start.game, "image_md5": md5, "environment_seed": str(start.seed)}
+    row = source | result | {"game": start.game, "image_md5": md5, "environment_seed": str(start.seed)}
     digest = hashlib.sha256(log).hexdigest()
     return log, row | {"state_hash": f"{episode.hashes[-1]:016x}", "log_digest": digest}
 

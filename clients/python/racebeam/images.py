@@ -83,12 +83,12 @@ def folders() -> list[tuple[str, pathlib.Path | None]]:
     Returns:
         For each place its description, and its folder or None if it is not set.
     """
-    named: list[tuple[str, pathlib.Path | None]] = []
+    places: list[tuple[str, pathlib.Path | None]] = []
     for variable in VARIABLES:
         value = os.environ.get(variable)
-        named.append((variable, pathlib.Path(value) if value else None))
-    named.append(("an installed ale_py", ale_folder()))
-    return named
+        places.append((variable, pathlib.Path(value) if value else None))
+    places.append(("an installed ale_py", ale_folder()))
+    return places
 
 
 def path_or_bytes(rom: Any) -> Rom:
@@ -146,9 +146,9 @@ def _find_in(folder: pathlib.Path, game: str) -> str | None:
     Identifies the file again even if the cache has it. A file can change within one tick of the file system's clock
     without a visible sign.
     """
-    named = _find_by_name(folder, game)
-    if named is not None:
-        return named
+    file = _find_by_name(folder, game)
+    if file is not None:
+        return file
     found = _images(_files(folder)).get(game)
     if found is None or _identify(found) == game:
         return found
@@ -178,16 +178,16 @@ def find(game: str) -> str:
     if game in built_in():
         return BUILT_IN + game
     searched: list[str] = []
-    for named, folder in folders():
+    for place, folder in folders():
         if folder is None:
-            searched.append(f"{named} (not there)" if named not in VARIABLES else f"{named} (not set)")
+            searched.append(f"{place} (not there)" if place not in VARIABLES else f"{place} (not set)")
         elif not folder.is_dir():
-            searched.append(f"{named}, {folder} (not a folder)")
+            searched.append(f"{place}, {folder} (not a folder)")
         else:
             found = _find_in(folder, game)
             if found is not None:
                 return found
-            searched.append(f"{named}, {folder} (no file has an MD5 of the game)")
+            searched.append(f"{place}, {folder} (no file has an MD5 of the game)")
     raise MissingImage(
         f"no cartridge image of {game} was found; racebeam searched {'; '.join(searched)}. "
         "Set RACEBEAM_ROMS to a folder of images, install ale-py, or pass rom= a path or bytes"

@@ -18,9 +18,9 @@ def path() -> str:
     Raises:
         FileNotFoundError: If the program is not found.
     """
-    named = os.environ.get("RACEBEAM_PROGRAM")
-    if named:
-        return named
+    program = os.environ.get("RACEBEAM_PROGRAM")
+    if program:
+        return program
     installed = _installed()
     found = str(installed) if installed is not None else shutil.which("racebeam")
     if found is None:

@@ -210,9 +210,9 @@ class VectorEnvironmentTests(Base):
         is_disabled = getattr(envs.metadata.get("autoreset_mode"), "name", "") == "DISABLED"
         for row in actions:
             steps.append(envs.step(row))
-            ended = steps[-1][2] | steps[-1][3]
-            if is_disabled and ended.any():
-                steps.append(envs.reset(options={"reset_mask": ended}))
+            is_over = steps[-1][2] | steps[-1][3]
+            if is_disabled and is_over.any():
+                steps.append(envs.reset(options={"reset_mask": is_over}))
         return steps
 
     def test_results_have_the_shapes_of_the_spaces(self) -> None:
@@ -249,12 +249,12 @@ class VectorEnvironmentTests(Base):
         together = [envs.reset(seed=self.seed)[0], *(step[:4] for step in self._play(envs, actions) if len(step) == 5)]
         for index in range(3):
             one = self._open(1)
-            alone = [one.reset(seed=self.seed + index)[0]]
-            alone += [
+            single = [one.reset(seed=self.seed + index)[0]]
+            single += [
                 step[:4] for step in self._play(one, [row[index : index + 1] for row in actions]) if len(step) == 5
             ]
             rows = [together[0][index], *(tuple(array[index] for array in step) for step in together[1:])]
-            singles = [alone[0][0], *(tuple(array[0] for array in step) for step in alone[1:])]
+            singles = [single[0][0], *(tuple(array[0] for array in step) for step in single[1:])]
             self.assertTrue(equal(rows, singles), f"environment {index} differs")
 
     def test_results_belong_to_the_caller(self) -> None:

@@ -192,26 +192,26 @@ class AtariVectorEnv(PlayedVector):
         check_source(game, rom, own_file, server)
         names, game_of_env = parse_games(game, num_envs, self._check_game, server is None)
         console = console_of(scheme=scheme, left=left, right=right, format=format, ystart=ystart, height=height)
-        usual = vector_preset(preset)
+        defaults = vector_preset(preset)
         options = VectorOptions(
             num_envs=len(game_of_env),
             batch_size=batch_size,
             num_threads=num_threads,
             thread_affinity_offset=thread_affinity_offset,
-            max_num_frames_per_episode=value_or(max_num_frames_per_episode, usual.max_num_frames_per_episode),
-            repeat_action_probability=value_or(repeat_action_probability, usual.repeat_action_probability),
-            full_action_space=value_or(full_action_space, usual.full_action_space),
+            max_num_frames_per_episode=value_or(max_num_frames_per_episode, defaults.max_num_frames_per_episode),
+            repeat_action_probability=value_or(repeat_action_probability, defaults.repeat_action_probability),
+            full_action_space=value_or(full_action_space, defaults.full_action_space),
             continuous=continuous,
             autoreset_mode=autoreset_mode,
             img_height=img_height,
             img_width=img_width,
             grayscale=grayscale,
             stack_num=stack_num,
-            frameskip=value_or(frameskip, usual.frameskip),
+            frameskip=value_or(frameskip, defaults.frameskip),
             maxpool=maxpool,
-            noop_max=value_or(noop_max, usual.noop_max),
-            reward_clipping=value_or(reward_clipping, usual.reward_clipping),
-            use_fire_reset=value_or(use_fire_reset, usual.use_fire_reset),
+            noop_max=value_or(noop_max, defaults.noop_max),
+            reward_clipping=value_or(reward_clipping, defaults.reward_clipping),
+            use_fire_reset=value_or(use_fire_reset, defaults.use_fire_reset),
             mode=mode,
             difficulty=difficulty,
             obs_type=obs_type,
@@ -219,7 +219,7 @@ class AtariVectorEnv(PlayedVector):
                 merge_life_flags(
                     renamed("lives", life_loss_of(lives), "life_loss", life_loss), episodic_life, life_loss_info
                 ),
-                usual.life_loss,
+                defaults.life_loss,
             ),
             start=start,
             stack_start=stack_start,

@@ -229,9 +229,9 @@ def _seeds(values: Any, count: int) -> Any:
     array = _integers("seed", values)
     offsets = np.arange(count if array.ndim == 0 else 1, dtype=np.uint32)
     if isinstance(array, np.ndarray):
-        most = SEEDS - int(offsets[-1])
-        if (array > most).any():
-            raise InvalidInput(f"the seed is {array[array > most][0]}; it takes up to {most}")
+        limit = SEEDS - int(offsets[-1])
+        if (array > limit).any():
+            raise InvalidInput(f"the seed is {array[array > limit][0]}; it takes up to {limit}")
     jax_numpy = import_jax().numpy
     numbers = (jax_numpy.asarray(array.astype(np.uint32)) + offsets) & np.uint32(SEEDS)
     return jax_numpy.where(array < 0, -1, numbers.astype(np.int32))

@@ -681,10 +681,10 @@ class SocketStream:
         with memoryview(data) as view:
             while have < count:
                 self._limit_wait(until)
-                received = self.connection.recv_into(view[have:])
-                if received == 0:
+                size = self.connection.recv_into(view[have:])
+                if size == 0:
                     break
-                have += received
+                have += size
         self._restore_limit(until)
         del data[have:]
         return data
@@ -1817,8 +1817,8 @@ def connect(
         TimeoutError: If no server answers in time.
         Refused: If the token is wrong.
     """
-    session, address, announced = reach(address, lambda found: _open(found, tls, timeout, arrays))
-    token = token or announced
+    session, address, announcement = reach(address, lambda found: _open(found, tls, timeout, arrays))
+    token = token or announcement
     try:
         session.address, session.longest_reply = address, longest_reply
         session.again = lambda: connect(

@@ -86,7 +86,7 @@ class ALEInterface(interface.ALEInterface):
         Raises:
             RuntimeError: If the game does not have the mode.
         """
-        offered = self.getAvailableModes()
-        if isinstance(mode, (int, np.integer)) and mode not in offered:
-            raise InvalidInput(f"Invalid game mode requested: mode is {mode}; it takes {', '.join(map(str, offered))}")
+        modes = self.getAvailableModes()
+        if isinstance(mode, (int, np.integer)) and mode not in modes:
+            raise InvalidInput(f"Invalid game mode requested: mode is {mode}; it takes {', '.join(map(str, modes))}")
         super().setMode(mode)

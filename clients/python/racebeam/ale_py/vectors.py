@@ -315,8 +315,8 @@ class ALEVectorInterface:
             raise ValueError(f"there is a duplicate env_id in {ids}; each is reset once")
         every = np.full(count, -1, np.int64)
         every[ids] = [operator.index(seed) for seed in seeds]
-        chosen = np.isin(np.arange(count), ids)
-        return self._envs.reset(seed=every[chosen], options=None if chosen.all() else {"reset_mask": chosen})
+        selection = np.isin(np.arange(count), ids)
+        return self._envs.reset(seed=every[selection], options=None if selection.all() else {"reset_mask": selection})
 
     def send(self, action_ids: Sequence[int], paddle_strengths: Sequence[float], /) -> None:
         """Begins a step of the environments that were received last.

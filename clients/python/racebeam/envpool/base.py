@@ -136,10 +136,10 @@ class EnvPool:
             InvalidInput: If `env_ids` is empty.
         """
         pictures = self._envs.render() or ()
-        chosen = np.atleast_1d(self._render_env_id if env_ids is None else env_ids)
-        if chosen.size == 0:
+        envs = np.atleast_1d(self._render_env_id if env_ids is None else env_ids)
+        if envs.size == 0:
             raise InvalidInput("env_ids is empty; it takes one environment or more")
-        return np.stack([pictures[env][:ROWS] for env in chosen])
+        return np.stack([pictures[env][:ROWS] for env in envs])
 
     def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
         """Makes functions that programs compiled by JAX call.
@@ -240,10 +240,10 @@ class EnvPool:
 
     def _format_with_info(self, results: Results) -> tuple[Any, Any, Any, Any, Info]:
         """Returns observations, rewards, done, truncated and the info."""
-        named = self._name_results(results)
-        info = {name: named[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
-        info |= {"players": {"env_id": named["info:players.env_id"]}, "elapsed_step": named["elapsed_step"]}
-        return named["obs"], named["reward"], named["done"], named["trunc"], info
+        arrays = self._name_results(results)
+        info = {name: arrays[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
+        info |= {"players": {"env_id": arrays["info:players.env_id"]}, "elapsed_step": arrays["elapsed_step"]}
+        return arrays["obs"], arrays["reward"], arrays["done"], arrays["trunc"], info
 
 
 def _checked_parts(action: dict[str, Any]) -> dict[str, Any]:

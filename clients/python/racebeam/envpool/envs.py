@@ -175,8 +175,8 @@ class Envs(AtariVectorEnv):
         if array.dtype.kind not in "bf":
             return super()._parse_actions(array, count)
         if (far := array[~(np.abs(array) <= MOST)]).size:
-            most = self._machines.numbers_of_actions()[0] - 1
-            raise IndexError(f"action {far[0]} is out of range; accepted: 0 to {most}")
+            highest = self._machines.numbers_of_actions()[0] - 1
+            raise IndexError(f"action {far[0]} is out of range; accepted: 0 to {highest}")
         return super()._parse_actions(array.astype(np.int64), count)
 
     def parse_env_id(self, env_id: Any) -> Numbers:

@@ -105,10 +105,10 @@ def _pool_arguments(task_id: str, config: dict[str, Any], returns_info: bool) ->
 
 
 def _check_info_wanted(env_type: str, config: dict[str, Any]) -> None:
-    wanted = config.get("gym_reset_return_info")
-    if wanted is not None and not checked(flag, "gym_reset_return_info", wanted):
+    value = config.get("gym_reset_return_info")
+    if value is not None and not checked(flag, "gym_reset_return_info", value):
         raise InvalidSetting(
-            f"gym_reset_return_info is {wanted!r}; {env_type} environments take True, "
+            f"gym_reset_return_info is {value!r}; {env_type} environments take True, "
             'and make(env_type="gym") takes both'
         )
 

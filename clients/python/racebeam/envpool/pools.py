@@ -265,7 +265,7 @@ class DMEnvPool(EnvPool):
         return dm_specs().BoundedArray((), float, 0.0, 1.0, "discount")
 
     def _format(self, results: Results) -> TimeStep:
-        named = self._name_results(results)
-        info = {name: named[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
-        state = State(players=Players(named["info:players.env_id"]), obs=named["obs"], **info)
-        return TimeStep(named["step_type"], named["reward"], named["discount"], state)
+        arrays = self._name_results(results)
+        info = {name: arrays[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
+        state = State(players=Players(arrays["info:players.env_id"]), obs=arrays["obs"], **info)
+        return TimeStep(arrays["step_type"], arrays["reward"], arrays["discount"], state)

@@ -75,5 +75,5 @@ class RawPool:
         self._pool.send(parts["action"], parts["env_id"])
 
     def _recv(self) -> tuple[Any, ...]:
-        named = self._pool._name_results(self._pool._receive())
-        return tuple(np.asarray(named[key]) for key in self._state_keys)
+        arrays = self._pool._name_results(self._pool._receive())
+        return tuple(np.asarray(arrays[key]) for key in self._state_keys)

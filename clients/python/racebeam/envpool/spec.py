@@ -117,11 +117,11 @@ def _task_of(game: str) -> str:
     return f"{''.join(map(str.capitalize, game.split('_')))}-v5"
 
 
-def without_rendering(given: Mapping[str, Any]) -> dict[str, Any]:
+def without_rendering(settings: Mapping[str, Any]) -> dict[str, Any]:
     """Takes the arguments for rendering away.
 
     Args:
-        given: Settings and arguments for rendering.
+        settings: Settings and arguments for rendering.
 
     Returns:
         The settings.
@@ -129,24 +129,24 @@ def without_rendering(given: Mapping[str, Any]) -> dict[str, Any]:
     Raises:
         InvalidSetting: If an argument for rendering has a value that is not accepted.
     """
-    for name in RENDERING.keys() & given.keys():
-        played = RENDERING[name]
-        if played and not any(given[name] is one or _equals(given[name], one) for one in played):
-            raise InvalidSetting(f"{name} is {given[name]!r}; racebeam has only {join(map(repr, played))}")
-    return {name: value for name, value in given.items() if name not in RENDERING}
+    for name in RENDERING.keys() & settings.keys():
+        accepted = RENDERING[name]
+        if accepted and not any(settings[name] is one or _equals(settings[name], one) for one in accepted):
+            raise InvalidSetting(f"{name} is {settings[name]!r}; racebeam has only {join(map(repr, accepted))}")
+    return {name: value for name, value in settings.items() if name not in RENDERING}
 
 
-def _equals(value: Any, wanted: Any) -> bool:
+def _equals(value: Any, expected: Any) -> bool:
     """Compares values. An array of several values does not equal a number."""
-    return bool(np.array_equal(value, wanted))
+    return bool(np.array_equal(value, expected))
 
 
-def _checked_config(given: Iterable[Any]) -> Any:
+def _checked_config(config: Iterable[Any]) -> Any:
     """Checks the values of all settings, and returns them as a Config."""
-    listed = tuple(given)
-    if len(listed) != len(CONFIG):
-        raise InvalidSetting(f"there are {len(listed)} values; there must be {len(CONFIG)}: {', '.join(CONFIG)}")
-    values = dict(zip(CONFIG, listed, strict=True))
+    items = tuple(config)
+    if len(items) != len(CONFIG):
+        raise InvalidSetting(f"there are {len(items)} values; there must be {len(CONFIG)}: {', '.join(CONFIG)}")
+    values = dict(zip(CONFIG, items, strict=True))
     if values["task"] not in games().values():
         raise UnknownTask(f"unknown game {values['task']!r}; list_all_envs() lists the tasks")
     for name, value in FIXED.items():
@@ -179,13 +179,15 @@ def seeds_of(config: Any) -> np.ndarray[Any, np.dtype[np.int64]]:
         InvalidSetting: If a seed is not an int32, or the number of seeds is wrong.
     """
     name = "env_seed" if np.size(config.env_seed) else "seed"
-    given = getattr(config, name)
-    if np.ndim(given) == 0 and not isinstance(given, str):
-        seeds = checked(whole, name, given, INT.min, INT.max) + np.arange(config.num_envs, dtype=np.int64)
+    seed_setting = getattr(config, name)
+    if np.ndim(seed_setting) == 0 and not isinstance(seed_setting, str):
+        seeds = checked(whole, name, seed_setting, INT.min, INT.max) + np.arange(config.num_envs, dtype=np.int64)
         return seeds % 2**32
-    if len(given) != config.num_envs:
-        raise InvalidSetting(f"{name} has {len(given)} seeds; accepted: {config.num_envs}, one for each environment")
-    return np.array([checked(whole, name, seed, INT.min, INT.max) for seed in given], np.int64) % 2**32
+    if len(seed_setting) != config.num_envs:
+        raise InvalidSetting(
+            f"{name} has {len(seed_setting)} seeds; accepted: {config.num_envs}, one for each environment"
+        )
+    return np.array([checked(whole, name, seed, INT.min, INT.max) for seed in seed_setting], np.int64) % 2**32
 
 
 class ArraySpec(NamedTuple):

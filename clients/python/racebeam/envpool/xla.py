@@ -42,8 +42,8 @@ def functions(
     def recv(handle: Any) -> tuple[Any, Any]:
         """Waits for the first `batch_size` environments that finish."""
         handle, observations, *rest = xla.call("receive", list(zip(shapes, kinds, strict=True)), handle)
-        named = dict(zip(RESULTS, rest, strict=True))
-        fields = {name: named[FIELDS.get(name, name)] for name in Results._fields if name != "observations"}
+        arrays = dict(zip(RESULTS, rest, strict=True))
+        fields = {name: arrays[FIELDS.get(name, name)] for name in Results._fields if name != "observations"}
         return handle, format_results(Results(observations, **fields))
 
     def send(handle: Any, action: Any, env_id: Any = None) -> Any:

@@ -74,12 +74,12 @@ class EnvWithActions(gymnasium.Env[Any, Any]):
         radius, angle, fire = action
         threshold = np.float32(self.continuous_action_threshold)  # the comparisons are those of float32
         x, y = radius * np.cos(angle), radius * np.sin(angle)
-        chosen = self.map_action_idx(
+        index = self.map_action_idx(
             left_center_right=int(x > threshold) - int(x < -threshold),
             down_center_up=int(y > threshold) - int(y < -threshold),
             fire=bool(fire > threshold),
         )
-        return chosen.value, float(radius)
+        return index.value, float(radius)
 
     @staticmethod
     def map_action_idx(left_center_right: int, down_center_up: int, fire: bool) -> Action:

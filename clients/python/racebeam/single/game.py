@@ -103,26 +103,26 @@ class EnvWithGame(EnvWithActions):
             self.ale.setDifficulty(self._game_difficulty)
 
     def _mode_for_one(self) -> int | None:
-        offered: list[int] = self.ale.getAvailableModes()
+        modes: list[int] = self.ale.getAvailableModes()
         if (
             self._game_mode is not None
             and self._game_mode in self.ale.getTwoPlayerModes()
-            and self._game_mode not in offered
+            and self._game_mode not in modes
         ):
             raise InvalidInput(
                 f"{self._name} has mode {self._game_mode} only for two, which two_player=True plays; "
-                f"for one it offers {join(offered)}"
+                f"for one it offers {join(modes)}"
             )
         return self._game_mode
 
     def _mode_for_two(self) -> int:
-        offered: list[int] = self.ale.getTwoPlayerModes()
-        if not offered:
+        modes: list[int] = self.ale.getTwoPlayerModes()
+        if not modes:
             raise InvalidInput(f"two_player is True, but {self._name} has no mode for two")
         if self._game_mode is None:
-            return offered[0]
-        if self._game_mode not in offered:
-            raise InvalidInput(f"{self._name} has no mode {self._game_mode} for two; it offers {join(offered)}")
+            return modes[0]
+        if self._game_mode not in modes:
+            raise InvalidInput(f"{self._name} has no mode {self._game_mode} for two; it offers {join(modes)}")
         return self._game_mode
 
     # States

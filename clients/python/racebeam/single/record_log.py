@@ -257,4 +257,4 @@ def _preset_of(start: Start) -> str:
     if start.rules != "ale-0.12" or start.life_loss != "ignored":
         return "other"
     settings = (start.frame_skip, start.sticky, start.action_set, start.max_episode_frames)
-    return next((name for name, wanted in PRESETS.items() if wanted == settings), "other")
+    return next((name for name, preset in PRESETS.items() if preset == settings), "other")

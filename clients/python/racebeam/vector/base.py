@@ -143,7 +143,7 @@ class VectorBase(VectorEnv[Any, Any, Any]):
         return observations, results.rewards, results.terminated, results.truncated, info
 
     def _make_info(self, results: Results) -> Info:
-        lost = {"lost": self._machines.lost} if isinstance(self._machines, SpreadMachines) else {}
+        losses = {"lost": self._machines.lost} if isinstance(self._machines, SpreadMachines) else {}
         return {
             "env_id": results.env_id,
             "lives": results.lives,
@@ -151,7 +151,7 @@ class VectorBase(VectorEnv[Any, Any, Any]):
             "episode_frame_number": results.episode_frames,
             "raw_reward": results.raw_rewards,
             "game_over": results.game_over,
-            **lost,
+            **losses,
         }
 
     def _add_finals(self, info: Info, observations: Any, results: Results) -> None:
@@ -162,15 +162,18 @@ class VectorBase(VectorEnv[Any, Any, Any]):
         for env in np.flatnonzero(finished):
             objects[env] = row_of(finals, int(env))
         numbers = np.where(finished, results.final_numbers, 0)
-        named = dict(zip(("lives", "frame_number", "episode_frame_number"), numbers, strict=True))
+        finals_by_name = dict(zip(("lives", "frame_number", "episode_frame_number"), numbers, strict=True))
         info["final_obs"], info["_final_obs"] = objects, finished
-        info["final_info"], info["_final_info"] = {**named, **{f"_{key}": finished for key in named}}, finished
+        info["final_info"], info["_final_info"] = (
+            {**finals_by_name, **{f"_{key}": finished for key in finals_by_name}},
+            finished,
+        )
 
     def _show_window(self) -> None:
         """Shows the environments that the last call returned."""
         if self._window is not None:
-            shown = (int(env) for env in self._received_ids if self._window.shows(int(env)))
-            self._window.show(((env, self._machines.screen(env)) for env in shown), self._options.frameskip)
+            visible = (int(env) for env in self._received_ids if self._window.shows(int(env)))
+            self._window.show(((env, self._machines.screen(env)) for env in visible), self._options.frameskip)
 
     # The end
 

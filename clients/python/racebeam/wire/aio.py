@@ -59,7 +59,7 @@ async def connect(
         Refused: If the token is wrong.
     """
     opened = await asyncio.to_thread(reach, address, lambda found: open_socket(found, timeout))
-    (connection, host), found, announced = opened
+    (connection, host), found, announcement = opened
     context = (tls or ssl.create_default_context()) if host else None
     opening = asyncio.open_connection(sock=connection, limit=longest_reply, ssl=context, server_hostname=host or None)
     try:
@@ -68,7 +68,7 @@ async def connect(
         connection.close()
         raise TimeoutError(f"no server answers at {found}: timed out") from None
     session = AsyncSession(reader, writer, found, longest_reply, arrays, timeout=timeout)
-    token = token or announced
+    token = token or announcement
     session.again = lambda: connect(
         found, token=token, tls=tls, timeout=timeout, longest_reply=longest_reply, arrays=arrays
     )
@@ -101,8 +101,8 @@ async def launch(*options: str, program: str | None = None, arrays: bool = False
 
 async def _greet(session: AsyncSession, token: str | None) -> AsyncSession:
     try:
-        said = await session.request("hello", **({} if token is None else {"token": token}))
-        session.check_greeting(said[0])
+        groups = await session.request("hello", **({} if token is None else {"token": token}))
+        session.check_greeting(groups[0])
         return session
     except BaseException:
         await session.close()
@@ -228,11 +228,11 @@ class AsyncSession:
         clock = asyncio.get_running_loop().time
         begin = clock()
         while not answer.done():
-            left = max(begin, self._replies.heard) + limit - clock()
-            if left <= 0:
+            remaining = max(begin, self._replies.last_reply) + limit - clock()
+            if remaining <= 0:
                 answer.cancel()
                 raise self._session.fail(TimeoutError())
-            await asyncio.wait([answer], timeout=left)
+            await asyncio.wait([answer], timeout=remaining)
 
     async def reconnect(self) -> AsyncSession:
         """Opens a new session of the same server, without a game, and closes this one.
@@ -264,13 +264,13 @@ class _Replies:
 
     Attributes:
         awaited: For each request without a reply, in order, its future and its reader.
-        heard: Time of the last reply, on the clock of the event loop.
+        last_reply: Time of the last reply, on the clock of the event loop.
     """
 
     def __init__(self, reader: asyncio.StreamReader, session: Session) -> None:
         self._reader, self._session = reader, session
         self.awaited: collections.deque[tuple[asyncio.Future[Any], Read]] = collections.deque()
-        self.heard = 0.0
+        self.last_reply = 0.0
 
     async def read(self) -> None:
         """Answers requests until the connection ends. Then the other requests raise the error."""
@@ -294,8 +294,8 @@ class _Replies:
         try:
             value = await read(line)
         except Refused as error:
-            refused = error
-            self._answer(lambda answer: answer.set_exception(refused))
+            refusal = error
+            self._answer(lambda answer: answer.set_exception(refusal))
         else:
             self._answer(lambda answer: answer.set_result(value))
 
@@ -320,7 +320,7 @@ class _Replies:
 
     def _answer(self, how: Callable[[asyncio.Future[Any]], None]) -> None:
         """Answers the oldest request, if it still waits."""
-        self.heard = asyncio.get_running_loop().time()
+        self.last_reply = asyncio.get_running_loop().time()
         if (
             self.awaited and len(self.awaited) != len(self._session.unanswered) + 1
         ):  # Ctrl-C came between send() and append()

@@ -73,8 +73,8 @@ def connect(
         TimeoutError: If no server answers in time.
         Refused: If the token is wrong.
     """
-    session, address, announced = reach(address, lambda found: _open(found, tls, timeout, arrays))
-    token = token or announced
+    session, address, announcement = reach(address, lambda found: _open(found, tls, timeout, arrays))
+    token = token or announcement
     try:
         session.address, session.longest_reply = address, longest_reply
         session.again = lambda: connect(

@@ -173,8 +173,8 @@ class RemoteGame:
         if rom is None:
             self.ask(self.session.load, game, **settings)
         else:
-            named = {"as_": game} if game is not None else {}
-            self.ask(self.session.load, "inline", image=_read_image(rom), **named, **settings)
+            arguments = {"as_": game} if game is not None else {}
+            self.ask(self.session.load, "inline", image=_read_image(rom), **arguments, **settings)
         self._loaded = rom, game, settings
         self._colours = np.array(self.session.palette(), np.uint8)
         self._greys = np.append(self._colours[1:, 2], np.uint8(0))  # the blue of the entry after it
@@ -201,12 +201,12 @@ class RemoteGame:
     @exclusive
     def doubt(self) -> str:
         """Returns a warning if the game's rule was written for another image, else an empty string."""
-        shown = self.ask(self.session.settings)
-        if shown.get("image") != "other":
+        values = self.ask(self.session.settings)
+        if values.get("image") != "other":
             return ""
         return (
-            f"the MD5 of this image, {shown['md5']}, is not that of the image which the rule of '{shown['game']}' was "
-            "written for; score and end may be wrong"
+            f"the MD5 of this image, {values['md5']}, is not that of the image which the rule of '{values['game']}' "
+            "was written for; score and end may be wrong"
         )
 
     def _list(self, key: str, command: str) -> list[int]:

@@ -87,9 +87,9 @@ class RemoteMachines(Halves):
             },
         )
         modes = {"mode": settings.mode, "difficulty": settings.difficulty}
-        chosen = {name: value for name, value in modes.items() if value is not None}
-        if chosen:
-            self._machine.ask(self._session.set, **chosen)
+        values = {name: value for name, value in modes.items() if value is not None}
+        if values:
+            self._machine.ask(self._session.set, **values)
 
     def _open(self, settings: VectorSettings) -> None:
         if not settings.fire and settings.start is not ResetOrder.FIRE_NOOPS:

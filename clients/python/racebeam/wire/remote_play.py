@@ -62,17 +62,17 @@ class RemotePlay(RemoteGame):
         view = View(view)
         self._observe(view)
         word = f"{int(action)}@{float(paddle_strength):.9g}/{int(action_b) - 18}@{float(paddle_strength_b):.9g}"
-        shown = self.ask(self.session.act, f"{word}*{int(times)}")
-        self._act_after_the_end(word, times - max(shown["acts"], 1))
+        result = self.ask(self.session.act, f"{word}*{int(times)}")
+        self._act_after_the_end(word, times - max(result["acts"], 1))
         return (
-            self._decode(shown, view),
-            float(shown["reward"]),
-            float(shown["reward_b"]),
-            bool(shown["terminated"]),
-            bool(shown["truncated"]),
-            shown["lives"],
-            shown["episode_frame"],
-            shown["frame"],
+            self._decode(result, view),
+            float(result["reward"]),
+            float(result["reward_b"]),
+            bool(result["terminated"]),
+            bool(result["truncated"]),
+            result["lives"],
+            result["episode_frame"],
+            result["frame"],
         )
 
     def _act_after_the_end(self, word: str, acts: int) -> None:
@@ -149,8 +149,8 @@ class RemotePlay(RemoteGame):
     # Screens, RAM and sound
 
     def _show(self, view: View, buffer: Pixels | None) -> Pixels | None:
-        seen: Pixels = self._decode(self._look("ram:hex" if view is View.RAM else "screen:zlib"), view)
-        return _fill(seen, buffer)
+        pixels: Pixels = self._decode(self._look("ram:hex" if view is View.RAM else "screen:zlib"), view)
+        return _fill(pixels, buffer)
 
     @exclusive
     @check_types

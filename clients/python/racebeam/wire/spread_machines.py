@@ -30,10 +30,8 @@ LEAVING = ("stopping", "busy", "idle", "internal")  # the errors after which a s
 
 def _is_loss(error: Exception) -> bool:
     """Returns whether an exception means that the server is lost; else the request was wrong."""
-    refused = error if isinstance(error, Refused) else error.__cause__
-    return isinstance(error, (ConnectionError, TimeoutError)) or (
-        isinstance(refused, Refused) and refused.code in LEAVING
-    )
+    cause = error if isinstance(error, Refused) else error.__cause__
+    return isinstance(error, (ConnectionError, TimeoutError)) or (isinstance(cause, Refused) and cause.code in LEAVING)
 
 
 class _Part:
@@ -113,12 +111,12 @@ class SpreadMachines(Halves):
             for share, address in zip(shares, self._servers, strict=False)
         ]
         try:
-            absent = self._open_all()
-            for part, _ in absent:
+            missing = self._open_all()
+            for part, _ in missing:
                 self._lost_before[part.rows] = True
                 self._servers.remove(part.address)
-            for part, failure in absent:
-                self._place(part, [failure for _, failure in absent], self._seed_of(part))
+            for part, failure in missing:
+                self._place(part, [failure for _, failure in missing], self._seed_of(part))
                 warnings.warn(f"{part.names} begin on {part.address}: {failure}", RuntimeWarning, stacklevel=4)
         except BaseException:
             self.close()
@@ -144,14 +142,14 @@ class SpreadMachines(Halves):
 
         for part in self._parts:
             threading.Thread(target=open_one, args=(part,), daemon=True).start()
-        absent = []
+        missing = []
         for _ in self._parts:
             part, error = opened.get()
             if error is not None and not _is_loss(error):
                 raise error
             if error is not None:
-                absent.append((part, error))
-        return sorted(absent, key=lambda one: one[0].rows.start)
+                missing.append((part, error))
+        return sorted(missing, key=lambda one: one[0].rows.start)
 
     def _seed_of(self, part: _Part) -> int:
         return int((self._options.seed + part.rows.start) % 2**32)

@@ -173,10 +173,10 @@ class SocketStream:
         with memoryview(data) as view:
             while have < count:
                 self._limit_wait(until)
-                received = self.connection.recv_into(view[have:])
-                if received == 0:
+                size = self.connection.recv_into(view[have:])
+                if size == 0:
                     break
-                have += received
+                have += size
         self._restore_limit(until)
         del data[have:]
         return data
