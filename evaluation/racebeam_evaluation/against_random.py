@@ -53,5 +53,5 @@ def _interval(
 def _means(
     sample: npt.NDArray[np.float64], bootstrap: Bootstrap, generator: np.random.Generator
 ) -> npt.NDArray[np.float64]:
-    drawn = generator.integers(0, len(sample), (bootstrap.repetitions, len(sample)))
-    return np.asarray(sample[drawn].mean(axis=1))
+    indices = generator.integers(0, len(sample), (bootstrap.repetitions, len(sample)))
+    return np.asarray(sample[indices].mean(axis=1))

@@ -53,9 +53,9 @@ class Bootstrap:
     def _of_ragged(self, function: Callable[..., Matrix], matrices: tuple[Matrix, ...]) -> Estimate:
         """The same, a percentile bootstrap, of matrices that rliable does not take."""
         generator = np.random.default_rng(self.seed)
-        drawn = [function(*(_drawn(matrix, generator) for matrix in matrices)) for _ in range(self.repetitions)]
+        estimates = [function(*(_resample(matrix, generator) for matrix in matrices)) for _ in range(self.repetitions)]
         tail = 50 * (1 - self.confidence)
-        low, high = np.percentile(drawn, [tail, 100 - tail], axis=0)
+        low, high = np.percentile(estimates, [tail, 100 - tail], axis=0)
         return Estimate(function(*matrices), low, high)
 
 
@@ -86,7 +86,7 @@ def _is_ragged(scores: Matrix) -> bool:
     return bool(np.isnan(scores).any())
 
 
-def _drawn(scores: Matrix, generator: np.random.Generator) -> Matrix:
+def _resample(scores: Matrix, generator: np.random.Generator) -> Matrix:
     """Draws as many trials of each game anew."""
     rows = (generator.random(scores.shape) * trials_of(scores)).astype(int)
     return np.where(np.isnan(scores), np.nan, np.take_along_axis(scores, rows, axis=0))

@@ -13,16 +13,16 @@ def with_trained(curves: pd.DataFrame, axis: str = "frames") -> pd.DataFrame:
     """The training episodes of curves.csv in order, with the column "trained": frames, or what `axis` says, of the
     trial up to each one's end."""
     ordered = curves.sort_values(["game", "agent", "trial", "episode"], kind="stable", ignore_index=True)
-    trained = ordered.groupby(["game", "agent", "trial"])[axis].cumsum()
-    return ordered.assign(trained=trained)
+    totals = ordered.groupby(["game", "agent", "trial"])[axis].cumsum()
+    return ordered.assign(trained=totals)
 
 
 def checkpoint(trial: pd.DataFrame, point: int, fewest: int = WINDOW) -> float:
     """The mean score of the last 100 episodes of a trial that had ended by a point; NaN if there are fewer than
     `fewest`. Rows that say with "window" of how many rows a mean is made are themselves means of many episodes."""
     window = int(trial["window"].iloc[0]) if "window" in trial and trial["window"].notna().all() else WINDOW
-    ended = trial[trial["trained"] <= point]
-    return float(ended["score"].tail(window).mean()) if len(ended) >= min(fewest, window) else float("nan")
+    finished = trial[trial["trained"] <= point]
+    return float(finished["score"].tail(window).mean()) if len(finished) >= min(fewest, window) else float("nan")
 
 
 def learning_curves(curves: pd.DataFrame) -> pd.DataFrame:
@@ -37,7 +37,7 @@ def learning_curves(curves: pd.DataFrame) -> pd.DataFrame:
     of_trials = episodes.assign(stretch=stretch).groupby([*keys, "trial"])["score"].mean()
     rows = of_trials.groupby(keys).agg(["mean", "sem", "count"]).reset_index()
     frames = rows["stretch"] * rows["game"].map(episodes.groupby("game")["trained"].max()) / _BINS
-    made = pd.DataFrame(
+    frame = pd.DataFrame(
         {
             "game": rows["game"],
             "agent": rows["agent"],
@@ -47,8 +47,8 @@ def learning_curves(curves: pd.DataFrame) -> pd.DataFrame:
             "standard error": rows["sem"],
         }
     )
-    order = {game: index for index, game in enumerate(in_order(list(set(made["game"]))))}
-    return made.sort_values(
+    order = {game: index for index, game in enumerate(in_order(list(set(frame["game"]))))}
+    return frame.sort_values(
         ["game", "agent", "frames"],
         kind="stable",
         ignore_index=True,

@@ -31,14 +31,14 @@ def _of_axis(curves: pd.DataFrame, axis: str, ranges: Ranges, bootstrap: Bootstr
     trained = trained[trained["game"].isin(games)]
     if not len(trained):
         return []
-    made = []
+    frames = []
     for point in _points(trained, axis):
         for agent in agents:
             columns = [_scores_at(trained, agent, game, point, ranges) for game in games]
             if not all(map(len, columns)):
                 continue
             estimate = bootstrap.estimate(aggregates, padded(columns))
-            made.append(
+            frames.append(
                 {
                     "normalisation": ranges.name,
                     "axis": axis,
@@ -50,21 +50,21 @@ def _of_axis(curves: pd.DataFrame, axis: str, ranges: Ranges, bootstrap: Bootstr
                     "IQM high": float(estimate.high[_IQM]),
                 }
             )
-    return made
+    return frames
 
 
 def _common_games(trained: pd.DataFrame, agents: list[str], ranges: Ranges) -> list[str]:
-    played = trained.groupby("game")["agent"].nunique()
-    common = [str(game) for game in played.index[played == len(agents)]]
+    counts = trained.groupby("game")["agent"].nunique()
+    common = [str(game) for game in counts.index[counts == len(agents)]]
     without = ranges.without(common)
     return [game for game in common if game not in without]
 
 
 def _points(trained: pd.DataFrame, axis: str) -> list[int]:
     shortest = int(trained.groupby(["game", "agent", "trial"])["trained"].max().min())
-    reached = [point for point in _STANDARD if axis == "frames" and shortest + _longest(trained) >= point]
-    if len(reached) > 1:
-        return reached
+    points = [point for point in _STANDARD if axis == "frames" and shortest + _longest(trained) >= point]
+    if len(points) > 1:
+        return points
     return [max(1, shortest * part // _STRETCHES) for part in range(1, _STRETCHES + 1)]
 
 
@@ -79,5 +79,5 @@ def _scores_at(
     """The normalised score of each trial that an episode has ended in by then."""
     rows = trained[(trained["agent"] == agent) & (trained["game"] == game)]
     scores = [checkpoint(trial, point, fewest=1) for _, trial in rows.groupby("trial")]
-    known = np.array([score for score in scores if score == score])
-    return np.asarray((known - ranges.low[game]) / ranges.span[game])
+    defined = np.array([score for score in scores if score == score])
+    return np.asarray((defined - ranges.low[game]) / ranges.span[game])

@@ -56,10 +56,10 @@ CATALOGUE = tuple(published("catalogue").index)  # the names of all games that r
 
 def check_games(path: pathlib.Path, games: pd.Series, others: set[str]) -> None:
     """Raises BadInput if one of the games of a file's rows is neither racebeam's nor one of `others`."""
-    known = {*CATALOGUE, *others}
+    names = {*CATALOGUE, *others}
     for row, game in enumerate(games.astype("str")):
-        if game not in known:
-            close = difflib.get_close_matches(game.lower(), known, n=1)
+        if game not in names:
+            close = difflib.get_close_matches(game.lower(), names, n=1)
             raise BadInput(
                 f"{path}, line {row + 2}: unknown game '{game}'; "
                 + (

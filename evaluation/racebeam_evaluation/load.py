@@ -39,8 +39,8 @@ def load(*paths: str | pathlib.Path, mix: bool = False) -> Frames:
     """Reads folders of results, and files of Dopamine, DQN Zoo and rliable. Raises BadInput for others."""
     results = read_all([pathlib.Path(path) for path in paths], mix)
     scores: Scores = scores_of(results)
-    counted = results.episodes.dropna(subset=["score"])
-    trials = counted.groupby(["game", "agent", "trial"], as_index=False)["score"].mean()
+    episodes = results.episodes.dropna(subset=["score"])
+    trials = episodes.groupby(["game", "agent", "trial"], as_index=False)["score"].mean()
     curves = pd.DataFrame(columns=["game", "agent", "trial", "episode", "score", "frames"])
     return Frames(
         results.episodes,

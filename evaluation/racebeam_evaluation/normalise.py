@@ -31,8 +31,8 @@ class Ranges:
 
     def without(self, games: list[str]) -> list[str]:
         """The games that have no range, or an empty one."""
-        known = self.span.dropna().index
-        return [game for game in games if game not in known]
+        names = self.span.dropna().index
+        return [game for game in games if game not in names]
 
 
 def all_ranges(scores: Scores, group: Group) -> list[Ranges]:
@@ -56,10 +56,10 @@ def _random(scores: Scores) -> Ranges:
 
 def _baseline(scores: Scores) -> Ranges:
     """Ranges from the lowest to the highest score of the references, which should be all 37 baselines."""
-    known = scores.references.notna().sum(axis=1)
-    fewer = sorted(set(known[(known > 0) & (known < BASELINES)]))
+    counts = scores.references.notna().sum(axis=1)
+    fewer = sorted(set(counts[(counts > 0) & (counts < BASELINES)]))
     notes = [
-        f"Baseline scores: {_games(int((known == count).sum()))} {count} of the {BASELINES} references."
+        f"Baseline scores: {_games(int((counts == count).sum()))} {count} of the {BASELINES} references."
         for count in fewer
     ]
     return Ranges("baseline", scores.references.min(axis=1), scores.references.max(axis=1), tuple(notes))
@@ -71,8 +71,8 @@ def _games(count: int) -> str:
 
 def _inter_algorithm(scores: Scores, group: Group) -> Ranges:
     """Ranges from the lowest to the highest score of the group, in the games that all its agents have played."""
-    played = scores.columns(group.agents).dropna()
-    return Ranges("inter-algorithm", played.min(axis=1), played.max(axis=1), bounded=True)
+    matrix = scores.columns(group.agents).dropna()
+    return Ranges("inter-algorithm", matrix.min(axis=1), matrix.max(axis=1), bounded=True)
 
 
 def _human(scores: Scores) -> Ranges:

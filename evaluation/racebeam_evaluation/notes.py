@@ -11,7 +11,7 @@ def counted_games(count: int) -> str:
     return "1 game" if count == 1 else f"{count} games"
 
 
-def _listed(names: list[str]) -> str:
+def _list(names: list[str]) -> str:
     return ", ".join(names)
 
 
@@ -19,11 +19,11 @@ def of_aggregates(scores: Scores, group: Group, ranges: list[Ranges]) -> tuple[s
     """Games that one agent lacks, games without a score range, and what is special of the ranges and trials."""
     common = scores.common(group)
     lacking = [game for game in scores.columns(group.agents).dropna(how="all").index if game not in common]
-    sentences = [f"Not every agent has played {_listed(lacking)}: not aggregated."] if lacking else []
+    sentences = [f"Not every agent has played {_list(lacking)}: not aggregated."] if lacking else []
     for each in ranges:
         without = each.without(common)
         if without:
-            sentences.append(f"No {each.name} score (n/a) in {_listed(without)}: the range is unknown or empty.")
+            sentences.append(f"No {each.name} score (n/a) in {_list(without)}: the range is unknown or empty.")
         sentences += each.notes
     return (*sentences, *of_trials(scores, group))
 
@@ -59,7 +59,7 @@ def of_lacking(found: list[Pair]) -> tuple[str, ...]:
     """Games that one of two agents lacks."""
     return tuple(
         f"{pair.first} and {pair.second} are compared in {counted_games(len(pair.games))}; only one of them has played "
-        f"{_listed(pair.lacking)}."
+        f"{_list(pair.lacking)}."
         for pair in found
         if pair.lacking
     )
@@ -74,13 +74,13 @@ def of_untested(scores: Scores, group: Group, found: list[Pair]) -> list[str]:
             short = [game for game in pair.few if len(scores.trial_scores(agent, game)) < FEWEST_TRIALS]
             few[agent] = [*few.get(agent, []), *(game for game in short if game not in few.get(agent, []))]
     sentences = [
-        f"Not tested: {agent} on {_listed(games)} has fewer than {FEWEST_TRIALS} trials; "
+        f"Not tested: {agent} on {_list(games)} has fewer than {FEWEST_TRIALS} trials; "
         f"a test takes {FEWEST_TRIALS} or more."
         for agent, games in few.items()
         if games
     ]
     return sentences + [
-        f"Not tested: {pair.first} and {pair.second} on {_listed(pair.constant)} have no variance; "
+        f"Not tested: {pair.first} and {pair.second} on {_list(pair.constant)} have no variance; "
         f"a test takes trials that differ."
         for pair in found
         if pair.constant

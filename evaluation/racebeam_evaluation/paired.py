@@ -91,9 +91,9 @@ def counts(found: list[Pair], agents: tuple[str, ...], better: str, worse: str, 
     cells = pd.DataFrame("---", index=pd.Index(agents, name="agent"), columns=list(agents))
     for pair in found:
         more, less = len(getattr(pair, better)), len(getattr(pair, worse))
-        known = bool(getattr(pair, of))
-        cells.loc[pair.first, pair.second] = f"{more}--{less}" if known else "n/a"
-        cells.loc[pair.second, pair.first] = f"{less}--{more}" if known else "n/a"
+        is_defined = bool(getattr(pair, of))
+        cells.loc[pair.first, pair.second] = f"{more}--{less}" if is_defined else "n/a"
+        cells.loc[pair.second, pair.first] = f"{less}--{more}" if is_defined else "n/a"
     return cells.reset_index()
 
 
@@ -101,9 +101,9 @@ def times_best(scores: pd.DataFrame) -> tuple[pd.Series, dict[str, list[str]]]:
     """In how many games each column has the highest score, and the ties of each game that has some.
 
     As in the paper, only the first column of a tie counts."""
-    played = scores.dropna()
-    ties = {str(game): list(row.index[row == row.max()]) for game, row in played.iterrows()}
-    best = played.idxmax(axis=1).value_counts().reindex(scores.columns, fill_value=0)
+    matrix = scores.dropna()
+    ties = {str(game): list(row.index[row == row.max()]) for game, row in matrix.iterrows()}
+    best = matrix.idxmax(axis=1).value_counts().reindex(scores.columns, fill_value=0)
     return best, {game: tied for game, tied in ties.items() if len(tied) > 1}
 
 

@@ -50,9 +50,9 @@ class Protocol:
         ]
 
 
-def read_toml(path: pathlib.Path, most: int = _MOST_BYTES) -> dict[str, Any]:
+def read_toml(path: pathlib.Path, limit: int = _MOST_BYTES) -> dict[str, Any]:
     """The tables of a TOML file. Raises BadInput if it cannot be read."""
-    content = content_of(path, most, "a TOML file")
+    content = content_of(path, limit, "a TOML file")
     try:
         return tomllib.loads(content.decode())
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
@@ -104,8 +104,8 @@ def preset_of(environment: str) -> str:
         return _UNKNOWN
     words = _USUAL | words
     values = tuple(words.get(name) for name in _NAMES)
-    named = next((name for name, wanted in PRESETS.items() if values == wanted), "other")
-    return named if (words["life_loss"], words["life_loss_ends"]) == ("ignored", "0") else "other"
+    preset = next((name for name, preset_values in PRESETS.items() if values == preset_values), "other")
+    return preset if (words["life_loss"], words["life_loss_ends"]) == ("ignored", "0") else "other"
 
 
 def _flat(above: str, tables: dict[str, Any]) -> list[tuple[str, str]]:

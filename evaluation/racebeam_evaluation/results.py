@@ -57,8 +57,8 @@ class Results:
 
     def protocols(self, agent: str) -> list[Protocol]:
         """How the plans say that the agent was run, each way once; one that is unknown if no plan says it."""
-        known = [plan.protocol(agent) for plan in self.plans]
-        return list(dict.fromkeys(each for each in known if each != Protocol())) or [Protocol()]
+        protocols = [plan.protocol(agent) for plan in self.plans]
+        return list(dict.fromkeys(each for each in protocols if each != Protocol())) or [Protocol()]
 
 
 def read_folder(folder: pathlib.Path) -> Results:
@@ -75,8 +75,8 @@ def together(parts: list[Results], notes: tuple[str, ...] = ()) -> Results:
     episodes = _joined([part.episodes for part in parts])
     _check_once(episodes, "evaluation")
     _check_images(episodes)
-    trained = [part.curves for part in parts if part.curves is not None]
-    curves = _joined(trained) if trained else None
+    tables = [part.curves for part in parts if part.curves is not None]
+    curves = _joined(tables) if tables else None
     if curves is not None:
         _check_once(curves, "training")
     roles: dict[str, str] = {}
@@ -161,13 +161,13 @@ def differences(folders: list[pathlib.Path], mix: bool) -> tuple[str, ...]:
 
     A key that only one plan has does not count as a difference: the other plan lacks the agent. Raises BadInput with
     the first sentence if the setting changes scores, unless `mix`."""
-    seen: dict[str, tuple[str, str]] = {}
+    sources: dict[str, tuple[str, str]] = {}
     sentences: dict[str, str] = {}
     for folder in folders:
         for key, value in plan_of(folder).settings().items():
             if key.split(".")[-1] in _OWN or key.startswith(_OWN_TABLES):
                 continue
-            first, other = seen.setdefault(key, (value, folder.name))
+            first, other = sources.setdefault(key, (value, folder.name))
             if first == value or key in sentences:
                 continue
             words = f"The plans differ: {key} is {first} in {other}, and {value} in {folder.name}"

@@ -48,8 +48,8 @@ class Scores:
         """Learners and planners, each if there are some. Without both, the baselines."""
         planners = tuple(agent for agent in self.means if agent in self.planners)
         learners = tuple(agent for agent in self.means if agent not in self.planners)
-        named = [Group("learning", learners), Group("planning", planners)]
-        return [group for group in named if group.agents] or [Group("baselines", tuple(self.views))]
+        groups = [Group("learning", learners), Group("planning", planners)]
+        return [group for group in groups if group.agents] or [Group("baselines", tuple(self.views))]
 
     def columns(self, agents: tuple[str, ...]) -> pd.DataFrame:
         """The scores of agents or views."""
@@ -76,22 +76,23 @@ def scores_of(results: Results) -> Scores:
 
     Raises BadInput if all scores are missing."""
     diverged = results.episodes["end"] == DIVERGED
-    lost = results.episodes[diverged][["game", "agent", "trial"]].drop_duplicates()
-    counted = results.episodes[~diverged]
-    if not len(counted):
+    diverged_trials = results.episodes[diverged][["game", "agent", "trial"]].drop_duplicates()
+    episodes = results.episodes[~diverged]
+    if not len(episodes):
         raise BadInput("every trial diverged; expected a score of one trial or more")
-    trials = counted.groupby(["game", "agent", "trial"])["score"].mean()
+    trials = episodes.groupby(["game", "agent", "trial"])["score"].mean()
     means = trials.groupby(["game", "agent"]).mean().unstack("agent")
     means = means.reindex(index=in_order(list(set(results.episodes["game"]))))
     roles = {name: results.roles.get(name) or _usual_role(name) for name in means}
     references = means[[name for name in means if roles[name] == "baseline"]]
     lost_trials = [
-        f"Trial {row.trial} of {row.agent} on {row.game} diverged, and is in no mean." for row in lost.itertuples()
+        f"Trial {row.trial} of {row.agent} on {row.game} diverged, and is in no mean."
+        for row in diverged_trials.itertuples()
     ]
     return Scores(
         means=means[_agents_in_order(roles)],
         trials=_by_agent_and_game(trials),
-        samples=_by_agent_and_game(trials) | _by_agent_and_game(_untrained(counted, roles)),
+        samples=_by_agent_and_game(trials) | _by_agent_and_game(_untrained(episodes, roles)),
         references=references,
         views=_views(references),
         notes=(*results.notes, *lost_trials),
@@ -105,8 +106,8 @@ def _by_agent_and_game(trials: pd.Series) -> Trials:
 
 def _untrained(episodes: pd.DataFrame, roles: dict[str, str]) -> pd.Series:
     """The scores of the episodes of agents that do not learn."""
-    played = episodes[episodes["agent"].map(lambda name: roles[name] != "learner")]
-    return played.set_index(["game", "agent"])["score"]
+    selection = episodes[episodes["agent"].map(lambda name: roles[name] != "learner")]
+    return selection.set_index(["game", "agent"])["score"]
 
 
 def _usual_role(agent: str) -> str:
@@ -125,9 +126,9 @@ def _view_of(baseline: str) -> str:
 def _agents_in_order(roles: dict[str, str]) -> list[str]:
     """Returns the learners, then the planners, and of each the known ones first."""
     order: list[str] = []
-    for role, known in (("learner", _LEARNERS), ("planner", _PLANNERS)):
+    for role, names in (("learner", _LEARNERS), ("planner", _PLANNERS)):
         agents = sorted(name for name in roles if roles[name] == role)
-        order += [name for name in known if name in agents] + [name for name in agents if name not in known]
+        order += [name for name in names if name in agents] + [name for name in agents if name not in names]
     return order
 
 

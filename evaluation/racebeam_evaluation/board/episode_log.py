@@ -54,9 +54,9 @@ def read_log(path: pathlib.Path) -> EpisodeLog:
         raise BadInput(f"{path} is not an episode log: its text does not end; expected a whole log") from error
     if [line[0] for line in lines] != list(_LINES) or len(lines[0]) < 2 or len(lines[1]) != 2:
         raise BadInput(f"{path} is not an episode log: its text has other lines; expected {', '.join(_LINES)}")
-    said = _pairs(lines[2]) | _pairs(lines[3])
-    actions = _actions(path, said.get("decisions", ""), rest)
-    columns = said | {
+    values = _pairs(lines[2]) | _pairs(lines[3])
+    actions = _actions(path, values.get("decisions", ""), rest)
+    columns = values | {
         "game": lines[0][1],
         "image_md5": lines[1][1],
         "environment_seed": _pairs(lines[0]).get("seed", ""),

@@ -78,8 +78,8 @@ def _site(
         files[pages[submission.about.name]] = page.of_submission(submission, logs, viewer).encode()
     parts = [page.proof()]
     for preset in dict.fromkeys(each.about.preset for each in submissions):
-        shown = [each for each in submissions if each.about.preset == preset]
-        parts += _section(preset, shown, pages, bootstrap, files)
+        selection = [each for each in submissions if each.about.preset == preset]
+        parts += _section(preset, selection, pages, bootstrap, files)
     if broken:
         items = "".join(f'<li class="broken">{page.text(_from_here(*each))}</li>' for each in broken)
         parts.append(f"<h2>Not shown</h2>\n<ul>{items}</ul>")
@@ -110,7 +110,7 @@ def _standings(submissions: list[Submission], scores: Scores, pages: dict[str, s
         games = [game for game in _scores_of(scores, about.name).dropna().index if not _HUMAN.without([game])]
         values = _aggregates(scores, about.name, games, bootstrap)
         cells = [page.link(pages[about.name], about.name), page.text(about.words[:200]), f"{about.training_frames:,}"]
-        rows.append((values[0][0] if values else float("-inf"), [*cells, str(len(games)), *_printed(values)]))
+        rows.append((values[0][0] if values else float("-inf"), [*cells, str(len(games)), *_cells(values)]))
     rows.sort(key=lambda row: -row[0])
     header = ["agent", "its authors' words", "training frames", "games with human scores"]
     header += [f"{name} (95 % interval)" for name in _SHOWN]
@@ -130,7 +130,7 @@ def _aggregates(scores: Scores, name: str, games: list[str], bootstrap: Bootstra
     return [(float(estimate.value[i]), float(estimate.low[i]), float(estimate.high[i])) for i in order]
 
 
-def _printed(values: list[tuple[float, float, float]]) -> list[str]:
+def _cells(values: list[tuple[float, float, float]]) -> list[str]:
     cells = [
         f"{page.number(value, 3)} ({page.number(low, 3)} to {page.number(high, 3)})" for value, low, high in values
     ]

@@ -86,10 +86,10 @@ def read_submission(folder: pathlib.Path) -> Submission:
 
 def _about(path: pathlib.Path) -> About:
     found = read_toml(path, _MOST_BYTES)
-    known = [field.name for field in dataclasses.fields(About)]
+    names = [field.name for field in dataclasses.fields(About)]
     for key in found:
-        if key not in known:
-            raise BadInput(f"{path}: unknown key '{key}'; accepted: {', '.join(known)}")
+        if key not in names:
+            raise BadInput(f"{path}: unknown key '{key}'; accepted: {', '.join(names)}")
     for key in _REQUIRED:
         if key not in found:
             raise BadInput(f"{path} lacks the key '{key}'; expected {', '.join(_REQUIRED)}")

@@ -70,12 +70,12 @@ def _dqn_zoo(path: pathlib.Path) -> Results:
     """A row for each iteration of a seed, with the mean of its evaluation. The agent is named by the file."""
     frame, source = read(path, _ZOO)
     frame = frame.sort_values(["environment_name", "seed", "frame"], kind="stable")
-    trained = frame.groupby(["environment_name", "seed"], observed=True)["frame"]
-    each = trained.diff().fillna(frame["frame"]).astype(int)
+    totals = frame.groupby(["environment_name", "seed"], observed=True)["frame"]
+    each = totals.diff().fillna(frame["frame"]).astype(int)
     names = {name: our_name(path, str(name)) for name in frame["environment_name"].unique()}
     rows = [
         (names[row.environment_name], _agent(path.stem), row.seed, iteration, row.eval_episode_return, frames)
-        for row, iteration, frames in zip(frame.itertuples(), trained.cumcount(), each)
+        for row, iteration, frames in zip(frame.itertuples(), totals.cumcount(), each)
     ]
     return _of_iterations(path, rows, source)
 

@@ -46,11 +46,11 @@ class Picture:
         self.figure.set_layout_engine("none")  # the layout is settled, for both forms
         about = "; ".join(made_from(self.sources))
         return {
-            f"{self.name}.svg": self._drawn("svg", {"Date": None, "Creator": None, "Description": about}),
-            f"{self.name}.png": self._drawn("png", {"Software": None, "Description": about}),
+            f"{self.name}.svg": self._encode("svg", {"Date": None, "Creator": None, "Description": about}),
+            f"{self.name}.png": self._encode("png", {"Software": None, "Description": about}),
         }
 
-    def _drawn(self, form: str, metadata: dict[str, str | None]) -> bytes:
+    def _encode(self, form: str, metadata: dict[str, str | None]) -> bytes:
         buffer = io.BytesIO()
         self.figure.savefig(buffer, format=form, dpi=_DOTS_PER_INCH, metadata=metadata)
         return buffer.getvalue()
@@ -103,9 +103,9 @@ def aggregate_scores(rows: pd.DataFrame) -> Figure:
     names = list(dict.fromkeys(rows["normalisation"]))
     figure, panels = _grid(len(names), 2, 6.4, 1.9 * len(names))
     for line, name in enumerate(names):
-        shown = rows[rows["normalisation"] == name]
+        selection = rows[rows["normalisation"] == name]
         for axes, statistic in zip(panels[2 * line :], ("average", "median")):
-            axes.bar(shown["agent"], shown[statistic], color=list(_colours(list(shown["agent"])).values()))
+            axes.bar(selection["agent"], selection[statistic], color=list(_colours(list(selection["agent"])).values()))
             axes.set(title=f"{statistic} {name} score")
             axes.axhline(0, color="black", linewidth=0.5)
     return figure
@@ -160,8 +160,8 @@ def efficiency(rows: pd.DataFrame) -> Figure:
     figure, panels = _grid(-(-len(kinds) // 2), min(2, len(kinds)), 3.6 * min(2, len(kinds)), 2.8 * -(-len(kinds) // 2))
     colours = _colours(list(dict.fromkeys(rows["agent"])))
     for axes, (name, axis) in zip(panels, kinds):
-        shown = rows[(rows["normalisation"] == name) & (rows["axis"] == axis)]
-        for agent, curve in _parts(shown, "agent"):
+        selection = rows[(rows["normalisation"] == name) & (rows["axis"] == axis)]
+        for agent, curve in _parts(selection, "agent"):
             band = (curve["IQM low"], curve["IQM high"])
             _curve_with_band(axes, curve["trained for"], curve["IQM"], band, colours[agent], agent)
         axes.set(xlabel=axis, ylabel=f"IQM of {name} scores")

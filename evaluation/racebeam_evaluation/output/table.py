@@ -41,7 +41,7 @@ class Table:
     def markdown(self) -> str:
         """The caption, the table, the notes, and the digests as comments."""
         marks = ["---:" if pd.api.types.is_numeric_dtype(self.frame[name]) else "---" for name in self.frame]
-        lines = [list(map(str, self.frame)), marks, *self._printed("**{}**".format)]
+        lines = [list(map(str, self.frame)), marks, *self._texts("**{}**".format)]
         below = [line for note in self.notes for line in (note, "")]
         comments = [f"<!-- {line} -->" for line in made_from(self.sources)]
         return "\n".join([self.caption, "", *(f"| {' | '.join(line)} |" for line in lines), "", *below, *comments, ""])
@@ -52,7 +52,7 @@ class Table:
         comments = [f"% {line}" for line in (self.caption, *self.notes, *made_from(self.sources))]
         header, *rows = [
             " & ".join(line) + r" \\"
-            for line in ([str(name).translate(_LATEX) for name in self.frame], *self._printed(r"\textbf{{{}}}".format))
+            for line in ([str(name).translate(_LATEX) for name in self.frame], *self._texts(r"\textbf{{{}}}".format))
         ]
         return "\n".join(
             [
@@ -71,7 +71,7 @@ class Table:
     def _cells(self) -> list[tuple[object, ...]]:
         return list(self.frame.itertuples(index=False, name=None))
 
-    def _printed(self, bold: Callable[[str], str]) -> list[list[str]]:
+    def _texts(self, bold: Callable[[str], str]) -> list[list[str]]:
         """The cells as text for readers."""
         escape = bold("").startswith("\\")
         best = self.frame[list(self.best_of)].max(axis=1).tolist() if self.best_of else [None] * len(self.frame)

@@ -56,8 +56,8 @@ def columns_of_the_paper(scores: Scores) -> pd.DataFrame:
     ones."""
     theirs = published_scores()
     ours = scores.means.loc[[game for game in scores.means.index if game in theirs.index]]
-    named = theirs.loc[ours.index].rename(columns="published {}".format)
-    return pd.concat([ours, named.dropna(axis=1, how="all")], axis=1).rename_axis("game").reset_index()
+    renamed = theirs.loc[ours.index].rename(columns="published {}".format)
+    return pd.concat([ours, renamed.dropna(axis=1, how="all")], axis=1).rename_axis("game").reset_index()
 
 
 def _is_excluded(row: dict[str, object]) -> bool:

@@ -52,7 +52,7 @@ def _add_published(report: Report, scores: Scores, results: Results, mix: bool) 
 
 def add_groups(report: Report, scores: Scores, bootstrap: Bootstrap) -> None:
     """Adds all tables and figures of each group of agents."""
-    report.introduction.append(f"Games: {_counted(list(scores.means.index))}.")
+    report.introduction.append(f"Games: {_count_text(list(scores.means.index))}.")
     report.add_table(_against(scores, report.sources))
     report.add_table(_above_random(scores, report.sources, bootstrap))
     for group in scores.groups:
@@ -64,7 +64,7 @@ def add_groups(report: Report, scores: Scores, bootstrap: Bootstrap) -> None:
             _add_pairs(report, scores, group, bootstrap)
 
 
-def _counted(games: list[str]) -> str:
+def _count_text(games: list[str]) -> str:
     each = {name: those for name, those in sets(games).items() if " + " not in name}
     return ", ".join(
         f"{len(those)} of the {name} set" if name != "other" else f"{len(those)} that the paper lacks"
@@ -74,9 +74,9 @@ def _counted(games: list[str]) -> str:
 
 def _with_set(frame: pd.DataFrame) -> pd.DataFrame:
     """The rows of games with the name and the set of each."""
-    named = frame.rename_axis("game").reset_index()
-    named.insert(0, "set", [PAPER["set"].get(game, "other") for game in named["game"]])
-    return named
+    table = frame.rename_axis("game").reset_index()
+    table.insert(0, "set", [PAPER["set"].get(game, "other") for game in table["game"]])
+    return table
 
 
 def columns(scores: Scores, group: Group) -> pd.DataFrame:
@@ -138,13 +138,13 @@ def _above_random(scores: Scores, sources: tuple[Source, ...], bootstrap: Bootst
 
 
 def _add_scores(report: Report, scores: Scores, group: Group) -> None:
-    shown = columns(scores, group)
+    rows = columns(scores, group)
     best_of = "of const and perturb, the best policy" if group.name != "planning" else "beside the best of the others"
     caption = f"Scores of the group {group.name} in each game; {best_of}."
     report.add_table(
-        Table(f"{group.name}-scores", caption, _with_set(shown), report.sources, digits=1, best_of=tuple(shown))
+        Table(f"{group.name}-scores", caption, _with_set(rows), report.sources, digits=1, best_of=tuple(rows))
     )
-    best, ties = paired.times_best(shown)
+    best, ties = paired.times_best(rows)
     notes = [f"Tied in {game}: {', '.join(tied)}." for game, tied in ties.items()]
     report.add_table(
         Table(
@@ -158,13 +158,13 @@ def _add_scores(report: Report, scores: Scores, group: Group) -> None:
 
 
 def _add_normalised(report: Report, scores: Scores, group: Group, ranges: list[Ranges]) -> None:
-    played = scores.columns(group.agents).dropna()
-    normalised = {each.name: each.normalise(played) for each in ranges}
+    matrix = scores.columns(group.agents).dropna()
+    normalised = {each.name: each.normalise(matrix) for each in ranges}
     parts = [
         pd.concat({name: _with_set(frame)}, names=["normalisation"]).reset_index(0)
         for name, frame in normalised.items()
     ]
-    if not len(played) or not parts:
+    if not len(matrix) or not parts:
         return
     report.add_table(
         Table(
@@ -174,13 +174,13 @@ def _add_normalised(report: Report, scores: Scores, group: Group, ranges: list[R
             report.sources,
         )
     )
-    drawn = {name: frame for name, frame in normalised.items() if name in _OWN_FIGURES}
-    if drawn:
+    frames = {name: frame for name, frame in normalised.items() if name in _OWN_FIGURES}
+    if frames:
         report.parts.append(
             Picture(
                 f"{group.name}-normalised",
                 f"Normalised scores of the group {group.name}.",
-                figure.normalised_scores(drawn),
+                figure.normalised_scores(frames),
                 report.sources,
             )
         )
@@ -200,13 +200,13 @@ def _add_aggregates(report: Report, scores: Scores, group: Group, ranges: list[R
     bounded = [each for each in ranges if each.name != "random"]  # the random-normalised are too large to draw
     distributions = _joined([aggregate.distribution_rows(scores, each, group) for each in bounded])
     profiles = _joined([aggregate.profile_rows(scores, each, group, bootstrap) for each in bounded])
-    drawn = rows[rows["normalisation"] != "random"] if len(rows) else rows
+    selection = rows[rows["normalisation"] != "random"] if len(rows) else rows
     for name, caption, data, draw in (
-        ("aggregates", "Average and median normalised scores", drawn, figure.aggregate_scores),
+        ("aggregates", "Average and median normalised scores", selection, figure.aggregate_scores),
         (
             "intervals",
             "Average, median, interquartile mean and optimality gap with their intervals",
-            drawn,
+            selection,
             functools.partial(figure.intervals, statistics=aggregate.statistics(scores, group)),
         ),
         ("distribution", "Share of games with a normalised score or a higher one", distributions, figure.distributions),

@@ -43,26 +43,24 @@ def _claims(scores: Scores, sources: tuple[Source, ...]) -> Table:
     rows = []
     for group in scores.groups:
         best, _ = paired.times_best(columns(scores, group))
-        rows += [
-            (f"times best: {agent}", printed, int(best[agent])) for agent, printed in _TIMES_BEST[group.name].items()
-        ]
+        rows += [(f"times best: {agent}", value, int(best[agent])) for agent, value in _TIMES_BEST[group.name].items()]
     learners, planners = (scores.columns(group.agents) for group in scores.groups)
-    for name, printed, first, second in (
+    for name, value, first, second in (
         ("learners above baselines", 40, learners, scores.views),
         ("planners above both", 49, planners, pd.concat([learners, scores.views], axis=1)),
     ):
         above, equal, _ = paired.group_against(first, second)
-        rows += [(name, printed, len(above)), (f"{name} or equal", printed, len(above) + len(equal))]
+        rows += [(name, value, len(above)), (f"{name} or equal", value, len(above) + len(equal))]
     frame = pd.DataFrame(rows, columns=["statement", "printed", "rebuilt"])
     return Table("claims", "What the paper says of its scores, and what they give.", frame, sources)
 
 
 def _paired_counts(scores: Scores, sources: tuple[Source, ...]) -> Table:
     """The printed paired tests beside the counts of means, which any significant difference is one of."""
-    printed = published("paper2013/paired").reset_index()
-    counted = {(pair.first, pair.second): pair for group in scores.groups for pair in paired.pairs(scores, group)}
-    found = [counted[row.first, row.second] for row in printed.itertuples()]
-    frame = printed.assign(
+    table = published("paper2013/paired").reset_index()
+    pairs = {(pair.first, pair.second): pair for group in scores.groups for pair in paired.pairs(scores, group)}
+    found = [pairs[row.first, row.second] for row in table.itertuples()]
+    frame = table.assign(
         higher=[len(pair.higher) for pair in found],
         lower=[len(pair.lower) for pair in found],
         tied=[len(pair.games) - len(pair.higher) - len(pair.lower) for pair in found],
