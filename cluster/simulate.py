@@ -111,10 +111,10 @@ class Simulation:
         self.failures += 1
         for work, began in self.running[node].values():
             spent = self.now - began
-            kept = math.floor(spent / self.cluster.checkpoint) * self.cluster.checkpoint
+            saved = math.floor(spent / self.cluster.checkpoint) * self.cluster.checkpoint
             self.busy += spent
-            self.lost += spent - kept
-            self.after(self.cluster.requeue, self.waiting.appendleft, work - kept / self.slowness[node])
+            self.lost += spent - saved
+            self.after(self.cluster.requeue, self.waiting.appendleft, work - saved / self.slowness[node])
         self.running[node].clear()
         self.idle = [idle for idle in self.idle if idle != node]
         self.after(self.cluster.repair, self.return_from_repair, node)
@@ -281,7 +281,7 @@ def parse_arguments() -> argparse.Namespace:
 def main() -> None:
     options = parse_arguments()
     try:
-        asked = subprocess.run(
+        done = subprocess.run(
             [options.program, "experiment", options.plan, "--dry-run", "--unmeasured"], capture_output=True, text=True
         )
     except OSError as error:
@@ -290,10 +290,10 @@ def main() -> None:
             f"simulate.py needs the program racebeam; it cannot start {place}: {error.strerror}; "
             "--program takes its path"
         )
-    if asked.returncode != 0:
-        sys.exit(asked.stderr.strip())
+    if done.returncode != 0:
+        sys.exit(done.stderr.strip())
     try:
-        agents, measured = agents_of(asked.stdout), pilot_of(options.pilot) if options.pilot else {}
+        agents, measured = agents_of(done.stdout), pilot_of(options.pilot) if options.pilot else {}
     except OSError as error:
         sys.exit(f"cannot read {error.filename}: {error.strerror}")
     units = [lengths_of(agents, measured, random.Random(seed)) for seed in range(options.runs)]

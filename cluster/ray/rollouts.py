@@ -88,8 +88,8 @@ def rollouts(
 
     for _ in range(actors):
         start()
-    played = 0
-    while played < count:
+    finished = 0
+    while finished < count:
         (reference,), _ = ray.wait(list(awaited))
         actor, number = awaited.pop(reference)
         result = result_of(reference)
@@ -103,7 +103,7 @@ def rollouts(
             player, following = idle.pop(), waiting.popleft()
             awaited[player.play.remote(following * num_envs, steps, policy)] = player, following
         if result is not None and number is not None:
-            played += 1
+            finished += 1
             yield result
 
 
@@ -119,11 +119,11 @@ def main() -> None:
     options = parser.parse_args()
     images = {"RACEBEAM_ROMS": options.roms} if options.roms else {}
     ray.init(options.address, runtime_env={"env_vars": images})
-    played = rollouts(
+    trajectories = rollouts(
         options.game, actors=options.actors, count=options.rollouts, num_envs=options.envs, steps=options.steps
     )
     try:
-        print(sum(int(rollout["rewards"].sum()) for rollout in played))
+        print(sum(int(rollout["rewards"].sum()) for rollout in trajectories))
     except (RayActorError, RayTaskError) as error:  # its last line is what the environments raised
         sys.exit(f"rollouts.py: {str(error).rstrip().splitlines()[-1]}")
 

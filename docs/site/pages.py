@@ -72,17 +72,17 @@ def python_page(module, title):
     """The page of a module, whose texts mkdocstrings takes from the sources."""
     names = public_names(module)
     compiled = [name for name in names if not is_python(module, name)]
-    listed = ", ".join(f"`{name}`" for name in compiled)
-    note = f"`help()` also describes the classes that are compiled: {listed}.\n\n" if compiled else ""
+    links = ", ".join(f"`{name}`" for name in compiled)
+    note = f"`help()` also describes the classes that are compiled: {links}.\n\n" if compiled else ""
     entries = "".join(f"::: {module}.{name}\n\n" for name in names if name not in compiled)
     return f"# {title}\n\n`import {module}`\n\n{note}{entries}"
 
 
 def table_page(protocol, title, heads):
     """The tables with these headings, as protocol/protocol.toml has them."""
-    made = document.tables(protocol)
-    shown = "\n".join(f"{head}\n{re.sub('[^|]+', '---', head)}\n" + "".join(made[head]) for head in heads)
-    links = shown.replace("](#", "](../protocol/PROTOCOL.md#")
+    tables = document.tables(protocol)
+    text = "\n".join(f"{head}\n{re.sub('[^|]+', '---', head)}\n" + "".join(tables[head]) for head in heads)
+    links = text.replace("](#", "](../protocol/PROTOCOL.md#")
     return f"# {title}\n\n[PROTOCOL.md](../protocol/PROTOCOL.md) says how they are used.\n\n{links}"
 
 
@@ -104,14 +104,14 @@ def for_the_site(path, text, linked):
 
     prose = {number for number, _ in markdown.prose(text)}
     parts = re.split(r"(?m)^(?=.)", text) if not prose else text.splitlines(keepends=True)
-    blocks, kept = [], ""
+    blocks, pending = [], ""
     for number, line in enumerate(parts, 1):
         if number in prose:
-            kept += line
+            pending += line
         else:
-            blocks += [LINK.sub(link, kept), line]
-            kept = ""
-    return "".join([*blocks, LINK.sub(link, kept)])
+            blocks += [LINK.sub(link, pending), line]
+            pending = ""
+    return "".join([*blocks, LINK.sub(link, pending)])
 
 
 def lay_out(into):

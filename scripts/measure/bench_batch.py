@@ -118,9 +118,9 @@ def measure(game, options, folder):
         sides["reference"].append(play_reference(game, actions, options))
         sides["one"].append(play_racebeam(game, actions_file, 1, options))
         sides["all"].append(play_racebeam(game, actions_file, options.threads, options))
-        seen = {side: chunks[-1][2] for side, chunks in sides.items()}
-        if len(set(seen.values())) != 1:
-            sys.exit(f"bench: {game}: observations differ: {seen}")
+        digests = {side: chunks[-1][2] for side, chunks in sides.items()}
+        if len(set(digests.values())) != 1:
+            sys.exit(f"bench: {game}: observations differ: {digests}")
 
     def median(side, column):
         return statistics.median(chunk[column] for chunk in sides[side])

@@ -205,12 +205,12 @@ def measure(options):
         for number, game in enumerate(options.games, 1):
             try:
                 games[game] = measure_game(reference, game, options)
-                said = f"{game}: {in_short(games[game])}"
+                line = f"{game}: {in_short(games[game])}"
             except Difference as difference:
                 differences.append(str(difference))
-                said = differences[-1]
+                line = differences[-1]
             seconds = time.monotonic() - start
-            print(f"{number}/{len(options.games)} {seconds:.0f} s  {said}", file=sys.stderr, flush=True)
+            print(f"{number}/{len(options.games)} {seconds:.0f} s  {line}", file=sys.stderr, flush=True)
     return {
         "command": shlex.join(["scripts/bench", "core", *sys.argv[1:]]),
         "date": datetime.date.today().isoformat(),

@@ -27,15 +27,15 @@ import racebeam  # noqa: E402
 
 def play(env, actions):
     """The processor time of the steps, and a checksum of what they showed."""
-    spent, seen = 0.0, 0
+    spent, digest = 0.0, 0
     for action in actions:
         begin = time.process_time()
         observation, reward, terminated, truncated, _ = env.step(action)
         spent += time.process_time() - begin
-        seen = zlib.crc32(f"{reward} {terminated}".encode(), zlib.crc32(observation, seen))
+        digest = zlib.crc32(f"{reward} {terminated}".encode(), zlib.crc32(observation, digest))
         if terminated or truncated:
             env.reset()
-    return spent, seen
+    return spent, digest
 
 
 def measure(game, kind):

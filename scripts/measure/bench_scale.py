@@ -94,11 +94,11 @@ def steps(arguments):
         "| observation | bytes a reply | steps/s | us of a core | steps/s a core | MB/s a core |\n|---|---:|---:|"
         "---:|---:|---:|"
     )
-    for shown in SHOWN:
-        found = acting(arguments, ACTORS, f"observe {shown}")
+    for field in SHOWN:
+        found = acting(arguments, ACTORS, f"observe {field}")
         of_core = 1e6 / found["us"]
         print(
-            f"| `{shown}` | {found['bytes']:,.0f} | {found['rate']:,.0f} | {found['us']:.1f} | {of_core:,.0f} | "
+            f"| `{field}` | {found['bytes']:,.0f} | {found['rate']:,.0f} | {found['us']:.1f} | {of_core:,.0f} | "
             f"{of_core * found['bytes'] / 1e6:,.1f} |",
             flush=True,
         )

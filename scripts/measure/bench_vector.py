@@ -43,13 +43,13 @@ random = np.random.default_rng(1)
 
 def play_together(envs, count, steps):
     """The seconds of the steps, and a checksum of what they showed."""
-    seen, spent = 0, 0.0
+    digest, spent = 0, 0.0
     for actions in random.integers(envs.single_action_space.n, size=(steps, count), dtype=np.int32):
         begin = time.perf_counter()
         observations, rewards, *_ = envs.step(actions)
         spent += time.perf_counter() - begin
-        seen = zlib.crc32(rewards.astype(np.int32), zlib.crc32(np.ascontiguousarray(observations[:, -1]), seen))
-    return spent, seen
+        digest = zlib.crc32(rewards.astype(np.int32), zlib.crc32(np.ascontiguousarray(observations[:, -1]), digest))
+    return spent, digest
 
 
 def play_apart(envs, batch, steps):
@@ -94,14 +94,14 @@ def measure(game, count):
     everyone, times = players(game, count), {}
     state = random.bit_generator.state
     for chunk in range(options.chunks + 1):
-        shown = {}
+        digests = {}
         for name, (play, envs, batch) in everyone.items():
             random.bit_generator.state = state  # all play the same actions
             steps = options.steps // batch
-            spent, shown[name] = play(envs, batch, steps)
+            spent, digests[name] = play(envs, batch, steps)
             if chunk > 0:  # the first makes tables and code
                 times.setdefault(name, []).append(spent / (steps * batch))
-        if shown["racebeam"] != shown["ale_py"]:
+        if digests["racebeam"] != digests["ale_py"]:
             raise SystemExit(f"bench: {game}: racebeam and ale_py do not show the same")
         random.integers(2, size=chunk + 1)
         state = random.bit_generator.state
@@ -109,7 +109,7 @@ def measure(game, count):
         envs.close()
     ours = zip(times["racebeam"], times["racebeam async"])
     theirs = zip(*(times[name] for name in times if not name.startswith("racebeam")))
-    ratio = statistics.median(min(other) / min(own) for own, other in zip(ours, theirs))
+    ratio = statistics.median(min(other) / min(racebeam_time) for racebeam_time, other in zip(ours, theirs))
     return {name: 1 / statistics.median(each) for name, each in times.items()}, ratio
 
 
@@ -118,7 +118,7 @@ def server(image):
     """Addresses of a server that has the image."""
     with tempfile.TemporaryDirectory() as folder:
         ready = pathlib.Path(folder, "ready")
-        own = subprocess.Popen(
+        process = subprocess.Popen(
             [
                 program.path(),
                 "serve",
@@ -136,13 +136,13 @@ def server(image):
         )
         try:
             while not ready.exists():
-                if own.poll() is not None:
-                    raise SystemExit(f"bench: the server ended with status {own.returncode}")
+                if process.poll() is not None:
+                    raise SystemExit(f"bench: the server ended with status {process.returncode}")
                 time.sleep(0.01)
             yield [line for line in ready.read_text().splitlines() if not line.startswith("#")]
         finally:
-            own.terminate()
-            own.wait()
+            process.terminate()
+            process.wait()
 
 
 def measure_servers(game, count):
@@ -156,16 +156,16 @@ def measure_servers(game, count):
             envs.reset(seed=1)
         times = [[] for _ in everyone]
         for chunk in range(options.chunks + 1):
-            state, shown = random.bit_generator.state, set()
-            for envs, own in zip(everyone, times):
+            state, digests = random.bit_generator.state, set()
+            for envs, seconds in zip(everyone, times):
                 random.bit_generator.state = state
-                spent, seen = play_together(envs, count, options.steps // count)
-                shown.add(seen)
+                spent, digest = play_together(envs, count, options.steps // count)
+                digests.add(digest)
                 if chunk > 0:
-                    own.append(spent)
-            if len(shown) > 1:
+                    seconds.append(spent)
+            if len(digests) > 1:
                 raise SystemExit(f"bench: {game}: racebeam shows something else on a server")
-    return [options.steps // count * count / statistics.median(own) for own in times]
+    return [options.steps // count * count / statistics.median(seconds) for seconds in times]
 
 
 class Nothing:

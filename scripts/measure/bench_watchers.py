@@ -41,8 +41,8 @@ def watch(port, stop, seen):
 
 def watch_all(port, count, ready, ended):
     """A process with all watchers. It tells how many pictures each has seen."""
-    stop, seen = threading.Event(), []
-    watchers = [threading.Thread(target=watch, args=(port, stop, seen)) for _ in range(count)]
+    stop, arrivals = threading.Event(), []
+    watchers = [threading.Thread(target=watch, args=(port, stop, arrivals)) for _ in range(count)]
     for watcher in watchers:
         watcher.start()
     ready.send(True)
@@ -50,7 +50,7 @@ def watch_all(port, count, ready, ended):
     stop.set()
     for watcher in watchers:
         watcher.join()
-    ready.send(sum(seen))
+    ready.send(sum(arrivals))
 
 
 def play(agent, seconds):
@@ -82,15 +82,15 @@ def measure(watchers, seconds):
         process.start()
         told.recv()
         play(agent, seconds / 4)
-        begin, used = time.monotonic(), processor_seconds(server.process.pid)
+        begin, processor_time = time.monotonic(), processor_seconds(server.process.pid)
         rate = play(agent, seconds)
-        used = processor_seconds(server.process.pid) - used
-        lasted = time.monotonic() - begin
+        processor_time = processor_seconds(server.process.pid) - processor_time
+        duration = time.monotonic() - begin
         stop.send(True)
         pictures = told.recv()
         process.join()
         agent.close()
-        return rate, 1e6 * used / (rate * lasted), pictures / (1.25 * lasted)
+        return rate, 1e6 * processor_time / (rate * duration), pictures / (1.25 * duration)
 
 
 def main():
@@ -100,18 +100,18 @@ def main():
     )
     parser.add_argument("--seconds", type=float, default=5, help="of each measurement (default: %(default)s)")
     parser.add_argument("--rounds", type=int, default=5, help="of all settings (default: %(default)s)")
-    given = parser.parse_args()
+    options = parser.parse_args()
     os.environ.setdefault("RACEBEAM_BINARY", str(ROOT / "build/release/racebeam"))
-    rounds = [[measure(count, given.seconds) for count in given.watchers] for _ in range(given.rounds)]
-    base, missed = None, False
+    rounds = [[measure(count, options.seconds) for count in options.watchers] for _ in range(options.rounds)]
+    base, is_slow = None, False
     print("| watchers | acts/s | of those without | server, us/act | pictures/s |\n|---:|---:|---:|---:|---:|")
-    for place, count in enumerate(given.watchers):
+    for place, count in enumerate(options.watchers):
         rate, cost, pictures = (statistics.median(each[place][figure] for each in rounds) for figure in range(3))
         base = base or rate
-        missed |= rate < GOAL * base
+        is_slow |= rate < GOAL * base
         print(f"| {count} | {rate:,.0f} | {100 * rate / base:.1f} % | {cost:.1f} | {pictures:.0f} |")
-    print(f"goal: at least {100 * GOAL:.0f} %; {'missed' if missed else 'met'}")
-    return int(missed)
+    print(f"goal: at least {100 * GOAL:.0f} %; {'missed' if is_slow else 'met'}")
+    return int(is_slow)
 
 
 if __name__ == "__main__":

@@ -128,18 +128,18 @@ def print_speed(game, steps, ahead, placement, one_write=False):
         [WIRE_BENCH, *options, RACEBEAM, rom, str(steps), str(ahead)], capture_output=True, check=True
     )
     found = json.loads(done.stdout)
-    alone = found["in_process"]
+    in_process = found["in_process"]
     how = f"{placement}, {ahead} under way" + (", sent in one write" if one_write else "")
     print(
         f"\n{name_of(rom)}, {how}, {found['bytes']:.0f} bytes a reply; in process "
-        f"{alone['rate']:.0f} steps/s, {alone['microseconds']:.1f} us"
+        f"{in_process['rate']:.0f} steps/s, {in_process['microseconds']:.1f} us"
     )
     print(f"{'':8}{'steps/s':>10}{'echo':>10}{'of less':>9}{'us':>8}{'echo us':>9}{'extra us':>10}")
     for transport in TRANSPORTS:
         own, echo = found[transport], found["echo_" + transport]
-        extra = own["microseconds"] - alone["microseconds"] - echo["microseconds"]
+        extra = own["microseconds"] - in_process["microseconds"] - echo["microseconds"]
         print(
-            f"{transport:8}{own['rate']:10.0f}{echo['rate']:10.0f}{ratio(own, alone, echo):9.2f}"
+            f"{transport:8}{own['rate']:10.0f}{echo['rate']:10.0f}{ratio(own, in_process, echo):9.2f}"
             f"{own['microseconds']:8.1f}{echo['microseconds']:9.1f}{extra:10.1f}",
             flush=True,
         )
@@ -182,11 +182,11 @@ def print_batch(game, machines=64):
             check=True,
         )
         found = json.loads(done.stdout)
-        alone = found["in_process"]
+        in_process = found["in_process"]
         print(
-            f"{ahead} under way, {words:60}{alone['rate']:9.0f}"
+            f"{ahead} under way, {words:60}{in_process['rate']:9.0f}"
             + "".join(
-                f"{transport:>8}{found[transport]['rate']:8.0f}{ratio(found[transport], alone):6.2f}"
+                f"{transport:>8}{found[transport]['rate']:8.0f}{ratio(found[transport], in_process):6.2f}"
                 for transport in TRANSPORTS
             )
         )

@@ -74,9 +74,9 @@ def count(binary, game, setting, before, frames, cpu=None, environment=PLAIN):
             env=os.environ | environment,
         )
         if done.returncode:
-            own = [line for line in done.stderr.splitlines() if not line.startswith("==")]  # not valgrind's
+            lines = [line for line in done.stderr.splitlines() if not line.startswith("==")]  # not valgrind's
             raise RuntimeError(
-                f"{game}: racebeam under valgrind ended with status {done.returncode}: " + " ".join(own[-1:])
+                f"{game}: racebeam under valgrind ended with status {done.returncode}: " + " ".join(lines[-1:])
             )
         counts = read(out)
     counts.frames = len(actions[first:]) * setting.skip

@@ -11,9 +11,9 @@ WITHOUT_RULE = ("combat", "joust", "maze_craze", "warlords")  # the reference ha
 
 def folder():
     """The folder of images, or None if it is missing."""
-    given = os.environ.get("RACEBEAM_ROMS")
-    if given:
-        candidates = [pathlib.Path(given)]
+    folder = os.environ.get("RACEBEAM_ROMS")
+    if folder:
+        candidates = [pathlib.Path(folder)]
     else:
         here = importlib.util.find_spec("ale_py")
         candidates = [pathlib.Path(here.origin).parent / "roms"] if here else []

@@ -68,14 +68,14 @@ def raise_priority():
         print("load: cannot raise the priority: the bystander's figures include delays of the system", file=sys.stderr)
 
 
-def watch(ask_once, pause, told, answers):
+def watch(ask_once, pause, stop, answers):
     """A process that times `ask_once()` until it is stopped, and sends milliseconds."""
     raise_priority()
     waits = []
-    while not told.poll():
-        asked = time.perf_counter()
+    while not stop.poll():
+        start = time.perf_counter()
         ask_once()
-        waits.append((time.perf_counter() - asked) * 1000)
+        waits.append((time.perf_counter() - start) * 1000)
         time.sleep(pause)
     answers.send(waits)
 
@@ -147,13 +147,13 @@ class Helper:
     """Starts a process next to the server."""
 
     def __init__(self, function, *arguments):
-        self.told, there = multiprocessing.Pipe()
+        self.requests, there = multiprocessing.Pipe()
         self.answers, back = multiprocessing.Pipe()
         self.process = multiprocessing.Process(target=function, args=(*arguments, there, back), daemon=True)
         self.process.start()
 
     def ask(self):
-        self.told.send(None)
+        self.requests.send(None)
         return self.answers.recv()
 
 
@@ -217,13 +217,13 @@ def show_waits(name, waits):
 
 
 def time_to_end(server):
-    told = time.monotonic()
+    start = time.monotonic()
     server.terminate()
     try:
         server.wait(30)
     except subprocess.TimeoutExpired:
         server.kill()
-    return time.monotonic() - told
+    return time.monotonic() - start
 
 
 def measure(attack, server, port, http, records, seconds):
@@ -249,15 +249,15 @@ def measure(attack, server, port, http, records, seconds):
 def judge(found, limited):
     """Prints whether each goal has been reached. Returns whether all have."""
     units = {"memory": "MiB", "SIGTERM": "s"}
-    reached = {
+    goals_met = {
         name: found[name] < goal or (name == "memory" and not limited) for name, goal in GOALS.items() if name in found
     }
-    for name, good in reached.items():
+    for name, good in goals_met.items():
         print(
             f"{name:14}{found[name]:10.2f} {units.get(name, 'ms'):4} below {GOALS[name]:4}: "
             f"{'ok' if good else 'MISSED'}"
         )
-    return all(reached.values())
+    return all(goals_met.values())
 
 
 def attack_one(name, attack, build, seconds):
@@ -272,9 +272,9 @@ def attack_one(name, attack, build, seconds):
             status = server.wait()
     if not limited:
         print("this server has no --max-memory: its memory is not limited")
-    reached = judge(found, limited)
+    is_sound = judge(found, limited)
     print(f"the server ended with status {status}")
-    return reached and status == 0
+    return is_sound and status == 0
 
 
 def run(build, seconds):

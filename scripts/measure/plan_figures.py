@@ -68,8 +68,8 @@ class Results:
 
     def settings(self, agent):
         """The settings of an agent, or of all agents of its kind: const_noop has those of const."""
-        named = self.plan["agent"]
-        return named.get(agent) or named[agent.split("_")[0]]
+        agents = self.plan["agent"]
+        return agents.get(agent) or agents[agent.split("_")[0]]
 
     def speeds(self, agent):
         """Decisions a second in each game, training and evaluation together."""

@@ -20,7 +20,7 @@ class Agents(Part):
         random, const, perturb = (
             found["scores"]["random"],
             best(found, "const"),
-            best(self.shown("baselines"), "perturb"),
+            best(self.figures_of("baselines"), "perturb"),
         )
         rows = []
         for game in found["games"]:

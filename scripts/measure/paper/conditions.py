@@ -143,7 +143,7 @@ class Conditions(Part):
         rows = [
             [f"`{plan}`", agent, then]
             for plan, agent, is_now, then in CHANGED
-            if (settings := self.shown(plan).get("settings", {}).get(agent)) and not is_now(settings)
+            if (settings := self.figures_of(plan).get("settings", {}).get(agent)) and not is_now(settings)
         ]
         if not rows:
             return

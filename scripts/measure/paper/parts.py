@@ -88,6 +88,6 @@ class Part:
         """What a table calls a plan."""
         return f"`baselines`, {len(self.figures[name]['games'])} games again" if name == PARTIAL else f"`{name}`"
 
-    def shown(self, plan):
+    def figures_of(self, plan):
         """The figures whose changed agents the document shows."""
         return self.figures.get(f"{plan}-partial", self.figures.get(plan, {}))
