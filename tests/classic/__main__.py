@@ -1,7 +1,7 @@
 """Compares `racebeam classic` with ALE 0.6.0: sends the same lines to both, and compares their output.
 
 The reference is a build of ALE's tag v0.6.0, made outside of this tree; give the path of its program `ale`.
-The actions, settings, saves, loads and resets of a run are drawn from its seed. The run's name contains all
+The actions, settings, saves, loads and resets of a run are random_run from its seed. The run's name contains all
 of that: --run repeats it. Status: 0 all identical, 1 a run differs, 2 usage error, 77 there is nothing to
 compare with.
 """
@@ -16,7 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from images import SKIPPED, folder, image, images
 from recorded import write as write_recorded
-from run import Run, drawn
+from run import Run, random_run
 from session import BINARY, difference, play
 
 IDENTICAL, UNKNOWN = "identical", "unknown to the reference"
@@ -60,7 +60,7 @@ def drawn_runs(options):
     first = random.SystemRandom().randrange(1, 10**6) if options.seed is None else options.seed
     print(f"seeds {first} to {first + options.seeds - 1}")
     games = options.games.split(",") if options.games else images()
-    return [drawn(game, first + number, options.lines) for number in range(options.seeds) for game in games]
+    return [random_run(game, first + number, options.lines) for number in range(options.seeds) for game in games]
 
 
 def compare(reference, run):
@@ -108,15 +108,15 @@ def compare_all(options, runs):
 def report(verdicts):
     """Prints the counts. Returns the exit status."""
     unknown = sorted({run.game for run, verdict in verdicts.items() if verdict == UNKNOWN})
-    played = {run: verdict for run, verdict in verdicts.items() if verdict != UNKNOWN}
-    differing = sorted({run.game for run, verdict in played.items() if verdict != IDENTICAL})
-    identical = sum(verdict == IDENTICAL for verdict in played.values())
+    results = {run: verdict for run, verdict in verdicts.items() if verdict != UNKNOWN}
+    differing = sorted({run.game for run, verdict in results.items() if verdict != IDENTICAL})
+    identical = sum(verdict == IDENTICAL for verdict in results.values())
     if unknown:
         print(f"{len(unknown)} games that the reference does not know: {', '.join(unknown)}")
     if differing:
         print(f"{len(differing)} games that differ: {', '.join(differing)}")
-    print(f"{identical} of {len(played)} runs identical, of {len({run.game for run in played})} games")
-    return 0 if identical == len(played) and played else 1
+    print(f"{identical} of {len(results)} runs identical, of {len({run.game for run in results})} games")
+    return 0 if identical == len(results) and results else 1
 
 
 if __name__ == "__main__":

@@ -21,4 +21,4 @@ def write(path, answers):
 def read(path=FILE):
     """Yields pairs of a run and the digest of its output."""
     words = (line.split(" ", 1) for line in path.read_text().splitlines())
-    return [(Run.parse(name), wanted) for name, wanted in words]
+    return [(Run.parse(name), digest) for name, digest in words]

@@ -52,7 +52,7 @@ class Run(NamedRun):
         }
         return [word for key, value in values.items() for word in (f"-{key}", str(value))]
 
-    def said(self):
+    def requests(self):
         """The client's lines: the flags, then actions."""
         generator, pressed, depth = random.Random(f"classic {self.name}"), (0, PLAYER_B), 0
         yield FLAGS
@@ -78,7 +78,7 @@ def truth(value):
     return "true" if value else "false"
 
 
-def drawn(game, seed, lines):
+def random_run(game, seed, lines):
     """A run of the game, with settings that are drawn from the seed."""
     generator = random.Random(f"settings {game} {seed}")
     return Run(

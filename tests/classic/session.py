@@ -26,8 +26,8 @@ class Answer:
 
 def play(command, run, image):
     """The output of the server with this command, without its options. Raises subprocess.TimeoutExpired."""
-    said = "".join(line + "\n" for line in run.said()).encode()
-    done = subprocess.run([*command, *run.options(), image], input=said, capture_output=True, timeout=PATIENCE)
+    requests = "".join(line + "\n" for line in run.requests()).encode()
+    done = subprocess.run([*command, *run.options(), image], input=requests, capture_output=True, timeout=PATIENCE)
     return Answer(done.returncode, done.stdout, done.stderr.decode(errors="replace").strip())
 
 
@@ -35,9 +35,9 @@ def difference(run, expected, found):
     """A sentence on where `found` first differs from `expected`; None if it does not."""
     if expected.output == found.output and expected.status == found.status:
         return None
-    for number, (wanted, had) in enumerate(zip(expected.lines, found.lines)):
-        if wanted != had:
-            return f"line {number}, {after(run, number)}: {fields(wanted, had)}"
+    for number, (line, other) in enumerate(zip(expected.lines, found.lines)):
+        if line != other:
+            return f"line {number}, {after(run, number)}: {fields(line, other)}"
     if len(expected.lines) != len(found.lines):
         return f"{len(found.lines)} lines, not {len(expected.lines)}"
     return f"status {found.status}, not {expected.status}"
@@ -45,26 +45,28 @@ def difference(run, expected, found):
 
 def after(run, number):
     """The client's line before the server's line of that number; 0 is the size of the screen."""
-    said = ["nothing", *run.said()]
-    return f"after '{said[number]}'" if number < len(said) else "at the end"
+    requests = ["nothing", *run.requests()]
+    return f"after '{requests[number]}'" if number < len(requests) else "at the end"
 
 
-def fields(wanted, had):
-    wanted, had = wanted.split(b":"), had.split(b":")
-    if len(wanted) != 4 or len(had) != 4:
-        return f"{had[-1][:20]!r}, not {wanted[-1][:20]!r}"
-    told = []
-    if wanted[0] != had[0]:
-        told.append("RAM " + bytes_that_differ(wanted[0].decode(), had[0].decode()))
-    if wanted[1] != had[1]:
-        told.append("screen")
-    if wanted[2] != had[2]:
-        told.append(f"episode {had[2].decode()}, not {wanted[2].decode()}")
-    return "; ".join(told)
+def fields(expected, found):
+    expected, found = expected.split(b":"), found.split(b":")
+    if len(expected) != 4 or len(found) != 4:
+        return f"{found[-1][:20]!r}, not {expected[-1][:20]!r}"
+    parts = []
+    if expected[0] != found[0]:
+        parts.append("RAM " + bytes_that_differ(expected[0].decode(), found[0].decode()))
+    if expected[1] != found[1]:
+        parts.append("screen")
+    if expected[2] != found[2]:
+        parts.append(f"episode {found[2].decode()}, not {expected[2].decode()}")
+    return "; ".join(parts)
 
 
-def bytes_that_differ(wanted, had):
-    differing = [at for at in range(0, min(len(wanted), len(had)), 2) if wanted[at : at + 2] != had[at : at + 2]]
-    shown = [f"{0x80 + at // 2:02X}={had[at : at + 2]} not {wanted[at : at + 2]}" for at in differing[:SHOWN]]
-    more = len(differing) - len(shown)
-    return " ".join(shown) + (f" and {more} bytes more" if more else "")
+def bytes_that_differ(expected, found):
+    differing = [
+        at for at in range(0, min(len(expected), len(found)), 2) if expected[at : at + 2] != found[at : at + 2]
+    ]
+    parts = [f"{0x80 + at // 2:02X}={found[at : at + 2]} not {expected[at : at + 2]}" for at in differing[:SHOWN]]
+    more = len(differing) - len(parts)
+    return " ".join(parts) + (f" and {more} bytes more" if more else "")

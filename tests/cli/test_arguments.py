@@ -13,7 +13,7 @@ LARGEST = 524288
 
 
 class Case(unittest.TestCase):
-    def refused(self, status, complaint, *words, data=b""):
+    def check_refusal(self, status, complaint, *words, data=b""):
         ended, printed, errors = run(*words, data=data)
         errors = [line for line in errors if "is not in the catalogue" not in line]  # a warning about any strange image
         self.assertEqual((ended, len(errors)), (status, 1), errors)
@@ -39,7 +39,7 @@ class ControlCharacters(Case):
             (2, (self.NAME,)),
         ):
             with self.subTest(words=words):
-                self.refused(status, self.SHOWN, *words)
+                self.check_refusal(status, self.SHOWN, *words)
 
     def test_in_a_doubt_about_an_image(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -66,7 +66,7 @@ class Images(Case):
     def refuses(self, path, complaint):
         for command, *words in MACHINES:
             with self.subTest(command=command):
-                self.assertEqual(self.refused(1, complaint, command, "--rom", path, *words), b"")
+                self.assertEqual(self.check_refusal(1, complaint, command, "--rom", path, *words), b"")
 
     def test_a_missing_image(self):
         self.refuses(os.path.join(self.folder, "missing.bin"), r"missing\.bin.*no such file")
@@ -97,23 +97,23 @@ class Images(Case):
 class Options(Case):
     def test_an_unknown_game_is_answered_with_similar_names(self):
         for command, *words in MACHINES:
-            self.refused(1, "brekout.*breakout", command, "--rom", GAME, "--game", "brekout", *words)
+            self.check_refusal(1, "brekout.*breakout", command, "--rom", GAME, "--game", "brekout", *words)
 
     def test_a_mode_that_the_game_does_not_offer(self):
         for command, *words in MACHINES:
-            self.refused(1, "no mode 77; it offers 0", command, "--rom", GAME, "--mode", "77", *words)
+            self.check_refusal(1, "no mode 77; it offers 0", command, "--rom", GAME, "--mode", "77", *words)
 
     def test_a_difficulty_that_the_game_does_not_offer(self):
         for command, *words in MACHINES:
-            self.refused(1, "no difficulty 9; it offers 0", command, "--rom", GAME, "--difficulty", "9", *words)
+            self.check_refusal(1, "no difficulty 9; it offers 0", command, "--rom", GAME, "--difficulty", "9", *words)
 
     def test_flags_that_are_not_numbers(self):
         for command, *words in MACHINES:
             for option in ("--seed", "--frame-skip", "--sticky", "--mode", "--difficulty"):
                 with self.subTest(command=command, option=option):
-                    self.refused(2, option + ".*many", command, "--rom", GAME, *words, option, "many")
-        self.refused(2, "--max-frames.*many", "trace", "--rom", GAME, "--actions", "-", "--max-frames", "many")
-        self.refused(2, "--frames.*many", "bench", "--rom", GAME, "--frames", "many")
+                    self.check_refusal(2, option + ".*many", command, "--rom", GAME, *words, option, "many")
+        self.check_refusal(2, "--max-frames.*many", "trace", "--rom", GAME, "--actions", "-", "--max-frames", "many")
+        self.check_refusal(2, "--frames.*many", "bench", "--rom", GAME, "--frames", "many")
 
     def test_numbers_that_are_out_of_range(self):
         for option, value in (
@@ -126,7 +126,7 @@ class Options(Case):
             ("--seed", "-1"),
         ):
             with self.subTest(option=option, value=value):
-                self.refused(2, option, "trace", "--rom", GAME, "--actions", "-", option + "=" + value)
+                self.check_refusal(2, option, "trace", "--rom", GAME, "--actions", "-", option + "=" + value)
 
     def test_what_the_console_of_an_image_does_not_take(self):
         for command, *words in MACHINES:
@@ -139,16 +139,16 @@ class Options(Case):
                 ("--ystart", "51", "from 0 to 50"),
             ):
                 with self.subTest(command=command, option=option):
-                    self.refused(2, option + ".*" + reason, command, "--rom", GAME, *words, option, value)
-            self.refused(
+                    self.check_refusal(2, option + ".*" + reason, command, "--rom", GAME, *words, option, value)
+            self.check_refusal(
                 1, "scheme F8 needs an image of at least 8192", command, "--rom", GAME, *words, "--scheme", "F8"
             )
 
     def test_what_is_missing_is_named(self):
-        self.refused(2, "--rom is required", "trace", "--actions", "-")
-        self.refused(2, "--actions is required", "trace", "--rom", GAME)
-        self.refused(2, "DIR is required", "roms")
-        self.refused(2, "OUT.png is required", "png")
+        self.check_refusal(2, "--rom is required", "trace", "--actions", "-")
+        self.check_refusal(2, "--actions is required", "trace", "--rom", GAME)
+        self.check_refusal(2, "DIR is required", "roms")
+        self.check_refusal(2, "OUT.png is required", "png")
 
     def test_an_unknown_option_is_answered_with_similar_names(self):
         for meant, given, *words in (
@@ -159,18 +159,18 @@ class Options(Case):
             ("--actions", "--action=-", "trace", "--rom", GAME, "--action=-"),
         ):
             with self.subTest(words=words):
-                self.refused(2, f"unknown argument: {given}; did you mean {meant}", *words)
-        self.refused(2, r"unknown argument: --colour \(see", "bench", "--rom", GAME, "--colour")
+                self.check_refusal(2, f"unknown argument: {given}; did you mean {meant}", *words)
+        self.check_refusal(2, r"unknown argument: --colour \(see", "bench", "--rom", GAME, "--colour")
 
     def test_an_unknown_subcommand_is_answered_with_similar_names(self):
-        self.refused(2, r"unknown subcommand 'conect'; did you mean connect\? Accepted: serve, ", "conect")
-        self.refused(2, "unknown subcommand 'conquer'; ", "conquer")
+        self.check_refusal(2, r"unknown subcommand 'conect'; did you mean connect\? Accepted: serve, ", "conect")
+        self.check_refusal(2, "unknown subcommand 'conquer'; ", "conquer")
 
     def test_unknown_words_are_named(self):
-        self.refused(2, "--faster", "bench", "--rom", GAME, "--faster")
-        self.refused(2, "some", "bench", "--rom", GAME, "--screen", "some")
-        self.refused(2, "", "conquer")
-        self.refused(2, "", *[])
+        self.check_refusal(2, "--faster", "bench", "--rom", GAME, "--faster")
+        self.check_refusal(2, "some", "bench", "--rom", GAME, "--screen", "some")
+        self.check_refusal(2, "", "conquer")
+        self.check_refusal(2, "", *[])
 
 
 class Help(unittest.TestCase):

@@ -47,14 +47,14 @@ class Config(unittest.TestCase):
             self.assertEqual(found[1], "default")
 
     def test_memory_is_given_in_bytes_or_with_a_unit(self):
-        for given, bytes_of in (("123456789", 123456789), ("512M", 512 << 20), ("2G", 2 << 30), ("64 kb", 64 << 10)):
+        for text, bytes_of in (("123456789", 123456789), ("512M", 512 << 20), ("2G", 2 << 30), ("64 kb", 64 << 10)):
             self.assertEqual(
-                self.settings("--stdio", "--max-memory", given)["max_memory"], (str(bytes_of), "command line")
+                self.settings("--stdio", "--max-memory", text)["max_memory"], (str(bytes_of), "command line")
             )
-        usual = int(self.settings("--stdio")["max_memory"][0])
+        default = int(self.settings("--stdio")["max_memory"][0])
         physical = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-        self.assertLessEqual(usual, physical * 3 // 4)
-        self.assertGreater(usual, 1 << 26)
+        self.assertLessEqual(default, physical * 3 // 4)
+        self.assertGreater(default, 1 << 26)
         self.assertEqual(self.run_racebeam("config", "--stdio", "--max-memory", "much").returncode, 2)
 
     def test_options_win_over_variables_over_the_file_over_defaults(self):
@@ -79,8 +79,8 @@ class Config(unittest.TestCase):
 
     def test_what_it_prints_can_be_read_again(self):
         words = ("--listen", "tcp://127.0.0.1:0", "--rom", 'a "quoted" \\ name', "--sticky", "0.5", "--classic")
-        printed = self.run_racebeam("config", *words).stdout.decode()
-        again = self.settings("--config", self.file(printed))
+        output = self.run_racebeam("config", *words).stdout.decode()
+        again = self.settings("--config", self.file(output))
         for key, (value, _) in self.settings(*words).items():
             self.assertEqual(again[key][0], value, key)
 
@@ -104,9 +104,9 @@ class Config(unittest.TestCase):
         ):
             with self.subTest(option=option, value=value):
                 key = option[2:].replace("-", "_")
-                printed = self.run_racebeam("config", option, value).stdout.decode()
-                again = self.run_racebeam("config", "--config", self.file(printed)).stdout.decode()
-                line = next(line for line in printed.splitlines() if line.startswith(key + " "))
+                output = self.run_racebeam("config", option, value).stdout.decode()
+                again = self.run_racebeam("config", "--config", self.file(output)).stdout.decode()
+                line = next(line for line in output.splitlines() if line.startswith(key + " "))
                 self.assertIn(line.replace("# command line", "# file"), again.splitlines())
 
     def test_the_server_obeys(self):

@@ -189,7 +189,7 @@ class Encrypted(unittest.TestCase):
         )
         return paths
 
-    def refused(self, host, *options, scheme="tls", port=None):
+    def check_refusal(self, host, *options, scheme="tls", port=None):
         """What a run that gets no session says."""
         done = connect(f"{scheme}://{host}:{port or self.port}", "hello\n", *options)
         self.assertEqual((done.returncode, done.stdout), (1, ""))
@@ -204,21 +204,21 @@ class Encrypted(unittest.TestCase):
         self.assertEqual(len(done.stdout.splitlines()), 2 + 26)
 
     def test_a_certificate_that_is_not_trusted_is_refused(self):
-        self.assertIn("certificate verify failed", self.refused("127.0.0.1"))
-        self.assertIn("certificate verify failed", self.refused("127.0.0.1", "--authorities", self.stranger))
+        self.assertIn("certificate verify failed", self.check_refusal("127.0.0.1"))
+        self.assertIn("certificate verify failed", self.check_refusal("127.0.0.1", "--authorities", self.stranger))
 
     def test_a_certificate_of_another_host_is_refused(self):
-        self.assertIn("certificate verify failed", self.refused("localhost", "--authorities", self.certificate))
+        self.assertIn("certificate verify failed", self.check_refusal("localhost", "--authorities", self.certificate))
 
     def test_authorities_that_cannot_be_read_are_refused(self):
         for path in ("/nonexistent/authorities.pem", self.key):
             with self.subTest(path):
-                self.assertIn(path, self.refused("127.0.0.1", "--authorities", path))
+                self.assertIn(path, self.check_refusal("127.0.0.1", "--authorities", path))
 
     def test_only_one_side_with_tls_is_an_error(self):
         with Server("serve", "--listen", "tcp://127.0.0.1:0") as plain:
-            self.refused("127.0.0.1", "--timeout", "5", port=plain.port())
-        self.refused("127.0.0.1", "--timeout", "5", scheme="tcp")
+            self.check_refusal("127.0.0.1", "--timeout", "5", port=plain.port())
+        self.check_refusal("127.0.0.1", "--timeout", "5", scheme="tcp")
 
 
 class Typed(unittest.TestCase):
@@ -255,15 +255,15 @@ class Typed(unittest.TestCase):
         return shown
 
     def test_long_values_are_shortened(self):
-        shown = self.run_typed("load beamfall seed=7\n", "look screen\n", ":quit\n")
-        self.assertRegex(shown, r"ok screen=[0-9A-F]{20}\.\.\.\(\d+\)")
+        output = self.run_typed("load beamfall seed=7\n", "look screen\n", ":quit\n")
+        self.assertRegex(output, r"ok screen=[0-9A-F]{20}\.\.\.\(\d+\)")
 
     def test_history_lasts(self):
         if not self.edits():
             self.skipTest("built without libedit")
         self.run_typed("games all\n", ":quit\n")
-        shown = self.run_typed("\x1b[A\x1b[A\n", ":quit\n")  # up, up, enter
-        self.assertIn("ok count=", shown)
+        output = self.run_typed("\x1b[A\x1b[A\n", ":quit\n")  # up, up, enter
+        self.assertIn("ok count=", output)
 
     def test_a_command_is_completed(self):
         if not self.edits():
@@ -273,7 +273,7 @@ class Typed(unittest.TestCase):
     def test_games_keys_fields_actions_and_states_are_completed(self):
         if not self.edits():
             self.skipTest("built without libedit")
-        shown = self.run_typed(
+        output = self.run_typed(
             "load beam\tseed=7 stic\t0 life_loss=rep\tpreset=dq\t\n",
             "act fi\t\n",
             "act FIRE/righ\t\n",
@@ -293,9 +293,9 @@ class Typed(unittest.TestCase):
             "ok machines=2 autoreset=same-step",
             "ok fields=screen",
         ):
-            self.assertIn(reply, shown)
-        self.assertIn("racebeam> act FIRE/RIGHT", self.visible(shown))
-        self.assertNotIn("error", shown)
+            self.assertIn(reply, output)
+        self.assertIn("racebeam> act FIRE/RIGHT", self.visible(output))
+        self.assertNotIn("error", output)
 
     @staticmethod
     def visible(shown):
@@ -317,8 +317,8 @@ class Typed(unittest.TestCase):
 
     def test_help_has_the_width_of_the_terminal(self):
         for columns in (50, 100):
-            shown = self.run_typed("help settings\n", ":quit\n", columns=columns)
-            lines = [len(line) for line in shown.replace("\r", "").splitlines() if line.startswith("  ")]
+            output = self.run_typed("help settings\n", ":quit\n", columns=columns)
+            lines = [len(line) for line in output.replace("\r", "").splitlines() if line.startswith("  ")]
             self.assertLessEqual(max(lines), columns)
             self.assertGreater(max(lines), columns - 15)
 

@@ -201,12 +201,12 @@ class Experiment(unittest.TestCase):
         self.assertEqual(status, 1)
         agents = re.search(r"unknown agent 'none'; accepted: (.*)\n", errors)[1].split(", ")
         scores = (ROOT / "evaluation/racebeam_evaluation/scores.py").read_text()
-        known = [
+        names = [
             name
             for group in ("BASELINE_VIEWS", "_LEARNERS", "_PLANNERS")
             for name in re.findall(r'"(\w+)"', re.search(rf"(?m)^{group} = \((.*?)\)", scores)[1])
         ]
-        self.assertEqual(sorted(agents), sorted(known))
+        self.assertEqual(sorted(agents), sorted(names))
 
     def test_verification_takes_no_memory_for_the_rows(self):
         self.plan.write_text('games = ["beamfall"]\nagents = ["random"]\nevaluation_episodes = 2\n')
@@ -239,10 +239,10 @@ class Experiment(unittest.TestCase):
         plan = 'games = "paper"\nagents = ["const"]\ntrials = 1\nevaluation_episodes = 1\n'
         self.plan.write_text(plan)
         errors = set()
-        for most in range(16, 80, 4):
+        for size in range(16, 80, 4):
 
             def limit():
-                return resource.setrlimit(resource.RLIMIT_AS, (most << 20, most << 20))  # noqa: B023
+                return resource.setrlimit(resource.RLIMIT_AS, (size << 20, size << 20))  # noqa: B023
 
             status, _, error = run("experiment", str(self.plan), "--dry-run", preexec_fn=limit)
             if status == 1:
@@ -270,12 +270,12 @@ class Experiment(unittest.TestCase):
         )
 
     def test_the_results_in_the_tree_are_confirmed(self):
-        kept = [plan.parent for plan in sorted((ROOT / "docs/results").glob("*/plan.toml"))]
-        self.assertIn(ROOT / "docs/results/own-games", kept)
+        folders = [plan.parent for plan in sorted((ROOT / "docs/results").glob("*/plan.toml"))]
+        self.assertIn(ROOT / "docs/results/own-games", folders)
         self.assertLess(
             sum(path.stat().st_size for path in (ROOT / "docs/results").rglob("*") if path.is_file()), 1 << 20
         )
-        for folder in kept:
+        for folder in folders:
             status, printed, _ = run("verify", str(folder))
             self.assertEqual(status, 0 if folder.name == "own-games" else 2, printed)  # 2: the image is not here
             self.assertIn(" rows confirmed, 0 wrong, ", printed)
@@ -307,8 +307,8 @@ class Experiment(unittest.TestCase):
             expected = 3600 * float(re.search(r"(?m)^all +\d+ units +\d+ decisions +([0-9.]+) core-hours$", printed)[1])
             before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
             self.assertEqual(self.experiment(f"results{len(agents)}", "--threads", "1")[0], 0)
-            used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
-            self.assertTrue(0.5 < expected / used < 2, (agents, expected, used))
+            seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+            self.assertTrue(0.5 < expected / seconds < 2, (agents, expected, seconds))
 
     def test_units_are_played_again(self):
         self.plan.write_text('games = ["beamfall"]\nagents = ["random"]\nevaluation_episodes = 2\n')
@@ -401,12 +401,12 @@ class Experiment(unittest.TestCase):
         self.assertRegex(printed, r"beamfall.classes and its pictures are written: [1-9]\d* classes of \d+ shapes\n$")
         for name in ("classes", "objects"):
             self.assertTrue((games / f"beamfall-{name}.png").read_bytes().startswith(b"\x89PNG"))
-        written = files(games)
+        results = files(games)
         self.plan.write_text(
             PLAN.replace('"random", "const", "basic", "disco", "lsh", "uct"', '"disco"').partition("[agent")[0]
         )
         self.assertEqual(self.experiment("results")[0], 0)
-        self.assertEqual({name: contents for name, contents in files(games).items() if name in written}, written)
+        self.assertEqual({name: contents for name, contents in files(games).items() if name in results}, results)
         self.plan.write_text(self.plan.read_text().replace("class_screens = 500", "class_screens = 501"))
         (self.place / "other").mkdir()
         games.rename(self.place / "other" / "games")

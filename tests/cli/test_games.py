@@ -116,8 +116,8 @@ class Roms(unittest.TestCase):
         self.put(name, bytes(range(256)) * 16)
         text = answer("roms", self.folder)
         self.assertIn("red\\x1b[31m\\x0anext\\xc2\\x9b1m L\u00f6we.bin", text)
-        for shown in (text, answer("roms", self.folder, "--json")):
-            self.assertEqual([c for c in shown if c < " " and c != "\n" or "\x7f" <= c < "\xa0"], [])
+        for output in (text, answer("roms", self.folder, "--json")):
+            self.assertEqual([c for c in output if c < " " and c != "\n" or "\x7f" <= c < "\xa0"], [])
         self.assertIn(name, self.findings()[0])
 
     def test_each_image_gets_its_verdict(self):
@@ -174,8 +174,8 @@ class Roms(unittest.TestCase):
             ("modern.bin", "scheme MDM, which is not implemented"),
         ):
             self.assertIn(sentence, found[file]["note"])
-        offered = run("serve", "--stdio", "--roms", self.folder, data=b"games\n")[1]
-        self.assertEqual(offered, b"ok count=4 games=beamfall,pong,small,updraft\n")
+        output = run("serve", "--stdio", "--roms", self.folder, data=b"games\n")[1]
+        self.assertEqual(output, b"ok count=4 games=beamfall,pong,small,updraft\n")
 
     def test_an_empty_folder_lacks_every_game_but_the_built_in_ones(self):
         games = json.loads(answer("games", "--json"))
@@ -196,23 +196,23 @@ class Roms(unittest.TestCase):
         self.assertRegex(lines[0], r"^unknown +- +[0-9a-f]{32}  2K +mystery\.bin: needs --game$")
         self.assertRegex(lines[-1], r"^1 images; \d+ games without one$")
 
-    def refused(self, folder, complaint):
+    def check_refusal(self, folder, complaint):
         status, printed, errors = run("roms", folder)
         self.assertEqual((status, printed, len(errors)), (1, b"", 1), errors)
         self.assertIn(complaint, errors[0])
 
     def test_a_folder_that_is_not_there(self):
-        self.refused(os.path.join(self.folder, "missing"), "No such file or directory")
+        self.check_refusal(os.path.join(self.folder, "missing"), "No such file or directory")
 
     def test_a_file_for_a_folder(self):
         self.put("file", b"")
-        self.refused(os.path.join(self.folder, "file"), "Not a directory")
+        self.check_refusal(os.path.join(self.folder, "file"), "Not a directory")
 
     @unittest.skipIf(os.geteuid() == 0, "root may read everything")
     def test_a_folder_that_may_not_be_read(self):
         os.chmod(self.folder, 0)
         self.addCleanup(os.chmod, self.folder, 0o700)
-        self.refused(self.folder, "Permission denied")
+        self.check_refusal(self.folder, "Permission denied")
 
 
 if __name__ == "__main__":

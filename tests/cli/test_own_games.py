@@ -41,8 +41,8 @@ class OwnGames(unittest.TestCase):
         folder = self.place / "files"
         folder.mkdir()
         os.link(self.file, folder / "mine.toml")
-        for given in (self.file, str(folder)):
-            status, output, errors = self.serve("--roms", str(self.roms), "--game-file", given)
+        for path in (self.file, str(folder)):
+            status, output, errors = self.serve("--roms", str(self.roms), "--game-file", path)
             self.assertEqual(status, 0, errors)
             self.assertRegex(output.decode(), rf"(?s)^ok game=mine md5={self.md5} rule=1 .*\nok reward=[1-9]\d*\n")
 
@@ -69,8 +69,8 @@ class OwnGames(unittest.TestCase):
                     self.assertIn("the program's own games", errors[-1])
 
     def test_play_begins_with_the_game_of_the_file(self):
-        hidden = ("DISPLAY", "WAYLAND_DISPLAY")
-        environment = {key: value for key, value in os.environ.items() if key not in hidden}
+        variables = ("DISPLAY", "WAYLAND_DISPLAY")
+        environment = {key: value for key, value in os.environ.items() if key not in variables}
         words = ["--roms", str(self.roms), "--game-file", self.file]
         with subprocess.Popen([BINARY, "play", *words], stdout=subprocess.PIPE, text=True, env=environment) as process:
             try:
@@ -82,16 +82,16 @@ class OwnGames(unittest.TestCase):
     def test_an_experiment_runs_and_is_verified(self):
         plan = self.place / "plan.toml"
         plan.write_text('games = ["mine"]\nagents = ["random"]\nevaluation_episodes = 2\n')
-        own = ["--roms", str(self.roms), "--game-file", self.file]
+        options = ["--roms", str(self.roms), "--game-file", self.file]
         results = str(self.place / "results")
-        status, _, errors = run("experiment", str(plan), "--into", results, *own)
+        status, _, errors = run("experiment", str(plan), "--into", results, *options)
         self.assertEqual(status, 0, errors)
-        status, output, errors = run("verify", results, *own)
+        status, output, errors = run("verify", results, *options)
         self.assertEqual(status, 0, (output, errors))
         self.assertTrue(re.search(r"\b2\b", output.decode()), output)
         film = str(self.place / "film.gif")
         log = f"{results}/logs/mine-random-1/1.episode"
-        self.assertEqual(run("render", log, "--to", film, *own)[0], 0)
+        self.assertEqual(run("render", log, "--to", film, *options)[0], 0)
         status, _, errors = run("experiment", str(plan), "--into", f"{results}2")
         self.assertEqual(status, 1)
         self.assertIn("unknown game 'mine'", errors[-1])

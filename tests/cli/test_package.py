@@ -60,16 +60,16 @@ class Package(unittest.TestCase):
         self.assertEqual(self.first.read_bytes(), self.second.read_bytes())
 
     def test_its_program_plays(self):
-        told = output(
+        info = output(
             self.root / "usr/bin/racebeam", "serve", "--stdio", input="load beamfall seed=7 sticky=0\nact FIRE*60\n"
         )
-        self.assertEqual(told.splitlines()[-1], "ok reward=21 terminated=0 truncated=0 lives=4")
+        self.assertEqual(info.splitlines()[-1], "ok reward=21 terminated=0 truncated=0 lives=4")
 
     def test_it_has_no_image_but_ours(self):
         names = [path.name for path in self.root.rglob("*") if path.is_file()]
         self.assertFalse([name for name in names if name.endswith((".bin", ".a26", ".rom", ".gz", ".zip"))])
-        told = output(self.root / "usr/bin/racebeam", "serve", "--stdio", input="games\n")
-        self.assertEqual(set(told.rpartition("games=")[2].strip().split(",")), OURS)
+        reply = output(self.root / "usr/bin/racebeam", "serve", "--stdio", input="games\n")
+        self.assertEqual(set(reply.rpartition("games=")[2].strip().split(",")), OURS)
 
     def test_its_settings_are_accepted(self):
         path = self.root / "etc/racebeam.toml"
@@ -95,8 +95,8 @@ class Package(unittest.TestCase):
             self.assertIn("set -e", output("dpkg-deb", "-I", self.first, name))
 
     def test_there_is_a_man_page_for_each_subcommand(self):
-        listed = output(BINARY, "--help").partition("Subcommands:")[2].partition("\n\n")[0]
-        names = {line.split()[0] for line in listed.splitlines() if line.startswith("  ") and line[2] != " "}
+        subcommands = output(BINARY, "--help").partition("Subcommands:")[2].partition("\n\n")[0]
+        names = {line.split()[0] for line in subcommands.splitlines() if line.startswith("  ") and line[2] != " "}
         self.assertIn("serve", names)
         pages = self.root / "usr/share/man/man1"
         self.assertEqual(
@@ -121,23 +121,23 @@ class Completion(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
         output(sys.executable, "-B", SOURCE / "packages/program_text.py", BINARY, cls.folder)
 
-    def offered(self, *words):
+    def completions(self, *words):
         script = 'source "$1"; shift; COMP_WORDS=(racebeam "$@"); COMP_CWORD=$#; _racebeam; '
         script += 'printf "%s\\n" "${COMPREPLY[@]}"'
         environment = {**PLAIN, "PATH": f"{BUILD}:{PLAIN['PATH']}"}
         return output("bash", "-c", script, "bash", self.folder / "racebeam.bash", *words, env=environment).split()
 
     def test_subcommands(self):
-        self.assertEqual(self.offered("ser"), ["serve"])
-        self.assertIn("games", self.offered(""))
+        self.assertEqual(self.completions("ser"), ["serve"])
+        self.assertIn("games", self.completions(""))
 
     def test_options_of_the_subcommand(self):
-        self.assertEqual(self.offered("serve", "--frame"), ["--frame-skip"])
-        self.assertEqual(self.offered("games", "--frame"), [])
+        self.assertEqual(self.completions("serve", "--frame"), ["--frame-skip"])
+        self.assertEqual(self.completions("games", "--frame"), [])
 
     def test_games(self):
-        self.assertEqual(self.offered("trace", "--game", "beamf"), ["beamfall"])
-        self.assertIn("pong", self.offered("trace", "--game", ""))
+        self.assertEqual(self.completions("trace", "--game", "beamf"), ["beamfall"])
+        self.assertIn("pong", self.completions("trace", "--game", ""))
 
     def test_the_others_name_the_same_options(self):
         for name in ("_racebeam", "racebeam.fish"):

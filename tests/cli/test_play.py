@@ -144,11 +144,11 @@ class Watch(unittest.TestCase):
 
     def test_one_picture_is_written_where_there_is_no_terminal(self):
         self.share("a"), self.share("b", "updraft")
-        for words, shown in (([], "a  game beamfall"), (["--session", "b"], "b  game updraft")):
+        for words, status in (([], "a  game beamfall"), (["--session", "b"], "b  game updraft")):
             done = self.watch("--terminal", self.address, *words)
             lines = done.stdout.splitlines()
             self.assertEqual((done.returncode, done.stderr), (0, ""))
-            self.assertIn(shown, lines[-1])
+            self.assertIn(status, lines[-1])
             self.assertIn("score 0", lines[-1])
             self.assertEqual({line.count("\u2580") for line in lines[:-1]}, {80})
 
@@ -167,21 +167,21 @@ class Watch(unittest.TestCase):
         child, terminal = pty.fork()
         if child == 0:
             os.execve(BINARY, [BINARY, "watch", "--terminal", self.address], environment(TERM="xterm"))
-        shown = self.shown(terminal, "a  game beamfall  score 0")
+        screen = self.wait_for_screen(terminal, "a  game beamfall  score 0")
         session.ask(b"act FIRE*200")
         score = re.search(rb"score=(\d+)", session.ask(b"watch a"))
         session.ask(b"act NOOP")
-        shown = self.shown(terminal, r"a  game beamfall  score [1-9]")
-        self.assertIn("\u2580", shown)
+        screen = self.wait_for_screen(terminal, r"a  game beamfall  score [1-9]")
+        self.assertIn("\u2580", screen)
         os.write(terminal, b"n")
-        self.shown(terminal, "b  game updraft")
+        self.wait_for_screen(terminal, "b  game updraft")
         os.write(terminal, b"p")
-        self.shown(terminal, "a  game beamfall")
+        self.wait_for_screen(terminal, "a  game beamfall")
         os.write(terminal, b"q")
         self.assertEqual(os.waitpid(child, 0)[1], 0)
         self.assertTrue(score)
 
-    def shown(self, terminal, pattern):
+    def wait_for_screen(self, terminal, pattern):
         """What the terminal shows until `pattern` comes."""
         text, until = b"", time.monotonic() + PATIENCE
         while time.monotonic() < until and not re.search(pattern.encode(), text):

@@ -119,7 +119,7 @@ class Png(unittest.TestCase):
         self.assertEqual(status, 0)
         return printed
 
-    def shown(self, replies, *words):
+    def picture_of(self, replies, *words):
         """The picture that replies give: width, height and rows."""
         status, printed, errors = run("png", self.path, *words, data=replies)
         self.assertEqual((status, printed, errors), (0, b"", []))
@@ -127,23 +127,23 @@ class Png(unittest.TestCase):
             return read_png(file.read())
 
     def test_a_reply_in_each_encoding_is_the_same_picture(self):
-        first = self.shown(self.replies("act FIRE*30", "look screen"))
+        first = self.picture_of(self.replies("act FIRE*30", "look screen"))
         self.assertEqual(first[:2], (2 * WIDTH, HEIGHT))
         self.assertGreater(len(set(first[2])), 5)
         for field in ("screen", "rgb"):
             for encoding in ("hex", "rle", "base64", "zlib", "raw"):
                 with self.subTest(field=field, encoding=encoding):
                     replies = self.replies("act FIRE*30", f"look lives ram:raw {field}:{encoding} palette", "stats")
-                    self.assertEqual(self.shown(replies), first)
-                    self.assertEqual(self.shown(replies, "--field", field), first)
+                    self.assertEqual(self.picture_of(replies), first)
+                    self.assertEqual(self.picture_of(replies, "--field", field), first)
                     if encoding != "raw":
-                        self.assertEqual(self.shown(replies, "--encoding", encoding), first)
+                        self.assertEqual(self.picture_of(replies, "--encoding", encoding), first)
             replies = self.replies(f"observe reward {field}:delta", "act FIRE*20", "act FIRE*10")
-            self.assertEqual(self.shown(replies, "--encoding", "delta"), first)
+            self.assertEqual(self.picture_of(replies, "--encoding", "delta"), first)
 
     def test_a_single_reply_without_its_load_is_enough(self):
         replies = self.replies("act FIRE*30", "look screen:zlib")
-        self.assertEqual(self.shown(replies.splitlines()[-1]), self.shown(replies))
+        self.assertEqual(self.picture_of(replies.splitlines()[-1]), self.picture_of(replies))
 
     def test_grey_and_resized_screens_keep_their_size(self):
         for field, size in (
@@ -157,7 +157,7 @@ class Png(unittest.TestCase):
                 with self.subTest(field=field, encoding=encoding):
                     replies = self.replies(f"observe {field}:{encoding}", "act FIRE*9")
                     words = ("--encoding", "delta") if encoding == "delta" else ()
-                    width, height, rows = self.shown(replies, *words)
+                    width, height, rows = self.picture_of(replies, *words)
                     self.assertEqual((width, height), size)
                     self.assertGreater(len(set(rows)), 5)
                     if "rgb" not in field:
@@ -172,15 +172,15 @@ class Png(unittest.TestCase):
 
     def test_machines_are_told_apart(self):
         replies = self.replies("observe screen", "open 2", "step FIRE UP", "step RIGHT*1 LEFT", "step RIGHT LEFT")
-        pictures = [self.shown(replies, *words) for words in ((), ("--machine", "0"), ("--machine", "1"))]
+        pictures = [self.picture_of(replies, *words) for words in ((), ("--machine", "0"), ("--machine", "1"))]
         self.assertEqual(pictures[0], pictures[1])
         self.assertNotEqual(pictures[1], pictures[2])
 
     def test_the_palette_is_that_of_the_loaded_game(self):
         lines = b"load beamfall seed=7 format=pal\nlook screen\n"
         _, printed, _ = run("serve", "--stdio", data=lines)
-        self.assertEqual(self.shown(printed), self.shown(printed.splitlines()[-1], "--palette", "pal"))
-        self.assertNotEqual(self.shown(printed), self.shown(printed, "--palette", "ntsc"))
+        self.assertEqual(self.picture_of(printed), self.picture_of(printed.splitlines()[-1], "--palette", "pal"))
+        self.assertNotEqual(self.picture_of(printed), self.picture_of(printed, "--palette", "ntsc"))
 
     def test_replies_without_a_picture_are_refused(self):
         for complaint, replies, *words in (
@@ -204,7 +204,7 @@ class Png(unittest.TestCase):
                 self.assertIn(complaint, errors[0])
                 self.assertFalse(os.path.exists(self.path))
 
-    def refused(self, status, complaint, line, *words):
+    def check_refusal(self, status, complaint, line, *words):
         ended, printed, errors = run("png", self.path, *words, data=line.encode())
         self.assertEqual((ended, printed, len(errors)), (status, b"", 1), errors)
         self.assertIn(complaint, errors[0])
@@ -213,21 +213,21 @@ class Png(unittest.TestCase):
     def test_lines_without_a_screen_are_refused(self):
         for line in ("", "\n", "DIE\n", "0,0:\n", "00" * 128 + ":0,0:\n"):
             with self.subTest(line=line):
-                self.refused(1, "truncated" if line == "DIE\n" else "no screen", line)
+                self.check_refusal(1, "truncated" if line == "DIE\n" else "no screen", line)
 
     def test_screens_that_make_no_sense_are_refused(self):
         screen = run_lengths(self.pixels)
-        self.refused(1, "odd number of digits", screen[:-1])
-        self.refused(1, "has no length", screen[:-2])
-        self.refused(1, "not whole rows", screen[:-4])
-        self.refused(1, "'XY' in the screen", "XY" + screen[2:])
-        self.refused(1, "without --full", bytes(self.pixels).hex()[:-2], "--full")
-        self.refused(1, "not whole rows", "00FF" * 100000)
+        self.check_refusal(1, "odd number of digits", screen[:-1])
+        self.check_refusal(1, "has no length", screen[:-2])
+        self.check_refusal(1, "not whole rows", screen[:-4])
+        self.check_refusal(1, "'XY' in the screen", "XY" + screen[2:])
+        self.check_refusal(1, "without --full", bytes(self.pixels).hex()[:-2], "--full")
+        self.check_refusal(1, "not whole rows", "00FF" * 100000)
 
     def test_words_that_make_no_sense_are_refused(self):
         screen = run_lengths(self.pixels)
-        self.refused(2, "blue", screen, "--palette", "blue")
-        self.refused(2, "--rle", screen, "--full", "--rle")
+        self.check_refusal(2, "blue", screen, "--palette", "blue")
+        self.check_refusal(2, "--rle", screen, "--full", "--rle")
 
     def test_a_file_that_cannot_be_written_is_named(self):
         path = os.path.join(os.path.dirname(self.path), "missing", "x.png")

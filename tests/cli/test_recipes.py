@@ -31,7 +31,7 @@ class Recipes(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.folder.chmod(0o777)  # another user may write here
 
-    def written(self, recipe):
+    def write(self, recipe):
         """A recipe as scripts/release writes it, in its own folder."""
         text = (PACKAGES / recipe).read_text()
         for mark, value in MARKS.items():
@@ -57,13 +57,13 @@ class Recipes(unittest.TestCase):
     @needs("dpkg-query")
     def test_the_container_has_the_libraries_that_the_program_needs(self):
         final = (PACKAGES / "docker/Dockerfile").read_text().rpartition("FROM ")[2]
-        listed = set(re.findall(r"\blib[\w.+-]+|\bzlib1g\b", final))
-        has = listed | {"libc6", "libgcc-s1", "libstdc++6"}  # which Debian always has
-        for depends in self.output("dpkg-query", "--show", "--showformat=${Depends}\n", *listed).splitlines():
+        packages = set(re.findall(r"\blib[\w.+-]+|\bzlib1g\b", final))
+        has = packages | {"libc6", "libgcc-s1", "libstdc++6"}  # which Debian always has
+        for depends in self.output("dpkg-query", "--show", "--showformat=${Depends}\n", *packages).splitlines():
             has |= {word.split()[0].partition(":")[0] for word in depends.split(", ")}
-        needed = re.findall(r"\(NEEDED\).*\[(.*)\]", self.output("readelf", "--dynamic", BINARY))
+        libraries = re.findall(r"\(NEEDED\).*\[(.*)\]", self.output("readelf", "--dynamic", BINARY))
         paths = dict(re.findall(r"(\S+) => (/\S+)", self.output("ldd", BINARY)))
-        files = [str(pathlib.Path(paths[name]).resolve()).removeprefix("/usr") for name in needed]
+        files = [str(pathlib.Path(paths[name]).resolve()).removeprefix("/usr") for name in libraries]
         found = self.output("dpkg-query", "--search", *(f"*{file}" for file in files))
         self.assertGreater(len(files), 5)
         self.assertLessEqual({line.partition(":")[0] for line in found.splitlines()}, has)
@@ -113,30 +113,30 @@ class Recipes(unittest.TestCase):
 
     @needs("docker-compose")
     def test_the_compose_file(self):
-        told = self.output("docker-compose", "-f", PACKAGES / "docker/compose.yaml", "config")
-        self.assertIn("dockerfile: packages/docker/Dockerfile", told)
+        output = self.output("docker-compose", "-f", PACKAGES / "docker/compose.yaml", "config")
+        self.assertIn("dockerfile: packages/docker/Dockerfile", output)
 
     @needs("ruby")
     def test_the_formula(self):
-        self.assertEqual(self.output("ruby", "-wc", self.written("homebrew/racebeam.rb")), "Syntax OK\n")
+        self.assertEqual(self.output("ruby", "-wc", self.write("homebrew/racebeam.rb")), "Syntax OK\n")
 
     @needs("shellcheck")
     def test_the_pkgbuild_as_a_program(self):
         unused_or_given = "SC2034,SC2154"  # variables that makepkg reads and sets
         self.assertEqual(
-            self.output("shellcheck", "--shell=bash", f"--exclude={unused_or_given}", self.written("arch/PKGBUILD")), ""
+            self.output("shellcheck", "--shell=bash", f"--exclude={unused_or_given}", self.write("arch/PKGBUILD")), ""
         )
 
     @needs("makepkg")
     def test_the_pkgbuild_as_a_package(self):
-        self.written("arch/PKGBUILD")
-        told = self.output("makepkg", "--printsrcinfo", **UNPRIVILEGED)
-        self.assertIn("\tpkgver = 1.2.3\n", told)
-        self.assertIn("/v1.2.3/racebeam-1.2.3-source.tar.gz\n", told)
+        self.write("arch/PKGBUILD")
+        output = self.output("makepkg", "--printsrcinfo", **UNPRIVILEGED)
+        self.assertIn("\tpkgver = 1.2.3\n", output)
+        self.assertIn("/v1.2.3/racebeam-1.2.3-source.tar.gz\n", output)
 
     @unittest.skipUnless((BUILD / "packages/texts/racebeam.1").exists(), "the build has no man pages")
     def test_the_package_for_arch_has_the_places_of_arch(self):
-        self.written("arch/PKGBUILD")
+        self.write("arch/PKGBUILD")
         (self.folder / "racebeam-1.2.3").symlink_to(SOURCE)
         (self.folder / "build").symlink_to(BUILD)
         root = self.folder / "root"

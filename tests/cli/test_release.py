@@ -46,11 +46,11 @@ class Release(unittest.TestCase):
         for name in ("first", "second"):
             (cls.folder / name).mkdir()
             cls.release.make(cls.folder / name)
-        cls.made = cls.folder / "first"
+        cls.packages = cls.folder / "first"
         cls.version = cls.release.version
 
     def unpacked(self, pattern):
-        path = next(self.made.glob(pattern))
+        path = next(self.packages.glob(pattern))
         with tarfile.open(path) as archive:
             archive.extractall(self.folder / path.name)
         return next((self.folder / path.name).iterdir())
@@ -64,58 +64,58 @@ class Release(unittest.TestCase):
             "sbom.json",
             "SHA256SUMS",
         }
-        names = {path.name for path in self.made.iterdir()}
+        names = {path.name for path in self.packages.iterdir()}
         self.assertTrue(kinds <= names, names)
         self.assertEqual(len(names - kinds), 1)  # that of the processor
 
     def test_two_runs_give_the_same_sums(self):
-        self.assertEqual((self.made / "SHA256SUMS").read_text(), (self.folder / "second/SHA256SUMS").read_text())
+        self.assertEqual((self.packages / "SHA256SUMS").read_text(), (self.folder / "second/SHA256SUMS").read_text())
 
     def test_the_sums_are_those_of_the_files(self):
-        lines = (self.made / "SHA256SUMS").read_text().splitlines()
-        self.assertEqual(len(lines), len(list(self.made.iterdir())) - 1)
+        lines = (self.packages / "SHA256SUMS").read_text().splitlines()
+        self.assertEqual(len(lines), len(list(self.packages.iterdir())) - 1)
         for line in lines:
             digest, name = line.split()
-            self.assertEqual(hashlib.sha256((self.made / name).read_bytes()).hexdigest(), digest)
+            self.assertEqual(hashlib.sha256((self.packages / name).read_bytes()).hexdigest(), digest)
 
     def test_the_program_plays_where_it_is_unpacked(self):
         program = self.unpacked("*-linux-*.tar.gz") / "bin/racebeam"
-        told = subprocess.run(
+        output = subprocess.run(
             [program, "serve", "--stdio"],
             input="load beamfall seed=7 sticky=0\nact FIRE*60\n",
             capture_output=True,
             text=True,
         )
-        self.assertEqual(told.stdout.splitlines()[-1], "ok reward=21 terminated=0 truncated=0 lives=4")
+        self.assertEqual(output.stdout.splitlines()[-1], "ok reward=21 terminated=0 truncated=0 lives=4")
 
     def test_the_source_is_that_of_the_commit(self):
         source = self.unpacked("*-source.tar.gz")
-        listed = subprocess.run(
+        output = subprocess.run(
             ["git", "ls-tree", "-r", "--name-only", "HEAD"], cwd=SOURCE, capture_output=True, text=True, check=True
         ).stdout
         self.assertEqual(
-            {str(path.relative_to(source)) for path in source.rglob("*") if not path.is_dir()}, set(listed.splitlines())
+            {str(path.relative_to(source)) for path in source.rglob("*") if not path.is_dir()}, set(output.splitlines())
         )
 
     def test_the_texts_name_the_source(self):
-        digest = hashlib.sha256(next(self.made.glob("*-source.tar.gz")).read_bytes()).hexdigest()
+        digest = hashlib.sha256(next(self.packages.glob("*-source.tar.gz")).read_bytes()).hexdigest()
         for name in ("racebeam.rb", "PKGBUILD"):
-            text = (self.made / name).read_text()
+            text = (self.packages / name).read_text()
             self.assertIn(digest, text)
             self.assertIn(self.version, text)
             self.assertNotRegex(text, "@[A-Z]")  # a mark that was left
-        subprocess.run(["bash", "-n", self.made / "PKGBUILD"], check=True)
+        subprocess.run(["bash", "-n", self.packages / "PKGBUILD"], check=True)
 
     def test_the_parts_have_versions(self):
-        told = json.loads((self.made / "sbom.json").read_text())
+        contents = json.loads((self.packages / "sbom.json").read_text())
         self.assertEqual(
-            (told["bomFormat"], told["specVersion"], told["metadata"]["component"]["version"]),
+            (contents["bomFormat"], contents["specVersion"], contents["metadata"]["component"]["version"]),
             ("CycloneDX", "1.5", self.version),
         )
-        names = {part["name"] for part in told["components"]}
+        names = {part["name"] for part in contents["components"]}
         self.assertTrue({"libc6", "libssl3", "zlib1g", "Boost headers"} <= names, names)
         self.assertTrue(
-            all(part["version"] and part["purl"].startswith("pkg:deb/debian/") for part in told["components"])
+            all(part["version"] and part["purl"].startswith("pkg:deb/debian/") for part in contents["components"])
         )
 
 

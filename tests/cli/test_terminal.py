@@ -49,9 +49,9 @@ class Wire:
 
     def picture(self, name):
         """The pixels of a shared session, as red, green and blue."""
-        seen = self.watch(name)
-        palette = bytes.fromhex(seen["palette"])
-        return [tuple(palette[3 * value : 3 * value + 3]) for value in bytes.fromhex(seen["screen"])]
+        screen = self.watch(name)
+        palette = bytes.fromhex(screen["palette"])
+        return [tuple(palette[3 * value : 3 * value + 3]) for value in bytes.fromhex(screen["screen"])]
 
 
 class InTerminal(unittest.TestCase):

@@ -17,7 +17,7 @@ def trace(*words, data=PLAY):
     return status, printed.decode().splitlines(), errors
 
 
-def played(*words, data=PLAY):
+def play(*words, data=PLAY):
     status, lines, errors = trace(*words, data=data)
     assert (status, errors) == (0, []), errors
     return lines
@@ -25,7 +25,7 @@ def played(*words, data=PLAY):
 
 class Lines(unittest.TestCase):
     def test_the_first_line_is_the_reset_and_every_action_has_one(self):
-        lines = played()
+        lines = play()
         self.assertRegex(lines[0], r"^R \d+ [0-9a-f]{8} [0-9a-f]{8}$")
         acts = [line for line in lines if line.startswith("A")]
         self.assertEqual([line.split()[1] for line in acts], PLAY.decode().split())
@@ -33,60 +33,60 @@ class Lines(unittest.TestCase):
             self.assertRegex(line, r"^A \d+ -?\d+ [01] \d+ [0-9a-f]{8} [0-9a-f]{8}$")
 
     def test_ram_in_full_agrees_with_its_checksum(self):
-        for line in played("--ram", "--audio"):
+        for line in play("--ram", "--audio"):
             words = line.split()
             checksum, hexadecimal = words[-4 if len(words) else 0], words[-1]
             self.assertRegex(hexadecimal, "^[0-9a-f]{256}$")
             self.assertEqual(f"{zlib.crc32(bytes.fromhex(hexadecimal)):08x}", checksum)
 
     def test_audio_adds_one_checksum_and_changes_nothing_else(self):
-        silent, audible = played(), played("--audio")
+        silent, audible = play(), play("--audio")
         self.assertEqual(silent, [line.rsplit(" ", 1)[0] for line in audible])
         self.assertGreater(len({line.split()[-1] for line in audible}), 10)
 
     def test_an_episode_that_is_over_is_followed_by_a_reset(self):
-        lines = played("--max-frames", "10", data=b"0 " * 25)
+        lines = play("--max-frames", "10", data=b"0 " * 25)
         self.assertEqual("".join(line[0] for line in lines), "R" + "A" * 10 + "R" + "A" * 10 + "R" + "A" * 5)
         self.assertEqual([line.split()[3] for line in lines if line[0] == "A"], (["0"] * 9 + ["1"]) * 2 + ["0"] * 5)
 
     def test_the_same_seed_gives_the_same_run_and_another_one_does_not(self):
-        once, again, other = (played("--sticky", "0.5", "--seed", seed) for seed in ("7", "7", "8"))
+        once, again, other = (play("--sticky", "0.5", "--seed", seed) for seed in ("7", "7", "8"))
         self.assertEqual(once, again)
         self.assertNotEqual(once, other)
 
     def test_the_defaults_are_those_of_the_recordings(self):
-        self.assertEqual(played(), played("--seed", "123", "--sticky", "0", "--frame-skip", "1", "--max-frames", "0"))
+        self.assertEqual(play(), play("--seed", "123", "--sticky", "0", "--frame-skip", "1", "--max-frames", "0"))
 
     def test_rules_are_those_of_ale_unless_others_are_asked_for(self):
-        self.assertEqual(played(), played("--rules", "ale-0.12"))
-        self.assertEqual(played(), played("--rules", "fixed"))  # nothing is wrong with our own game
+        self.assertEqual(play(), play("--rules", "ale-0.12"))
+        self.assertEqual(play(), play("--rules", "fixed"))  # nothing is wrong with our own game
         status, _, errors = trace("--rules", "ale-0.11")
         self.assertEqual(status, 2)
         self.assertIn("--rules: unknown value 'ale-0.11'; accepted: ale-0.12 and fixed", errors[0])
 
     def test_a_frame_skip_of_two_is_every_second_frame(self):
-        every = [line.split()[-2:] for line in played(data=b"3 3 4 4 1 1 10 10 " * 10) if line[0] == "A"]
-        skipped = [line.split()[-2:] for line in played("--frame-skip", "2", data=b"3 4 1 10 " * 10) if line[0] == "A"]
+        every = [line.split()[-2:] for line in play(data=b"3 3 4 4 1 1 10 10 " * 10) if line[0] == "A"]
+        skipped = [line.split()[-2:] for line in play("--frame-skip", "2", data=b"3 4 1 10 " * 10) if line[0] == "A"]
         self.assertEqual(skipped, every[1::2])
 
     def test_a_difficulty_costs_one_more_reset_and_changes_the_game(self):
-        self.assertNotEqual(played(), played("--difficulty", "1"))
+        self.assertNotEqual(play(), play("--difficulty", "1"))
 
     def test_the_console_of_an_image_can_be_told(self):
-        self.assertEqual(played(), played("--scheme", "4K", "--left", "joystick", "--format", "ntsc", "--ystart", "34"))
+        self.assertEqual(play(), play("--scheme", "4K", "--left", "joystick", "--format", "ntsc", "--ystart", "34"))
         for words in (("--left", "paddles"), ("--ystart", "50"), ("--height", "220"), ("--format", "pal")):
             with self.subTest(option=words[0]):
-                self.assertNotEqual(played(), played(*words))
+                self.assertNotEqual(play(), play(*words))
 
     def test_color_averaging_changes_screens_and_nothing_else(self):
-        plain, blended = played(), played("--color-averaging")
+        plain, blended = play(), play("--color-averaging")
         self.assertEqual([line.split()[:-1] for line in plain], [line.split()[:-1] for line in blended])
         self.assertNotEqual(plain, blended)
 
 
 class Observations(unittest.TestCase):
     def test_counters_are_truncated_frame_and_episode_frame(self):
-        lines = [line.split() for line in played("--counters", "--max-frames", "3", data=b"0 " * 5)]
+        lines = [line.split() for line in play("--counters", "--max-frames", "3", data=b"0 " * 5)]
         self.assertEqual(
             [(words[0], *map(int, words[-3:])) for words in lines],
             [
@@ -101,14 +101,14 @@ class Observations(unittest.TestCase):
         )
 
     def test_colors_stand_in_every_so_manieth_line(self):
-        every, third = ([line.split() for line in played("--colors", count)] for count in ("1", "3"))
+        every, third = ([line.split() for line in play("--colors", count)] for count in ("1", "3"))
         for number, (words, some) in enumerate(zip(every, third)):
             self.assertRegex(" ".join(words[-2:]), "^[0-9a-f]{8} [0-9a-f]{8}$")
             self.assertEqual(some[-2:], ["-", "-"] if number % 3 else words[-2:])
             self.assertEqual(some[:-2], words[:-2])
 
     def test_a_line_s_screen_in_full_agrees_with_its_checksums(self):
-        lines = played("--colors", "1", "--screen-of", "7")
+        lines = play("--colors", "1", "--screen-of", "7")
         self.assertEqual([number for number, line in enumerate(lines) if line[0] == "S"], [8])
         _, number, screen, rgb = lines[8].split()
 
@@ -123,7 +123,7 @@ class Observations(unittest.TestCase):
             return int(line.split()[4])
 
         plain, truncated = (
-            [line for line in played(*words, data=b"0 " * 6000) if line[0] == "A"]
+            [line for line in play(*words, data=b"0 " * 6000) if line[0] == "A"]
             for words in ((), ("--truncate-on-life-loss",))
         )
         first = next(number for number, line in enumerate(plain) if lives(line) < lives(plain[0]))
@@ -133,7 +133,7 @@ class Observations(unittest.TestCase):
 
 class Writes(unittest.TestCase):
     def test_a_byte_that_is_written_is_read_back(self):
-        lines = played("--ram", data=b"1 1\nM 5 200\nM 127 3\n0 0\n")
+        lines = play("--ram", data=b"1 1\nM 5 200\nM 127 3\n0 0\n")
         self.assertEqual([line.split()[0] for line in lines], list("RAAMMAA"))
         before, first, second = (bytes.fromhex(line.split()[-1]) for line in lines[2:5])
         self.assertEqual(first, before[:5] + bytes([200]) + before[6:])
@@ -141,11 +141,11 @@ class Writes(unittest.TestCase):
         self.assertTrue(lines[3].startswith("M 5 200 ") and lines[4].startswith("M 127 3 "))
 
     def test_writes_and_strengths_are_taken_from_a_trace(self):
-        lines = played("--ram", data=b"3@0.5 4@-0.25 3@1 3@0.333 3@1e-5\nM 9 7\n0\n")
+        lines = play("--ram", data=b"3@0.5 4@-0.25 3@1 3@0.333 3@1e-5\nM 9 7\n0\n")
         self.assertEqual(
             [line.split()[1] for line in lines if line[0] == "A"], ["3@0.5", "4@-0.25", "3", "3@0.333", "3@1e-05", "0"]
         )
-        self.assertEqual(played("--ram", data="\n".join(lines).encode()), lines)
+        self.assertEqual(play("--ram", data="\n".join(lines).encode()), lines)
 
 
 class Sources(unittest.TestCase):
@@ -159,52 +159,52 @@ class Sources(unittest.TestCase):
         return printed.decode().splitlines()
 
     def test_a_trace_gives_its_own_actions_back(self):
-        lines = played()
+        lines = play()
         recorded = "\n".join(["# trace 1 rom=x frames=320", *lines, "S 0 00ff00ff"]).encode()
         self.assertEqual(self.from_file("x.trace", recorded), lines)
         self.assertEqual(self.from_file("x.trace.gz", gzip.compress(recorded)), lines)
-        self.assertEqual(played(data=gzip.compress(recorded)), lines)
+        self.assertEqual(play(data=gzip.compress(recorded)), lines)
 
     def test_numbers_may_stand_on_lines_in_any_way(self):
-        self.assertEqual(played(data=b"1 2\n\n 3\t4 \r\n5"), played(data=b"1\n2\n3\n4\n5\n"))
+        self.assertEqual(play(data=b"1 2\n\n 3\t4 \r\n5"), play(data=b"1\n2\n3\n4\n5\n"))
 
     def test_no_action_is_a_reset_alone(self):
-        self.assertEqual([line[0] for line in played(data=b"")], ["R"])
+        self.assertEqual([line[0] for line in play(data=b"")], ["R"])
 
 
 class Refusals(unittest.TestCase):
-    def refused(self, complaint, lines, data):
+    def check_refusal(self, complaint, lines, data):
         status, printed, errors = trace(data=data)
         self.assertEqual((status, len(printed), len(errors)), (1, lines, 1), errors)
         self.assertRegex(errors[0], "^racebeam: .*" + complaint)
 
     def test_a_word_that_is_no_number(self):
-        self.refused("line 2: 'up' is not a number", 0, b"1 2\n3 up\n")
-        self.refused("line 1: '3.5' is not a number", 0, b"3.5\n")
-        self.refused("line 1: '99999999999' is not a number", 0, b"99999999999\n")
-        self.refused("line 2: the action is missing", 0, b"A 1 0 0\nA\n")
+        self.check_refusal("line 2: 'up' is not a number", 0, b"1 2\n3 up\n")
+        self.check_refusal("line 1: '3.5' is not a number", 0, b"3.5\n")
+        self.check_refusal("line 1: '99999999999' is not a number", 0, b"99999999999\n")
+        self.check_refusal("line 2: the action is missing", 0, b"A 1 0 0\nA\n")
 
     def test_a_write_that_can_t_be_made(self):
-        self.refused("line 2: the index of a byte of RAM must be 0 to 127, not 128", 0, b"1\nM 128 0\n")
-        self.refused("line 1: the index of a byte of RAM must be 0 to 127, not -1", 0, b"M -1 0\n")
-        self.refused("line 1: the value of a byte must be 0 to 255, not 256", 0, b"M 1 256\n")
-        self.refused("line 1: 'M' requires an index and a value", 0, b"M 1\n")
+        self.check_refusal("line 2: the index of a byte of RAM must be 0 to 127, not 128", 0, b"1\nM 128 0\n")
+        self.check_refusal("line 1: the index of a byte of RAM must be 0 to 127, not -1", 0, b"M -1 0\n")
+        self.check_refusal("line 1: the value of a byte must be 0 to 255, not 256", 0, b"M 1 256\n")
+        self.check_refusal("line 1: 'M' requires an index and a value", 0, b"M 1\n")
 
     def test_a_strength_that_is_none(self):
         for word in (b"3@", b"3@x", b"3@nan", b"3@inf", b"3@1001"):
-            self.refused("line 1: .* is not a strength from -1000 to 1000", 0, word)
-        self.refused("line 1: '' is not a number", 0, b"@1")
+            self.check_refusal("line 1: .* is not a strength from -1000 to 1000", 0, word)
+        self.check_refusal("line 1: '' is not a number", 0, b"@1")
 
     def test_bytes_that_are_no_text(self):
-        self.refused("line 1: '.*' is not a number", 0, bytes(range(128, 160)))
+        self.check_refusal("line 1: '.*' is not a number", 0, bytes(range(128, 160)))
 
     def test_a_mebibyte_without_a_line_end(self):
-        self.refused("line 1: .* is not a number", 0, b"1" * (1 << 20))
+        self.check_refusal("line 1: .* is not a number", 0, b"1" * (1 << 20))
 
     def test_an_action_that_does_not_exist(self):
         for action in (b"18", b"39", b"41", b"99", b"2147483647"):
             with self.subTest(action=action):
-                self.refused(r"line 3 .*" + re.escape(action.decode()), 3, b"1\n0\n" + action + b"\n0\n")
+                self.check_refusal(r"line 3 .*" + re.escape(action.decode()), 3, b"1\n0\n" + action + b"\n0\n")
 
     def test_a_file_that_is_not_there(self):
         status, printed, errors = run("trace", "--rom", GAME, "--actions", "no-such-file")
@@ -217,7 +217,7 @@ class Refusals(unittest.TestCase):
         self.assertIn("directory", errors[0])
 
     def test_a_gzip_file_that_is_cut(self):
-        self.refused("unexpected end of file", 0, gzip.compress(os.urandom(200).hex().encode())[:-30])
+        self.check_refusal("unexpected end of file", 0, gzip.compress(os.urandom(200).hex().encode())[:-30])
 
 
 if __name__ == "__main__":

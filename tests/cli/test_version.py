@@ -29,14 +29,14 @@ version = script("version")
 
 class Version(unittest.TestCase):
     def test_the_program_says_it(self):
-        told = subprocess.run([BINARY, "--version"], capture_output=True, text=True, check=True).stdout
-        self.assertEqual(told, f"racebeam {version.decided()}\n")
+        output = subprocess.run([BINARY, "--version"], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(output, f"racebeam {version.decided()}\n")
 
     def test_the_greeting_says_it(self):
-        told = subprocess.run(
+        output = subprocess.run(
             [BINARY, "serve", "--stdio"], input="hello\nquit\n", capture_output=True, text=True, check=True
         ).stdout
-        self.assertIn(f" server=racebeam/{version.decided()} ", told)
+        self.assertIn(f" server=racebeam/{version.decided()} ", output)
 
     def test_the_clients_have_it(self):
         self.assertEqual(version.differences(), [])

@@ -48,16 +48,16 @@ class PythonClient(unittest.TestCase):
     def test_every_encoding_says_the_same(self, session):
         session.load("beamfall", seed=3, frame_skip=4, sound=1)
         session.save("start", random=1)
-        seen = []
+        looks = []
         for encoding in ENCODINGS:
             session.observe("reward", "lives", *(f"{content}:{encoding}" for content in CONTENTS))
             session.restore("start")
-            seen.append([session.act(action) for action in ("FIRE", "UP*3", "RIGHT", "FIRE*30", "NOOP")])
+            looks.append([session.act(action) for action in ("FIRE", "UP*3", "RIGHT", "FIRE*30", "NOOP")])
         for content, size in CONTENTS.items():
-            self.assertEqual({len(shown[content]) for shown in seen[0]}, {size})
-        for others in seen[1:]:
-            self.assertEqual(others, seen[0])
-        self.assertNotEqual(seen[0][0]["screen"], seen[0][3]["screen"])
+            self.assertEqual({len(result[content]) for result in looks[0]}, {size})
+        for others in looks[1:]:
+            self.assertEqual(others, looks[0])
+        self.assertNotEqual(looks[0][0]["screen"], looks[0][3]["screen"])
 
     @over_each_transport
     def test_the_palette_shows_the_screen(self, session):
@@ -88,8 +88,8 @@ class PythonClient(unittest.TestCase):
         self.assertEqual(session.peek(5, 2), b"\x12\x34")
         self.assertEqual(len(session.look("screen", "lives")["screen"]), 33600)
         session.save("a")
-        kept = session.export_state("a")
-        session.import_state("b", kept)
+        state = session.export_state("a")
+        session.import_state("b", state)
         self.assertEqual(session.states(), ["a", "b"])
         session.drop("a")
         self.assertEqual(session.restore("b")["frame"], 15)
@@ -97,7 +97,7 @@ class PythonClient(unittest.TestCase):
         self.assertEqual([len(branch["rewards"]) for branch in branches], [5, 1])
         self.assertEqual(branches[1]["state"], "leaf1")
         self.assertEqual(len(session.open(3)), 3)
-        self.assertEqual([shown["frame"] for shown in session.step("UP", "FIRE", "NOOP")], [5, 5, 5])
+        self.assertEqual([result["frame"] for result in session.step("UP", "FIRE", "NOOP")], [5, 5, 5])
         session.save("c", machine=1, random=True)
         self.assertEqual(session.restore("c", machine=2)["frame"], 5)
         self.assertGreater(len(session.export_state("c", whole=True)), len(session.export_state("c")))
@@ -308,9 +308,9 @@ class Examples(unittest.TestCase):
                     done = subprocess.run(
                         [os.path.join(SOURCE, "clients", path), *words], capture_output=True, timeout=PATIENCE
                     )
-                    said = (done.stdout + done.stderr).decode()
-                    self.assertTrue(said.startswith("usage: " + os.path.basename(path)), said)
-                    self.assertNotIn("Traceback", said)
+                    output = (done.stdout + done.stderr).decode()
+                    self.assertTrue(output.startswith("usage: " + os.path.basename(path)), output)
+                    self.assertNotIn("Traceback", output)
                     self.assertIn(done.returncode, (0,) if words else (0, 2))
 
 

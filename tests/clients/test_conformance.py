@@ -27,28 +27,28 @@ class Comparison(unittest.TestCase):
         paired = {name for pair in comparison.alike(FILES) for name in pair}
         names = comparison.section_names(FILES, clients.EVERYTHING)
         # The tests change the first section, and leave out the last. A section of a pair would count twice.
-        self.printed = printed_by(sorted(names - paired)[:1] + sorted(names & paired) + sorted(names - paired)[1:])
+        self.output = printed_by(sorted(names - paired)[:1] + sorted(names & paired) + sorted(names - paired)[1:])
 
     def differences(self, printed, reference):
         return comparison.differences(printed, FILES, reference, clients.EVERYTHING)
 
     def test_the_same_lines_agree(self):
-        self.assertEqual(self.differences(self.printed, self.printed), [])
+        self.assertEqual(self.differences(self.output, self.output), [])
 
     def test_each_difference_is_named(self):
-        for changed in (
-            self.printed[:1] + ["lost"] + self.printed[2:],
-            self.printed[:1] + self.printed[2:],
-            self.printed[:2] + ["ok"] + self.printed[2:],
-            self.printed[:-2],
+        for altered in (
+            self.output[:1] + ["lost"] + self.output[2:],
+            self.output[:1] + self.output[2:],
+            self.output[:2] + ["ok"] + self.output[2:],
+            self.output[:-2],
         ):
-            self.assertEqual(len(self.differences(changed, self.printed)), 1)
+            self.assertEqual(len(self.differences(altered, self.output)), 1)
 
     def test_sections_that_are_alike_are_compared(self):
-        changed = [
-            line for name in self.printed for line in ([name, "ok reward=1"] if name == "section rle" else [name])
+        altered = [
+            line for name in self.output for line in ([name, "ok reward=1"] if name == "section rle" else [name])
         ]
-        self.assertIn("rle, which is like hex", " ".join(self.differences(changed, changed)))
+        self.assertIn("rle, which is like hex", " ".join(self.differences(altered, altered)))
 
     def test_a_client_gets_the_sections_that_it_can_hold(self):
         self.assertLess(comparison.section_names(FILES), comparison.section_names(FILES, ("unix",)))
@@ -95,10 +95,10 @@ class Versions(unittest.TestCase):
         self.assertEqual(found(f"clients/lua/racebeam-{version}-1.rockspec", r'version = "(.*?)"'), f"{version}-1")
 
     def test_ctest_runs_each_client(self):
-        listed = re.findall(r"foreach\(client ([^)]*)\)", (SOURCE / "tests/clients/CMakeLists.txt").read_text())[
+        names = re.findall(r"foreach\(client ([^)]*)\)", (SOURCE / "tests/clients/CMakeLists.txt").read_text())[
             0
         ].split()
-        self.assertEqual(listed, [client.name for client in clients.CLIENTS])
+        self.assertEqual(names, [client.name for client in clients.CLIENTS])
 
 
 if __name__ == "__main__":

@@ -123,8 +123,8 @@ class Installed(unittest.TestCase):
     def test_only_the_interface_is_exported(self):
         """Of the static library too: a shared library that is linked with it exports no more."""
         table = run("readelf", "--syms", "--wide", self.libraries / "libracebeam.a")
-        seen = set(re.findall(r"(?:GLOBAL|WEAK) +DEFAULT +\d+ (\S+)", table))
-        ours = {name for name in seen if OURS.match(name)}
+        symbols = set(re.findall(r"(?:GLOBAL|WEAK) +DEFAULT +\d+ (\S+)", table))
+        ours = {name for name in symbols if OURS.match(name)}
         self.assertIn("_ZN8racebeam2v07versionEv", ours)
         self.assertEqual({name for name in ours if not INTERFACE.match(name)}, set())
         for library in self.libraries.glob("libracebeam.so"):

@@ -53,10 +53,12 @@ class Maven(unittest.TestCase):
                 os._exit(SKIPPED)
             self.assertEqual(done.returncode, 0, done.stdout[-5000:])
             self.assertRegex(done.stdout, r"Tests run: 1\d, Failures: 0, Errors: 0, Skipped: 0")
-            made = jars(first)
-            self.assertEqual(sorted(made), [f"racebeam-{VERSION}{kind}.jar" for kind in ("-javadoc", "-sources", "")])
+            archives = jars(first)
+            self.assertEqual(
+                sorted(archives), [f"racebeam-{VERSION}{kind}.jar" for kind in ("-javadoc", "-sources", "")]
+            )
             self.assertEqual(maven(second, "-Dmaven.test.skip=true", "verify").returncode, 0)
-            self.assertEqual(jars(second), made)
+            self.assertEqual(jars(second), archives)
 
 
 if __name__ == "__main__":

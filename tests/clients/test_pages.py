@@ -102,7 +102,7 @@ class Page(unittest.TestCase):
             RACEBEAM_PROGRAM=BINARY,
         )
 
-    def written(self, folder, body):
+    def write(self, folder, body):
         """The path of a new file with a program."""
         name = re.search(r"public class (\w+)", body)
         path = pathlib.Path(folder, (name[1] if name else "program") + pathlib.Path(self.client.runner[-1]).suffix)
@@ -134,14 +134,14 @@ class Page(unittest.TestCase):
         for number, (body, expected) in enumerate(found):
             with self.subTest(program=number), tempfile.TemporaryDirectory() as folder:
                 self.check(
-                    self.written(folder, body),
+                    self.write(folder, body),
                     (),
                     ".*" if expected is None else re.escape(expected).replace(r"\.\.\.", ".*"),
                 )
 
     def test_its_standard_streams_can_be_those_of_a_server(self):
         with tempfile.TemporaryDirectory() as folder, Server("serve", "--stdio", streams=True) as server:
-            path = self.written(folder, STDIO[self.client.language])
+            path = self.write(folder, STDIO[self.client.language])
             done = subprocess.run(
                 [*self.client.runner[:-1], str(path)],
                 env=self.environment,

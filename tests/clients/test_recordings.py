@@ -39,10 +39,10 @@ class Recordings(unittest.TestCase):
     def play(self, kind, name="a"):
         """Records. Returns the path, and for each frame the doubled picture and the sound."""
         self.session.record(kind, name)
-        shown = [self.session.act(frame // 5 % 18) for frame in range(FRAMES)]
+        results = [self.session.act(frame // 5 % 18) for frame in range(FRAMES)]
         path = os.path.join(self.folder.name, self.session.stop_recording()["recorded"])
-        pictures = [np.frombuffer(one["rgb"], np.uint8).reshape(210, 160, 3).repeat(2, axis=1) for one in shown]
-        return path, pictures, [one["audio"] for one in shown]
+        pictures = [np.frombuffer(one["rgb"], np.uint8).reshape(210, 160, 3).repeat(2, axis=1) for one in results]
+        return path, pictures, [one["audio"] for one in results]
 
     def test_png(self):
         path, pictures, _ = self.play("png")

@@ -154,18 +154,18 @@ class Play(unittest.TestCase):
                 "--background",
                 root / "background.csv",
             )
-            played = [
+            replay = [
                 re.fullmatch(r"\w+ episode \d+: score (-?\d+) in (\d+) decisions ([\d ]+)", line).groups()
                 for line in lines
             ]
             self.assertEqual(
-                [(score, count) for score, count, _ in played],
+                [(score, count) for score, count, _ in replay],
                 [(row["score"], row["decisions"]) for row in trained + evaluated],
             )
-            for row, (_, count, actions) in zip(evaluated, played[20:]):
+            for row, (_, count, actions) in zip(evaluated, replay[20:]):
                 log = zlib.decompress((root / f"results/logs/{row['unit']}/{row['episode']}.episode").read_bytes()[24:])
                 self.assertEqual(list(log[-int(count) :]), [int(action) for action in actions.split()])
-            self.assertGreater(len({score for score, _, _ in played}), 5)
+            self.assertGreater(len({score for score, _, _ in replay}), 5)
 
 
 def rows(path):

@@ -108,31 +108,31 @@ class Completion(unittest.TestCase):
     SCRIPT = """source "$1/completion.bash"; COMP_LINE=$2 COMP_POINT=${#2}; COMP_WORDBREAKS=$' \\t\\n"\\'@><=;|&(:'
     _racebeam_complete; printf '%s\\n' "${COMPREPLY[@]}" """
 
-    def offered(self, typed):
+    def completions(self, typed):
         done = run("bash", "-c", self.SCRIPT, "bash", SHELL, f"racebeam_ask {typed}")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout.split()
 
     def test_commands(self):
-        self.assertEqual(self.offered("obs"), ["observe"])
-        self.assertIn("load", self.offered(""))
+        self.assertEqual(self.completions("obs"), ["observe"])
+        self.assertIn("load", self.completions(""))
 
     def test_keys_and_their_values(self):
-        self.assertEqual(self.offered("load beamfall noop"), ["noop_max="])
-        self.assertEqual(self.offered("load beamfall seed=3 life_loss=re"), ["reported", "restart"])
-        self.assertEqual(self.offered("load beamfall preset=dq"), ["dqn2015"])
-        self.assertEqual(self.offered("open 4 autoreset=s"), ["same-step"])
+        self.assertEqual(self.completions("load beamfall noop"), ["noop_max="])
+        self.assertEqual(self.completions("load beamfall seed=3 life_loss=re"), ["reported", "restart"])
+        self.assertEqual(self.completions("load beamfall preset=dq"), ["dqn2015"])
+        self.assertEqual(self.completions("open 4 autoreset=s"), ["same-step"])
 
     def test_fields_and_their_encodings(self):
-        self.assertEqual(self.offered("observe reward scr"), ["screen"])
-        self.assertEqual(self.offered("watch room screen:de"), ["delta"])
-        self.assertEqual(self.offered("observe no"), ["none"])
+        self.assertEqual(self.completions("observe reward scr"), ["screen"])
+        self.assertEqual(self.completions("watch room screen:de"), ["delta"])
+        self.assertEqual(self.completions("observe no"), ["none"])
 
     def test_what_help_explains(self):
-        self.assertEqual(self.offered("help life"), ["life_loss"])
+        self.assertEqual(self.completions("help life"), ["life_loss"])
 
     def test_nothing_after_an_unknown_command(self):
-        self.assertEqual(self.offered("dance re"), [])
+        self.assertEqual(self.completions("dance re"), [])
 
 
 if __name__ == "__main__":

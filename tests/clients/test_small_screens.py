@@ -37,9 +37,9 @@ class OpenCv(unittest.TestCase):
                 self.assertEqual(session.load(game, seed=5)["height"], height)
                 session.observe("grey", "grey84")
                 for step in range(STEPS):
-                    shown = session.act(step // 7 % 18)
-                    expected = cv2.resize(plane(shown["grey"], height, 160), (84, 84), interpolation=cv2.INTER_AREA)
-                    self.assertEqual(shown["grey84"], expected.tobytes(), f"step {step}")
+                    result = session.act(step // 7 % 18)
+                    expected = cv2.resize(plane(result["grey"], height, 160), (84, 84), interpolation=cv2.INTER_AREA)
+                    self.assertEqual(result["grey84"], expected.tobytes(), f"step {step}")
 
 
 class VectorEnvironment(unittest.TestCase):

@@ -22,8 +22,8 @@ def play(game, number, middle=lambda: None):
     for step in range(60):
         if step == 30:
             middle()
-        shown = game.act(ACTIONS[(step * 7 + number) % len(ACTIONS)])
-        digest.update(str(shown["reward"]).encode() + shown["ram"] + shown["screen"])
+        result = game.act(ACTIONS[(step * 7 + number) % len(ACTIONS)])
+        digest.update(str(result["reward"]).encode() + result["ram"] + result["screen"])
     return digest.hexdigest()
 
 

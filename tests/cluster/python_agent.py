@@ -16,9 +16,9 @@ servers = SlurmServers(4, wait=100, timeout_min=5)
 with servers as addresses:
     envs = AtariVectorEnv("beamfall", 8, server=addresses)
     servers.jobs[1].cancel()
-    lost = np.zeros(8, bool)
-    while not lost.any():
-        lost = envs.step(np.zeros(8, int))[-1]["lost"]
+    losses = np.zeros(8, bool)
+    while not losses.any():
+        losses = envs.step(np.zeros(8, int))[-1]["lost"]
     assert not envs.step(np.zeros(8, int))[-1]["lost"].any()
     envs.close()
-print(f"the same; {lost.sum()} environments were lost, and played on")
+print(f"the same; {losses.sum()} environments were lost, and played on")

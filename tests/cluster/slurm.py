@@ -25,8 +25,8 @@ def missing():
     """What this machine lacks for a cluster, as a sentence, or None."""
     if os.geteuid() != 0:
         return "the cluster needs root"
-    absent = [name for name in NEEDED if shutil.which(name) is None]
-    return f"not installed: {', '.join(absent)}" if absent else None
+    missing = [name for name in NEEDED if shutil.which(name) is None]
+    return f"not installed: {', '.join(missing)}" if missing else None
 
 
 def free_ports(count):
@@ -248,8 +248,8 @@ class Cluster:
 
     def state(self, job):
         """The states of a job and its elements, such as {"COMPLETED"}."""
-        shown = self.run("scontrol", "--oneliner", "show", "job", job, check=False)
-        return {word.partition("=")[2] for word in shown.split() if word.startswith("JobState=")}
+        output = self.run("scontrol", "--oneliner", "show", "job", job, check=False)
+        return {word.partition("=")[2] for word in output.split() if word.startswith("JobState=")}
 
     def field(self, name, element):
         """What scontrol says of an element of an array, such as its NodeList."""

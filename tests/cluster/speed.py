@@ -27,10 +27,10 @@ def rate_of(game):
 def measure(game):
     game.load("beamfall", seed=1, frame_skip=4, max_episode_frames=0)
     found = {}
-    for shown in SHOWN:
-        game.observe(*shown.split())
+    for field in SHOWN:
+        game.observe(*field.split())
         length = sum(len(name) + len(value) + 2 for name, value in game.ask("act", "FIRE")[0].items())
-        found[shown] = {"steps": statistics.median(rate_of(game) for _ in range(ROUNDS)), "length": length}
+        found[field] = {"steps": statistics.median(rate_of(game) for _ in range(ROUNDS)), "length": length}
     return found
 
 

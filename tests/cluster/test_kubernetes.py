@@ -196,8 +196,8 @@ class Monitoring(unittest.TestCase):
         texts = {path: path.read_text() for path in (FOLDER / "monitoring").iterdir()}
         texts[FOLDER / "server/autoscaler.yaml"] = (FOLDER / "server/autoscaler.yaml").read_text()
         for path, text in texts.items():
-            named = set(METRIC.findall(text))
-            self.assertLessEqual(named, exist, path)
+            metrics = set(METRIC.findall(text))
+            self.assertLessEqual(metrics, exist, path)
         self.assertIn("racebeam_sessions_open", exist)
 
     def test_the_dashboard_is_whole(self):

@@ -91,13 +91,13 @@ def mapping_of(array):
 class Rollouts(Nodes):
     def total(self, actors, after=lambda count: None):
         """The total of rewards. Calls `after` with the number of rollouts that are there."""
-        total = seen = 0
+        total = steps = 0
         for one in rollouts.rollouts("beamfall", actors=actors, count=COUNT, num_envs=4, steps=STEPS, obs_type="ram"):
             self.assertEqual(one["observations"].shape, (STEPS + 1, 4, 128))
             total += int(one["rewards"].sum())
-            seen += 1
-            after(seen)
-        self.assertEqual(seen, COUNT)
+            steps += 1
+            after(steps)
+        self.assertEqual(steps, COUNT)
         return total
 
     def test_the_total_is_the_same_on_three_nodes_one_of_which_is_killed(self):
@@ -126,7 +126,7 @@ class Rollouts(Nodes):
     def test_a_policy_plays_and_errors_end_it(self):
         self.nodes(1)
         (one,) = rollouts.rollouts(
-            "beamfall", actors=1, count=1, num_envs=2, steps=5, policy=lambda seen, _: [len(seen), 0]
+            "beamfall", actors=1, count=1, num_envs=2, steps=5, policy=lambda observations, _: [len(observations), 0]
         )
         self.assertEqual(one["actions"].tolist(), [[2, 0]] * 5)
         with self.assertRaisesRegex(ray.exceptions.RayActorError, "unknown game 'pongg'"):
@@ -181,7 +181,7 @@ class Rllib(Nodes):
             self.skipTest(f"RLlib and PyTorch are not both installed: {error}")
         Words.check(self, 1, ".*`Nosuch` doesn't exist", "rllib_ppo.py", "Nosuch")
         self.nodes(1)
-        for vector, made in (
+        for vector, actors in (
             (True, "racebeam.vector_env.AtariVectorEnv"),
             (False, "gymnasium.vector.sync_vector_env.SyncVectorEnv"),
         ):
@@ -193,7 +193,7 @@ class Rllib(Nodes):
                     lambda runner: f"{type(runner.env.unwrapped).__module__}.{type(runner.env.unwrapped).__name__}",
                     local_env_runner=False,
                 )
-                self.assertEqual(envs, [made])
+                self.assertEqual(envs, [actors])
                 algorithm.stop()
 
 

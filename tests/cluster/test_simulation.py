@@ -19,14 +19,14 @@ BINARY = os.environ.get("RACEBEAM_BINARY", str(slurm.TOP / "build/release/racebe
 HOUR = 3600
 
 
-def drawn(count, seed=1):
+def random_units(count, seed=1):
     chance = random.Random(seed)
     return [chance.uniform(60, 2 * HOUR) for _ in range(count)]
 
 
 class Simulations(unittest.TestCase):
     def test_one_core_works_through_the_sum(self):
-        units = drawn(50)
+        units = random_units(50)
         run = simulate.simulate(units, Cluster(1))
         self.assertAlmostEqual(run.elapsed, sum(units))
         self.assertAlmostEqual(run.busy, sum(units))
@@ -40,7 +40,7 @@ class Simulations(unittest.TestCase):
 
     def test_the_bound_of_list_scheduling_holds(self):
         for seed in range(20):
-            units = drawn(300, seed)
+            units = random_units(300, seed)
             for cluster in (Cluster(7), Cluster(3, cores=8)):
                 cores = cluster.nodes * cluster.cores
                 elapsed = simulate.simulate(units, cluster).elapsed
@@ -48,7 +48,7 @@ class Simulations(unittest.TestCase):
                 self.assertLessEqual(elapsed, sum(units) / cores + max(units))
 
     def test_slow_nodes_take_longer(self):
-        units = drawn(100)
+        units = random_units(100)
         whole = simulate.simulate(units, Cluster(4)).elapsed
         self.assertAlmostEqual(simulate.simulate(units, Cluster(4, slow=1, slowness=3)).elapsed, 3 * whole)
         some = [simulate.simulate(units, Cluster(4, slow=0.5, slowness=3), seed=seed).elapsed for seed in range(20)]
@@ -56,7 +56,7 @@ class Simulations(unittest.TestCase):
         self.assertGreater(len(set(some)), 1)
 
     def test_failures_lose_what_came_after_the_checkpoint_and_nothing_else(self):
-        units = drawn(200)
+        units = random_units(200)
         cluster = Cluster(8, cores=4, failures=365 * 24, repair=HOUR, requeue=120, checkpoint=60)  # one an hour
         for seed in range(10):
             run = simulate.simulate(units, cluster, seed=seed)
@@ -67,14 +67,14 @@ class Simulations(unittest.TestCase):
             self.assertGreater(run.elapsed, simulate.simulate(units, dataclasses.replace(cluster, failures=0)).elapsed)
 
     def test_slow_nodes_that_fail_do_all_units_once(self):
-        units = drawn(60)
+        units = random_units(60)
         cluster = Cluster(4, failures=365 * 24, slow=1, slowness=2)
         run = simulate.simulate(units, cluster, seed=3)
         self.assertGreater(run.failures, 0)
         self.assertAlmostEqual(run.busy - run.lost, 2 * sum(units), places=3)
 
     def test_the_fewest_nodes_are_enough_and_one_less_is_not(self):
-        units = [drawn(400, seed) for seed in range(5)]
+        units = [random_units(400, seed) for seed in range(5)]
         within = 30 * HOUR
         nodes = simulate.fewest_nodes(units, Cluster(1, cores=2), 0, within)
         slowest = [simulate.summary(units, Cluster(count, cores=2), 0)[-1].elapsed for count in (nodes - 1, nodes)]
@@ -165,7 +165,7 @@ class Units(unittest.TestCase):
 
     def test_numbers_that_cannot_be_are_refused(self):
         command = [sys.executable, slurm.TOP / "cluster/simulate.py", "smoke", "--program", BINARY, "--within", "1000"]
-        for option, given, takes in (
+        for option, value, takes in (
             ("--cores", "0", "a whole number from 1 on"),
             ("--cores", "-3", "a whole number from 1 on"),
             ("--nodes", "0", "a whole number from 1 on"),
@@ -177,16 +177,16 @@ class Units(unittest.TestCase):
             ("--slow", "1.5", "a number from 0 to 1"),
             ("--slowness", "many", "a number from 1 on"),
         ):
-            with self.subTest(option=option, given=given):
-                done = subprocess.run([*command, f"{option}={given}"], capture_output=True, text=True, timeout=60)
+            with self.subTest(option=option, given=value):
+                done = subprocess.run([*command, f"{option}={value}"], capture_output=True, text=True, timeout=60)
                 self.assertEqual(done.returncode, 2)
                 self.assertTrue(
-                    done.stderr.endswith(f"error: argument {option}: it is '{given}'; it takes {takes}\n"), done.stderr
+                    done.stderr.endswith(f"error: argument {option}: it is '{value}'; it takes {takes}\n"), done.stderr
                 )
 
     def test_a_program_that_is_not_there_is_named(self):
         command = [sys.executable, slurm.TOP / "cluster/simulate.py", "smoke", "--nodes", "1"]
-        for words, said in (
+        for words, complaint in (
             ((), "racebeam, looked for in the PATH"),
             (("--program", "/nowhere/racebeam"), "/nowhere/racebeam"),
         ):
@@ -196,6 +196,6 @@ class Units(unittest.TestCase):
                 (
                     1,
                     "simulate.py needs the program racebeam; it cannot start "
-                    f"{said}: No such file or directory; --program takes its path\n",
+                    f"{complaint}: No such file or directory; --program takes its path\n",
                 ),
             )

@@ -72,13 +72,13 @@ class Slurm(unittest.TestCase):
     def nothing_is_left(self):
         """Checks that no process, socket, announce file or folder of a job is left."""
 
-        def left():
+        def leftovers():
             return [*self.job_processes().values(), *self.temporary.iterdir(), *self.jobs.glob("racebeam-*")]
 
         try:
-            self.cluster.wait("the end of what jobs have left", lambda: not left())
+            self.cluster.wait("the end of what jobs have left", lambda: not leftovers())
         except AssertionError as error:
-            raise AssertionError(f"left: {left()}\n{error}") from None
+            raise AssertionError(f"left: {leftovers()}\n{error}") from None
 
     def check_results(self, numbers):
         found = {path.name: path.read_text() for path in self.results.iterdir() if path.name.startswith("result-")}
@@ -124,8 +124,8 @@ class Slice(Slurm):
         self.nothing_is_left()
 
     def test_servers_for_an_agent_in_python(self):
-        needed = ("-c", "import racebeam.vector_env, submitit")
-        if not pathlib.Path(PYTHON).exists() or subprocess.run([PYTHON, *needed], capture_output=True).returncode != 0:
+        imports = ("-c", "import racebeam.vector_env, submitit")
+        if not pathlib.Path(PYTHON).exists() or subprocess.run([PYTHON, *imports], capture_output=True).returncode != 0:
             self.skipTest(f"{PYTHON} lacks racebeam or submitit (scripts/wheel --venv)")
         done = subprocess.run(
             [PYTHON, slurm.TOP / "tests/cluster/python_agent.py"],
@@ -401,7 +401,7 @@ class Whole(Slurm):
             "TCP, srun": measured(SRUN, sys.executable, script),
             "TCP, two steps": between_steps(),
         }
-        lengths = [{shown: one["length"] for shown, one in way.items()} for way in found.values()]
+        lengths = [{field: one["length"] for field, one in way.items()} for way in found.values()]
         self.assertEqual(lengths, lengths[:1] * len(found))
         self.nothing_is_left()
         print(
@@ -409,5 +409,5 @@ class Whole(Slurm):
             + "".join(f"{name:>16}" for name in found)
             + f"{'bytes':>8}"
         )
-        for shown, length in lengths[0].items():
-            print(f"{shown:32}" + "".join(f"{way[shown]['steps']:16.0f}" for way in found.values()) + f"{length:8}")
+        for field, length in lengths[0].items():
+            print(f"{field:32}" + "".join(f"{way[field]['steps']:16.0f}" for way in found.values()) + f"{length:8}")

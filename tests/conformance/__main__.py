@@ -109,18 +109,18 @@ def base_seed(text):
 
 
 def games_with_images():
-    known = [game for game in images_of() if game in ours.catalogue()]
-    if not known:
+    games = [game for game in images_of() if game in ours.catalogue()]
+    if not games:
         print(f"skipped: no cartridge images are in {image_folder()}")
         sys.exit(reference_python.SKIPPED)
-    return known
+    return games
 
 
 def check_games(games):
-    known = games_with_images()
+    available = games_with_images()
     for game in games:
-        if game not in known:
-            raise ValueError(f"no image of '{game}' was found; accepted: {', '.join(known)}")
+        if game not in available:
+            raise ValueError(f"no image of '{game}' was found; accepted: {', '.join(available)}")
     return games
 
 
@@ -195,8 +195,8 @@ def prepare(options):
         "seeds": [first + i for i in range(options.seeds)],
     }
     path = options.out / ("run.jsonl" if options.run else "results.jsonl")
-    kept = Results(path, identity, options.resume)
-    return kept, *chosen_runs(options, kept.identity["seeds"])
+    results = Results(path, identity, options.resume)
+    return results, *chosen_runs(options, results.identity["seeds"])
 
 
 def main():

@@ -34,15 +34,15 @@ def differing_bytes(theirs, mine):
 
 def differing_lists(game, reference):
     """(list, reference, racebeam) of the lists that the game offers."""
-    listed = ours.catalogue().get(rule_of(game), {})
+    row = ours.catalogue().get(rule_of(game), {})
 
     def sort(key, values):
         return sorted(values) if key in ("modes", "difficulties") else values
 
     return [
-        (key, theirs, listed.get(key))
+        (key, theirs, row.get(key))
         for key, theirs in reference.lists().items()
-        if theirs != sort(key, listed.get(key, []))
+        if theirs != sort(key, row.get(key, []))
     ]
 
 
@@ -51,11 +51,11 @@ class Comparison:
         self.run, self.folder, self.extra, self.forms = run, folder, extra, forms
         self.image = Image(run)
         self.steps = list(run.steps())
-        self.played = 0  # steps
+        self.count = 0  # steps
 
-    def counted(self):
+    def steps_taken(self):
         for step in self.steps:
-            self.played += 1
+            self.count += 1
             yield step
 
     def result(self):
@@ -63,16 +63,18 @@ class Comparison:
         lists = differing_lists(self.run.game, reference)
         if lists:
             return self.verdict(DIFFERENT, 0, "what the game offers differs\n" + table(lists))
-        printed = ours.play(self.run, self.image, self.steps, self.extra)
-        for number, (theirs, line) in enumerate(itertools.zip_longest(reference.lines(self.counted()), printed.lines)):
+        output = ours.play(self.run, self.image, self.steps, self.extra)
+        for number, (theirs, line) in enumerate(
+            itertools.zip_longest(reference.lines(self.steps_taken()), output.lines)
+        ):
             if theirs != line:
                 return self.verdict(
-                    DIFFERENT, reference.frames, self.explain(reference, number, theirs, line, printed.end)
+                    DIFFERENT, reference.frames, self.explain(reference, number, theirs, line, output.end)
                 )
-        if printed.end:
-            return self.verdict(DIFFERENT, reference.frames, f"racebeam ended with {printed.end}")
+        if output.end:
+            return self.verdict(DIFFERENT, reference.frames, f"racebeam ended with {output.end}")
         for form in self.forms:
-            difference = self.difference_of(form, printed.lines)
+            difference = self.difference_of(form, output.lines)
             if difference:
                 return self.verdict(DIFFERENT, reference.frames, difference)
         return self.verdict(IDENTICAL, reference.frames, "")
@@ -97,7 +99,7 @@ class Comparison:
         if line is None:
             return f"{where}: racebeam ended with {end or 'fewer lines'}"
         differences = differing_fields(theirs or "nothing", line)
-        sight = ours.look(self.run, self.image, self.steps[: self.played], number, self.extra)
+        sight = ours.look(self.run, self.image, self.steps[: self.count], number, self.extra)
         evidence = self.evidence(reference, number, sight)
         return "\n".join([f"first difference in {where}", table(differences), *evidence])
 
@@ -106,7 +108,7 @@ class Comparison:
         stem = self.folder / self.run.name.replace(":", "-").replace(",", "-").replace("=", "")
         self.folder.mkdir(parents=True, exist_ok=True)
         script = stem.with_name(stem.name + ".actions")
-        script.write_text("\n".join(map(step_word, self.steps[: self.played])) + "\n")
+        script.write_text("\n".join(map(step_word, self.steps[: self.count])) + "\n")
         options = [*self.extra, "--screen-of", str(number)]
         command = ours.trace_command(self.run, self.image.path, script, options)
         if sight:

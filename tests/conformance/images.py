@@ -19,8 +19,8 @@ PROGRAM_HOST = "pitfall2"
 
 
 def folder():
-    given = os.environ.get("RACEBEAM_ROMS")
-    return pathlib.Path(given) if given else pathlib.Path(ale_py.__file__).parent / "roms"
+    folder = os.environ.get("RACEBEAM_ROMS")
+    return pathlib.Path(folder) if folder else pathlib.Path(ale_py.__file__).parent / "roms"
 
 
 def games():

@@ -33,8 +33,8 @@ def digest():
 
 @functools.cache
 def catalogue():
-    printed = subprocess.run([BINARY, "games", "--json"], check=True, capture_output=True, text=True).stdout
-    return {game["name"]: game for game in json.loads(printed)}
+    output = subprocess.run([BINARY, "games", "--json"], check=True, capture_output=True, text=True).stdout
+    return {game["name"]: game for game in json.loads(output)}
 
 
 def trace_command(run, image_path, script, extra=()):

@@ -76,7 +76,7 @@ def results(function, items, jobs, patience):
     Interrupts are blocked but for the time that it waits: elsewhere they could end half a start of a process, or half
     a line of what the caller keeps."""
     waiting, running = iter(items), []
-    usual = signal.pthread_sigmask(signal.SIG_BLOCK, INTERRUPTS)
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, INTERRUPTS)
     try:
         while True:
             for item in itertools.islice(waiting, jobs - len(running)):
@@ -97,4 +97,4 @@ def results(function, items, jobs, patience):
     finally:
         for task in running:
             task.kill()
-        signal.pthread_sigmask(signal.SIG_SETMASK, usual)
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)

@@ -10,14 +10,14 @@ PLAIN_EVERY = 30  # seconds
 class Progress:
     def __init__(self, total):
         self.total, self.done, self.bad, self.frames = total, 0, 0, 0
-        self.start = self.told = time.monotonic()
+        self.start = self.last_report = time.monotonic()
         self.terminal = sys.stdout.isatty()
 
     def step(self, frames, good):
         self.done, self.frames, self.bad = self.done + 1, self.frames + frames, self.bad + (not good)
         now = time.monotonic()
-        if self.terminal or self.done == self.total or now - self.told > PLAIN_EVERY:
-            self.told = now
+        if self.terminal or self.done == self.total or now - self.last_report > PLAIN_EVERY:
+            self.last_report = now
             self.show(now)
 
     def show(self, now):

@@ -26,7 +26,7 @@ def runs_until(end, first_seed):
 def compare_programs(options, first_seed):
     """Prints what differs, and the sum. Returns the exit status."""
     extra, forms = shlex.split(options.racebeam_options), ours.FORMS if options.forms else ()
-    begin = told = time.monotonic()
+    begin = reported = time.monotonic()
     done = different = frames = 0
 
     def compare(run):
@@ -40,9 +40,9 @@ def compare_programs(options, first_seed):
         if result["verdict"] != IDENTICAL:
             different += 1
             print(f"{result['run']}: {result['verdict']}: {result['report']}", flush=True)
-        if time.monotonic() - told > TOLD_EVERY:
-            told = time.monotonic()
-            print(sentence(done, different, frames, first_seed, told - begin), flush=True)
+        if time.monotonic() - reported > TOLD_EVERY:
+            reported = time.monotonic()
+            print(sentence(done, different, frames, first_seed, reported - begin), flush=True)
     print(sentence(done, different, frames, first_seed, time.monotonic() - begin), flush=True)
     return 1 if different else 0
 

@@ -19,21 +19,23 @@ class Results:
     def resumed(self, identity):
         """The identity in the file, and its results. Raises ValueError if the identity differs."""
         header, *lines = self.path.read_text().splitlines()
-        kept = json.loads(header)
+        header_values = json.loads(header)
         for key in ("program", "reference", "options", "forms"):
-            if kept.get(key) != identity[key]:
-                raise ValueError(f"can't resume {self.path}: its {key} was {kept.get(key)}, this is {identity[key]}")
+            if header_values.get(key) != identity[key]:
+                raise ValueError(
+                    f"can't resume {self.path}: its {key} was {header_values.get(key)}, this is {identity[key]}"
+                )
         for line in lines:
             try:
                 result = json.loads(line)
             except ValueError:
                 break  # the last one, cut when the suite was stopped
             self.results[result["run"]] = result
-        text = "".join(json.dumps(line) + "\n" for line in (kept, *self.results.values()))
+        text = "".join(json.dumps(line) + "\n" for line in (header_values, *self.results.values()))
         temporary = self.path.with_suffix(".new")
         temporary.write_text(text)
         os.replace(temporary, self.path)
-        return kept
+        return header_values
 
     def add(self, result):
         self.results[result["run"]] = result

@@ -54,35 +54,35 @@ class Suite(unittest.TestCase):
             "--games", GAME, "--settings", "default", "--seeds", "1", "--frames", "60", "--seed", "3", *words, **more
         )
 
-    def kept(self):
+    def result_lines(self):
         """The complete lines of the results."""
         return [json.loads(line) for line in (self.out / "results.jsonl").read_text().split("\n")[:-1]]
 
 
 class Verdicts(Suite):
     def test_a_game_that_is_the_same(self):
-        status, printed = self.short()
-        self.assertEqual(status, 0, printed)
-        self.assertIn("1 of 1 runs identical, 60 frames", printed)
+        status, output = self.short()
+        self.assertEqual(status, 0, output)
+        self.assertIn("1 of 1 runs identical, 60 frames", output)
         self.assertEqual(list(self.out.glob("*.png")), [])
         self.assertIn(f"| {GAME} | 60 | 0 | 0 | identical |", (self.out / "conformance.md").read_text())
 
     def test_another_power_on_is_found_and_shown(self):
-        status, printed = self.short(*FREEWAY)
-        self.assertEqual(status, 1, printed)
-        self.assertRegex(printed, r"first difference in line \d+, frame \d+, act \d+ of episode 1")
-        self.assertRegex(printed, r"ram +reference [0-9a-f]{8}  racebeam [0-9a-f]{8}")
-        self.assertRegex(printed, r"ram\[[89A-F][0-9A-F]\] +reference [0-9a-f]{2}  racebeam [0-9a-f]{2}")
-        self.assertIn("0 of 1 runs identical", printed)
+        status, output = self.short(*FREEWAY)
+        self.assertEqual(status, 1, output)
+        self.assertRegex(output, r"first difference in line \d+, frame \d+, act \d+ of episode 1")
+        self.assertRegex(output, r"ram +reference [0-9a-f]{8}  racebeam [0-9a-f]{8}")
+        self.assertRegex(output, r"ram\[[89A-F][0-9A-F]\] +reference [0-9a-f]{2}  racebeam [0-9a-f]{2}")
+        self.assertIn("0 of 1 runs identical", output)
         self.assertIn("1 of 1 runs are not identical", (self.out / "conformance.md").read_text())
 
     def test_the_commands_that_it_prints_show_the_difference_again(self):
-        _, printed = self.short(*FREEWAY)
-        again = next(line for line in printed.splitlines() if "again:" in line).split("scripts/conformance ")[1]
+        _, output = self.short(*FREEWAY)
+        again = next(line for line in output.splitlines() if "again:" in line).split("scripts/conformance ")[1]
         rerun = subprocess.run([*self.command(), *shlex.split(again)], capture_output=True, text=True, timeout=250)
         self.assertEqual(rerun.returncode, 1, rerun.stdout + rerun.stderr)
-        self.assertEqual(differences(printed), differences(rerun.stdout))
-        trace = next(line for line in printed.splitlines() if "racebeam: " in line and " trace " in line)
+        self.assertEqual(differences(output), differences(rerun.stdout))
+        trace = next(line for line in output.splitlines() if "racebeam: " in line and " trace " in line)
         traced = subprocess.run(trace.split("racebeam: ")[1], shell=True, capture_output=True, text=True, timeout=250)
         self.assertEqual(traced.returncode, 0, traced.stderr)
         self.assertRegex(traced.stdout, r"(?m)^S \d+ [0-9a-f]+ [0-9a-f]+$")
@@ -92,13 +92,13 @@ class Verdicts(Suite):
         self.assertIn('lives = "0"', text)
         rule = self.out / f"{GAME}.toml"
         rule.write_text(text.replace('lives = "0"', 'lives = "7"'))
-        status, printed = self.short(f"--racebeam-options=--game-file {rule}")
-        self.assertEqual(status, 1, printed)
-        self.assertEqual(differences(printed), ["  lives         reference 0  racebeam 7"])
+        status, output = self.short(f"--racebeam-options=--game-file {rule}")
+        self.assertEqual(status, 1, output)
+        self.assertEqual(differences(output), ["  lives         reference 0  racebeam 7"])
 
     def test_pictures_that_differ_are_drawn_beside_each_other(self):
-        status, printed = self.short("--racebeam-options=--color-averaging")
-        self.assertEqual(status, 1, printed)
+        status, output = self.short("--racebeam-options=--color-averaging")
+        self.assertEqual(status, 1, output)
         (picture,) = self.out.glob("*.png")
         width, height, pixels = read_png(picture)
         self.assertEqual((width, height), (3 * 320 + 2 * 8, 210))
@@ -111,8 +111,8 @@ class Verdicts(Suite):
                 self.assertEqual(a != b, mark)
 
     def test_all_forms_of_the_machine_are_compared(self):
-        status, printed = self.short("--forms")
-        self.assertEqual(status, 0, printed)
+        status, output = self.short("--forms")
+        self.assertEqual(status, 0, output)
         self.assertIn("interpreter, translator, plain |", (self.out / "conformance.md").read_text())
 
     def test_a_form_that_differs_is_found(self):
@@ -125,9 +125,9 @@ class Verdicts(Suite):
                 f'#!/bin/sh\n{condition} {ours.BINARY} "$@" | sed \'9s/.$/x/\';; *) exec {ours.BINARY} "$@";; esac\n'
             )
             other.chmod(0o755)
-            status, printed = self.short("--forms", binary=other)
-            self.assertEqual(status, 1, printed)
-            self.assertIn(f"{form}, line 8: ", printed)
+            status, output = self.short("--forms", binary=other)
+            self.assertEqual(status, 1, output)
+            self.assertIn(f"{form}, line 8: ", output)
             other.unlink()
 
     def test_a_racebeam_that_does_not_run_is_a_difference(self):
@@ -136,9 +136,9 @@ class Verdicts(Suite):
             f'#!/bin/sh\ncase $1 in trace) echo "racebeam: no" >&2; exit 1;; esac\nexec {ours.BINARY} "$@"\n'
         )
         broken.chmod(0o755)
-        status, printed = self.short(binary=broken)
-        self.assertEqual(status, 1, printed)
-        self.assertIn("racebeam ended with status 1: racebeam: no", printed)
+        status, output = self.short(binary=broken)
+        self.assertEqual(status, 1, output)
+        self.assertIn("racebeam ended with status 1: racebeam: no", output)
 
     def test_lines_that_are_missing_are_a_difference(self):
         short = self.out / "racebeam"
@@ -146,14 +146,14 @@ class Verdicts(Suite):
             f'#!/bin/bash\n[[ $1 == trace ]] || exec {ours.BINARY} "$@"\n{ours.BINARY} "$@" | head -n 20\n'
         )
         short.chmod(0o755)
-        status, printed = self.short(binary=short)
-        self.assertEqual(status, 1, printed)
-        self.assertIn("racebeam ended with fewer lines", printed)
+        status, output = self.short(binary=short)
+        self.assertEqual(status, 1, output)
+        self.assertIn("racebeam ended with fewer lines", output)
 
     def test_machines_without_a_rule_are_compared_too(self):
         for game in images.WITHOUT_RULE:
-            status, printed = self.suite("--games", game, "--settings", "default", "--seeds", "1", "--frames", "200")
-            self.assertEqual(status, 0, printed)
+            status, output = self.suite("--games", game, "--settings", "default", "--seeds", "1", "--frames", "200")
+            self.assertEqual(status, 0, output)
 
 
 class Programs(Suite):
@@ -161,15 +161,15 @@ class Programs(Suite):
         return self.suite("--programs", "--minutes", "0.02", "--jobs", "1", "--seed", "7", *words, **more)
 
     def test_programs_that_run_the_same(self):
-        status, printed = self.programs()
-        self.assertEqual(status, 0, printed)
-        self.assertRegex(printed, r"[1-9]\d* random programs from seed 7, [1-9][\d,]* frames, .* minutes: 0 differ")
+        status, output = self.programs()
+        self.assertEqual(status, 0, output)
+        self.assertRegex(output, r"[1-9]\d* random programs from seed 7, [1-9][\d,]* frames, .* minutes: 0 differ")
 
     def test_a_program_that_runs_differently_is_found_and_shown_again(self):
-        status, printed = self.programs("--racebeam-options=--system-seed 1")
-        self.assertEqual(status, 1, printed)
-        self.assertRegex(printed, r"random_program:.*seed=7.*: DIFFERENT: first difference in line 0")
-        again = next(line for line in printed.splitlines() if "again:" in line).split("scripts/conformance ")[1]
+        status, output = self.programs("--racebeam-options=--system-seed 1")
+        self.assertEqual(status, 1, output)
+        self.assertRegex(output, r"random_program:.*seed=7.*: DIFFERENT: first difference in line 0")
+        again = next(line for line in output.splitlines() if "again:" in line).split("scripts/conformance ")[1]
         rerun = subprocess.run([*self.command(), *shlex.split(again)], capture_output=True, text=True, timeout=250)
         self.assertEqual(rerun.returncode, 1, rerun.stdout + rerun.stderr)
 
@@ -185,19 +185,19 @@ class Keeping(Suite):
         self.short("--seeds", "2")
         path = self.out / "results.jsonl"
         path.write_text(path.read_text()[:-30])  # interrupted while it wrote
-        status, printed = self.suite(
+        status, output = self.suite(
             "--games", GAME, "--settings", "default", "--seeds", "2", "--frames", "60", "--resume"
         )
-        self.assertEqual(status, 0, printed)
-        self.assertIn("1 runs are done already", printed)
-        self.assertIn("2 of 2 runs identical", printed)
-        self.assertEqual(len(self.kept()), 3)  # with the header
+        self.assertEqual(status, 0, output)
+        self.assertIn("1 runs are done already", output)
+        self.assertIn("2 of 2 runs identical", output)
+        self.assertEqual(len(self.result_lines()), 3)  # with the header
 
     def test_results_of_another_program_are_not_taken_up(self):
         self.short()
-        status, printed = self.short("--resume", "--racebeam-options=--system-seed 1")
+        status, output = self.short("--resume", "--racebeam-options=--system-seed 1")
         self.assertEqual(status, 2)
-        self.assertIn("can't resume", printed)
+        self.assertIn("can't resume", output)
 
     def test_an_interrupt_leaves_what_was_done(self):
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -214,7 +214,9 @@ class Keeping(Suite):
             start_new_session=True,
         )
         deadline = time.monotonic() + 60
-        while time.monotonic() < deadline and not ((self.out / "results.jsonl").exists() and len(self.kept()) > 2):
+        while time.monotonic() < deadline and not (
+            (self.out / "results.jsonl").exists() and len(self.result_lines()) > 2
+        ):
             time.sleep(0.05)
         os.kill(suite.pid, number)
         printed, _ = suite.communicate(timeout=60)
@@ -233,9 +235,9 @@ class Keeping(Suite):
             (["--frames", "0"], "--frames is 0"),
             (["--programs", "--minutes", "0"], "--minutes is 0.0; it must be more than 0"),
         ):
-            status, printed = self.suite(*words)
-            self.assertEqual(status, 2, printed)
-            self.assertIn(sentence, printed)
+            status, output = self.suite(*words)
+            self.assertEqual(status, 2, output)
+            self.assertIn(sentence, output)
 
 
 class Plans(unittest.TestCase):

@@ -27,8 +27,8 @@ class ThisTree(unittest.TestCase):
         document = (ROOT / "docs/architecture.md").read_text()
         for folder, rows in room_table.read()[1].items():
             line = re.search(rf"^\| `{folder}/` \| (`.*) \|$", document, re.MULTILINE)
-            told = [name for name in re.findall(r"`([\w/]+)`", line[1]) if name in rows] if line else []
-            self.assertEqual(told, [room for room in rows if room != room_table.TOP], folder)
+            names = [name for name in re.findall(r"`([\w/]+)`", line[1]) if name in rows] if line else []
+            self.assertEqual(names, [room for room in rows if room != room_table.TOP], folder)
 
 
 TABLE = """

@@ -50,11 +50,11 @@ def anchor(heading):
 
 def anchors(text):
     """All anchors of a document. The second heading of the same name gets `-1`, and so on."""
-    found, seen = set(), {}
+    found, counts = set(), {}
     for section in sections(text):
         name = anchor(section.heading)
-        found.add(f"{name}-{seen[name]}" if name in seen else name)
-        seen[name] = seen.get(name, 0) + 1
+        found.add(f"{name}-{counts[name]}" if name in counts else name)
+        counts[name] = counts.get(name, 0) + 1
     return found
 
 

@@ -33,7 +33,7 @@ def includes(root, folders):
                         yield path.relative_to(root), pathlib.PurePath(name)
 
 
-def used(path, header, rooms):
+def uses_of(path, header, rooms):
     """The row of the table that an include needs, as (its list, its key, the entries that allow it). None if both files
     are in one room."""
     folder, other = path.parts[0], header.parts[0]
@@ -52,7 +52,7 @@ def faults(root=ROOT):
     idle = {(name, key, entry) for name, rows in lists.items() for key, row in rows.items() for entry in row}
     wrong = []
     for path, header in includes(root, folders):
-        row = used(path, header, rooms)
+        row = uses_of(path, header, rooms)
         if row is None:
             continue
         name, key, entries = row

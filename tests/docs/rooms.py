@@ -75,8 +75,8 @@ class Tree(unittest.TestCase):
     @unittest.skipUnless((ROOT / ".git").exists() and shutil.which("git"), "this is not a checkout")
     def test_nothing_that_is_ignored_is_in_the_tree(self):
         command = ["git", "ls-files", "--cached", "--ignored", "--exclude-standard"]
-        listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
-        self.assertEqual(listed.splitlines(), [])
+        output = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+        self.assertEqual(output.splitlines(), [])
 
     def test_no_link_leads_out(self):
         self.assertEqual(leaving_links(ROOT), [])
@@ -105,8 +105,8 @@ class Checks(unittest.TestCase):
 
     def test_an_arrow_back_is_named(self):
         self.fill("protocol/line/commands", 1)
-        for name, used in (("good", "words"), ("bad", "commands/help")):
-            (self.root / f"protocol/line/{name}.cpp").write_text(f'#include "protocol/line/{used}.hpp"\n')
+        for name, include in (("good", "words"), ("bad", "commands/help")):
+            (self.root / f"protocol/line/{name}.cpp").write_text(f'#include "protocol/line/{include}.hpp"\n')
         self.assertEqual(arrows_back(self.root), ["protocol/line/bad.cpp"])
 
     def test_a_link_that_leaves_is_named(self):

@@ -78,10 +78,10 @@ def check(name, fence="console", binary=BINARY):
     wrong = 0
     with tempfile.TemporaryDirectory() as folder:
         for number, command, expected in found:
-            printed = run(command, folder, binary)
-            if not pattern(expected).fullmatch(printed):
+            output = run(command, folder, binary)
+            if not pattern(expected).fullmatch(output):
                 wrong += 1
-                print(f"{name}:{number}: $ {command}\nexpected:\n" + "\n".join(expected) + f"\nprinted:\n{printed}")
+                print(f"{name}:{number}: $ {command}\nexpected:\n" + "\n".join(expected) + f"\nprinted:\n{output}")
     return len(found), wrong
 
 

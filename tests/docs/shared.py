@@ -38,8 +38,8 @@ class Shared(unittest.TestCase):
             pathlib.Path(file).stem for file, name in writable(self.libraries) if name.split("(")[0] not in CONSTANTS
         }
         section = LISTED.read_text().split("## What is shared")[1].split("\n## ")[0]
-        listed = {pathlib.Path(path).stem for path in re.findall(r"`(\w+/[\w/]+\.[hc]pp)`", section)}
-        self.assertEqual(shared, listed)
+        names = {pathlib.Path(path).stem for path in re.findall(r"`(\w+/[\w/]+\.[hc]pp)`", section)}
+        self.assertEqual(shared, names)
 
 
 if __name__ == "__main__":

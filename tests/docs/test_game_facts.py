@@ -19,23 +19,23 @@ def specified():
     return {game["rom"]: game for file in files for game in json.loads(file.read_text())}
 
 
-def offered():
-    listed = subprocess.run([BINARY, "games", "--json"], check=True, capture_output=True).stdout
-    return {game["name"]: game for game in json.loads(listed)}
+def catalogue():
+    output = subprocess.run([BINARY, "games", "--json"], check=True, capture_output=True).stdout
+    return {game["name"]: game for game in json.loads(output)}
 
 
 class Facts(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.specified, cls.offered = specified(), offered()
+        cls.specified, cls.catalogue = specified(), catalogue()
 
     def test_every_game_of_the_specification_is_offered(self):
         self.assertEqual(len(self.specified), 104)
-        self.assertEqual(self.specified.keys() - self.offered.keys(), set())
+        self.assertEqual(self.specified.keys() - self.catalogue.keys(), set())
 
     def test_images_actions_modes_and_difficulties_are_the_same(self):
         for name, game in self.specified.items():
-            ours = self.offered[name]
+            ours = self.catalogue[name]
             with self.subTest(game=name):
                 recognised = [image["md5"] for image in ours["images"] if image["recognised"]]
                 self.assertEqual(recognised, game["md5"])

@@ -39,8 +39,8 @@ def fault(word):
 
 def packages():
     """Names of the packages that the extras bring, without racebeam itself, which no index has."""
-    listed = (requirement for extra in extras(tree.ROOT).values() for requirement in extra)
-    return {NAME.match(requirement)[0] for requirement in listed} - {"racebeam"}
+    requirements = (requirement for extra in extras(tree.ROOT).values() for requirement in extra)
+    return {NAME.match(requirement)[0] for requirement in requirements} - {"racebeam"}
 
 
 class InstallLines(unittest.TestCase):

@@ -34,15 +34,15 @@ class Numbers(unittest.TestCase):
 
     def test_the_readme_names_the_packages_of_this_version(self):
         [version] = re.findall(r"project\(racebeam VERSION ([0-9.]+)", page("CMakeLists.txt"))
-        told = re.findall(r"racebeam-(\d+\.\d+\.\d+)", page("README.md"))
-        self.assertEqual(set(told), {version})
+        versions = re.findall(r"racebeam-(\d+\.\d+\.\d+)", page("README.md"))
+        self.assertEqual(set(versions), {version})
 
     def test_clients_have_about_as_many_lines_as_their_page_says(self):
-        counted = {client.language: client.lines_of_code() for client in clients.CLIENTS}
+        lines = {client.language: client.lines_of_code() for client in clients.CLIENTS}
         rows = table(page("clients/README.md"), "| language | connects over |")
         self.assertEqual(len(rows), len(HEADINGS))
         for name, *_, told in rows:
-            count = counted[HEADINGS[name.split()[0]]]
+            count = lines[HEADINGS[name.split()[0]]]
             self.assertLess(abs(int(told) - count), MOST_WRONG * count, f"{name}: scripts/clients counts {count} lines")
 
     def test_the_python_page_names_the_extras_and_the_oldest_versions(self):
@@ -63,11 +63,11 @@ class Numbers(unittest.TestCase):
             if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "WHOLE_NUMBERS"
         )
         limits = {key.value: ast.unparse(value) for key, value in zip(limits.keys, limits.values)}
-        told = {
+        figures = {
             name.strip("`"): takes for name, takes in table(page("docs/python/reference.md"), "| argument | takes |")
         }
         for name in ("stack_num", "noop_max", "frameskip"):
-            self.assertEqual(told[name].replace(" to ", ", "), limits[name].strip("()"))
+            self.assertEqual(figures[name].replace(" to ", ", "), limits[name].strip("()"))
 
 
 if __name__ == "__main__":

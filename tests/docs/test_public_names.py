@@ -52,22 +52,22 @@ def code(text):
 
 class PublicNames(unittest.TestCase):
     def test_each_name_is_in_a_page(self):
-        shown = "\n".join(code(page.read_text()) for page in sorted(PAGES.rglob("*.md")))
+        text = "\n".join(code(page.read_text()) for page in sorted(PAGES.rglob("*.md")))
         missing = [
             f"{module or 'racebeam'}: {name}"
             for module in MODULES
             for name in public_names(module)
-            if not re.search(rf"\b{name}\b", shown)
+            if not re.search(rf"\b{name}\b", text)
         ]
         self.assertEqual(missing, [])
 
     def test_each_method_of_a_session_is_in_the_document_with_its_arguments(self):
         section = (PAGES / "python/reference.md").read_text().split("## Sessions")[1].split("\n| address |")[0]
-        told = dict(CALL.findall(section))
+        calls = dict(CALL.findall(section))
         for module, name in (("wire/commands", "Commands"), ("wire/session", "Session")):
-            for method, listed in methods(module, name).items():
-                self.assertEqual(told.pop(method, None), listed, method)
-        self.assertEqual(told, {}, "a session lacks these methods")
+            for method, arguments in methods(module, name).items():
+                self.assertEqual(calls.pop(method, None), arguments, method)
+        self.assertEqual(calls, {}, "a session lacks these methods")
 
 
 if __name__ == "__main__":

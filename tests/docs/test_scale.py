@@ -18,7 +18,7 @@ def number(text):
     return int(text.replace(",", ""))
 
 
-def simulated(*words):
+def simulate(*words):
     """The last row that cluster/simulate.py prints, as words. None: no number of nodes is enough."""
     done = subprocess.run(
         [sys.executable, ROOT / "cluster/simulate.py", "paper", "--program", BINARY, *words],
@@ -32,26 +32,26 @@ def simulated(*words):
 
 
 class Paper(unittest.TestCase):
-    def said(self, pattern):
+    def claim(self, pattern):
         found = re.search(pattern, PAPER)
         self.assertIsNotNone(found, f"docs/scale.md has no longer: {pattern}")
         return found
 
     def test_the_units_and_their_hours_are_those_of_the_dry_run(self):
-        asked = subprocess.run(
+        output = subprocess.run(
             [BINARY, "experiment", "paper", "--dry-run", "--unmeasured"], check=True, capture_output=True, text=True
         ).stdout
         found = {
             name: (int(units), float(hours))
-            for name, units, hours in re.findall(r"^(\w+) +(\d+) units .* ([\d.]+) core-hours$", asked, re.MULTILINE)
+            for name, units, hours in re.findall(r"^(\w+) +(\d+) units .* ([\d.]+) core-hours$", output, re.MULTILINE)
         }
         units, hours = found["all"]
-        said = self.said(r"counts ([\d,]+) units and ([\d,]+) core-hours")
-        self.assertEqual((number(said[1]), number(said[2])), (units, round(hours)))
-        self.assertEqual(number(self.said(r"24 hours of ([\d,]+) cores")[1]), -(-hours // 24))
+        claim = self.claim(r"counts ([\d,]+) units and ([\d,]+) core-hours")
+        self.assertEqual((number(claim[1]), number(claim[2])), (units, round(hours)))
+        self.assertEqual(number(self.claim(r"24 hours of ([\d,]+) cores")[1]), -(-hours // 24))
         longest = found["ram"][1] / found["ram"][0]
-        said = self.said(r"the agent `ram` takes ([\d.]+) hours, and ([\d.]+) on a straggler")
-        self.assertEqual((said[1], said[2]), (f"{longest:.1f}", f"{2 * longest:.1f}"))
+        claim = self.claim(r"the agent `ram` takes ([\d.]+) hours, and ([\d.]+) on a straggler")
+        self.assertEqual((claim[1], claim[2]), (f"{longest:.1f}", f"{2 * longest:.1f}"))
 
     def test_the_nodes_are_those_of_the_simulation(self):
         table = TEXT.partition("## The paper in a day\n")[2].partition("### From a pilot")[0]
@@ -59,7 +59,7 @@ class Paper(unittest.TestCase):
         self.assertEqual(len(rows), 5)
         for options, nodes, cores, busy in rows:
             with self.subTest(options=options):
-                found = simulated("--within", "24", *(options.strip("`").split() if options != "none" else []))
+                found = simulate("--within", "24", *(options.strip("`").split() if options != "none" else []))
                 if found is None:
                     self.assertEqual((nodes, cores), ("not possible", "-"))
                 else:
@@ -68,14 +68,14 @@ class Paper(unittest.TestCase):
                     )
 
     def test_what_failures_cost_is_what_the_simulation_says(self):
-        said = self.said(
+        claim = self.claim(
             r"With `--failures 365`, a failure of each node a day, (\d+) nodes take ([\d.]+) hours, and do (\d+) "
             r"core-hours twice. "
             r"With a checkpoint an hour \(`--checkpoint 3600`\) these are ([\d.]+) hours and (\d+) core-hours"
         )
-        for words, hours, lost in (((), said[2], said[3]), (("--checkpoint", "3600"), said[4], said[5])):
-            found = simulated("--longest-first", "--failures", "365", "--nodes", said[1], *words)
-            self.assertEqual((hours, int(lost)), (found[2], round(float(found[5]))))
+        for words, hours, waste in (((), claim[2], claim[3]), (("--checkpoint", "3600"), claim[4], claim[5])):
+            found = simulate("--longest-first", "--failures", "365", "--nodes", claim[1], *words)
+            self.assertEqual((hours, int(waste)), (found[2], round(float(found[5]))))
 
 
 if __name__ == "__main__":

@@ -17,8 +17,8 @@ class Pages(unittest.TestCase):
     def test_links_to_folders_and_files_are_kept_where_they_lead_somewhere(self):
         linked = set()
         text = "[a](spec) [b](pictures) [c](../README.md#x) [d](pictures/draw.py)\n```\n[e](spec)\n```\n"
-        made = pages.for_the_site(pathlib.Path("docs/one.md"), text, linked)
-        self.assertEqual(made, "[a](spec/README.md) b [c](../README.md#x) [d](pictures/draw.py)\n```\n[e](spec)\n```\n")
+        page = pages.for_the_site(pathlib.Path("docs/one.md"), text, linked)
+        self.assertEqual(page, "[a](spec/README.md) b [c](../README.md#x) [d](pictures/draw.py)\n```\n[e](spec)\n```\n")
         self.assertEqual(linked, {pathlib.Path("docs/pictures/draw.py")})
 
     def test_the_tables_are_those_of_the_description(self):
@@ -38,10 +38,10 @@ class Pages(unittest.TestCase):
 
     def test_the_menu_has_each_document(self):
         menu = (ROOT / "docs/site/mkdocs.yml").read_text().partition("\nnav:\n")[2]
-        listed = set(re.findall(r"[\w./-]+\.md", menu))
-        made = {f"reference/{name}.md" for name in ("cpp", *pages.TABLES)}
-        made |= {f"reference/python/{module}.md" for module in pages.MODULES}
-        self.assertEqual({str(path) for path in documents()} | made, listed)
+        entries = set(re.findall(r"[\w./-]+\.md", menu))
+        generated = {f"reference/{name}.md" for name in ("cpp", *pages.TABLES)}
+        generated |= {f"reference/python/{module}.md" for module in pages.MODULES}
+        self.assertEqual({str(path) for path in documents()} | generated, entries)
 
 
 class Links(unittest.TestCase):

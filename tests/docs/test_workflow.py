@@ -43,26 +43,26 @@ def read(file):
 
 
 def presets():
-    named = json.loads(read("CMakePresets.json"))
-    return {preset["name"] for preset in named["configurePresets"] if not preset.get("hidden")}
+    presets = json.loads(read("CMakePresets.json"))
+    return {preset["name"] for preset in presets["configurePresets"] if not preset.get("hidden")}
 
 
 def nightly_steps():
-    listed = subprocess.run([ROOT / ".ci/nightly", "--list"], capture_output=True, text=True, check=True).stdout
-    return dict(line.split(maxsplit=1) for line in listed.splitlines())
+    output = subprocess.run([ROOT / ".ci/nightly", "--list"], capture_output=True, text=True, check=True).stdout
+    return dict(line.split(maxsplit=1) for line in output.splitlines())
 
 
 class Workflow(unittest.TestCase):
-    def named(self, pattern):
+    def names(self, pattern):
         found = [name for file in FILES for name in re.findall(pattern, read(file))]
         self.assertTrue(found, pattern)
         return set(found)
 
     def test_its_presets_exist(self):
-        self.assertEqual(self.named(r"--preset ([\w-]+)") - presets(), set())
+        self.assertEqual(self.names(r"--preset ([\w-]+)") - presets(), set())
 
     def test_its_scripts_exist(self):
-        names = self.named(r"(?<![\w/])((?:scripts|\.ci|tests)/[\w./-]*\w)")
+        names = self.names(r"(?<![\w/])((?:scripts|\.ci|tests)/[\w./-]*\w)")
         self.assertEqual({name for name in names if not (ROOT / name).is_file()}, set())
 
     def test_its_jobs_are_the_steps_of_the_night(self):

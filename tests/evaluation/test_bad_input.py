@@ -19,7 +19,7 @@ class BadInput(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
 
-    def refused(self, sentence, *arguments, status=1):
+    def check_refusal(self, sentence, *arguments, status=1):
         """Checks that the run says `sentence`, ends with `status`, and leaves nothing."""
         before = sorted(self.root.rglob("*"))
         done = evaluate(*arguments or [self.root / "a"], "--into", self.root / "out")
@@ -33,63 +33,63 @@ class BadInput(unittest.TestCase):
 
     def test_columns_are_missing(self):
         self.lines("1,pong,2", header="unit,game,score")
-        self.refused(
+        self.check_refusal(
             "results.csv lacks the columns image_md5, agent, trial, episode, end; expected at least "
             "game,image_md5,agent,trial,episode,score,end"
         )
 
     def test_text_for_a_number(self):
         self.lines(result("pong", "basic", 0, 0, 1), result("pong", "basic", 0, 1, "high"))
-        self.refused("results.csv, line 3: score is 'high'; expected a decimal number")
+        self.check_refusal("results.csv, line 3: score is 'high'; expected a decimal number")
 
     def test_a_score_that_is_not_finite(self):
         self.lines(result("pong", "basic", 0, 0, "inf"))
-        self.refused("results.csv, line 2: score is 'inf'; expected a decimal number")
+        self.check_refusal("results.csv, line 2: score is 'inf'; expected a decimal number")
 
     def test_a_score_whose_square_is_not_finite(self):
         for value in ("1e308", "-1e16"):
             self.lines(result("pong", "basic", 0, 0, value))
-            self.refused(
+            self.check_refusal(
                 f"results.csv, line 2: score is '{value}'; expected a decimal number from -1e15 to 1e15, or nothing"
             )
 
     def test_a_game_or_an_agent_without_a_name(self):
         self.lines(result("pong", "basic", 0, 0, 1), result("pong", "", 0, 0, 1))
-        self.refused("results.csv, line 3: agent is ''; expected a name")
+        self.check_refusal("results.csv, line 3: agent is ''; expected a name")
         self.lines(result(" ", "basic", 0, 0, 1))
-        self.refused("results.csv, line 2: game is ' '; expected a name")
+        self.check_refusal("results.csv, line 2: game is ' '; expected a name")
 
     def test_no_score_of_a_trial_that_did_not_diverge(self):
         self.lines(result("pong", "basic", 0, 0, ""))
-        self.refused("results.csv, line 2: score is ''; expected a decimal number, or the end diverged")
+        self.check_refusal("results.csv, line 2: score is ''; expected a decimal number, or the end diverged")
 
     def test_a_trial_that_is_no_whole_number(self):
         for value in ("1.5", "-1", "one", "1e300", "2147483648"):
             self.lines(result("pong", "basic", value, 0, 1))
-            self.refused(f"results.csv, line 2: trial is '{value}'; expected a whole number from 0 to 2147483647")
+            self.check_refusal(f"results.csv, line 2: trial is '{value}'; expected a whole number from 0 to 2147483647")
 
     def test_a_line_of_another_length(self):
         self.lines(result("pong", "basic", 0, 0, 1), "1,2,3")
-        self.refused("results.csv, line 3, has 3 fields; expected 16, as the header has")
+        self.check_refusal("results.csv, line 3, has 3 fields; expected 16, as the header has")
         self.lines(result("pong", "basic", 0, 0, 1) + ",7")
-        self.refused("results.csv, line 2, has 17 fields; expected 16")
+        self.check_refusal("results.csv, line 2, has 17 fields; expected 16")
 
     def test_no_rows_and_an_empty_file(self):
         self.lines()
-        self.refused("results.csv has no rows; expected at least one below the header")
+        self.check_refusal("results.csv has no rows; expected at least one below the header")
         (self.root / "a/results.csv").write_text("")
-        self.refused("results.csv lacks the columns")
+        self.check_refusal("results.csv lacks the columns")
 
     def test_bytes_that_are_no_text(self):
         (self.lines() / "results.csv").write_bytes(RESULTS.encode() + b"\n\xff\n")
-        self.refused(f"results.csv: byte {len(RESULTS) + 1} is not UTF-8; expected a CSV file in UTF-8")
+        self.check_refusal(f"results.csv: byte {len(RESULTS) + 1} is not UTF-8; expected a CSV file in UTF-8")
 
     def test_no_file(self):
-        self.refused("results.csv cannot be read: No such file or directory; expected a CSV file")
+        self.check_refusal("results.csv cannot be read: No such file or directory; expected a CSV file")
 
     def test_curves_are_as_strict(self):
         self.lines(*results_of(GOOD), curves=[curve("pong", "basic", 0, 0, 1, 100), "u,pong,basic,0,1,1,many,2"])
-        self.refused("curves.csv, line 3: frames is 'many'; expected a whole number from 0 to 2147483647")
+        self.check_refusal("curves.csv, line 3: frames is 'many'; expected a whole number from 0 to 2147483647")
         self.assertIn("frames", CURVES)
 
     def test_a_game_that_there_is_not(self):
@@ -103,42 +103,46 @@ class BadInput(unittest.TestCase):
             ),
         ):
             self.lines(result("pong", "basic", 0, 0, 1), result(name, "basic", 0, 0, 1))
-            self.refused(f"results.csv, {sentence}")
+            self.check_refusal(f"results.csv, {sentence}")
 
     def test_a_role_that_there_is_not(self):
         folder = self.lines(*results_of(GOOD))
         (folder / "agents.csv").write_text("agent,role\nbasic,learner\nbass,teacher\n")
-        self.refused("agents.csv, line 3: role is 'teacher'; expected learner, planner or baseline")
+        self.check_refusal("agents.csv, line 3: role is 'teacher'; expected learner, planner or baseline")
         (folder / "agents.csv").write_text("agent,role\nbasic,learner\nbasic,planner\n")
-        self.refused("agents.csv, line 3: basic is a planner, and a learner before; expected one role of each agent")
+        self.check_refusal(
+            "agents.csv, line 3: basic is a planner, and a learner before; expected one role of each agent"
+        )
 
     def test_a_plan_that_is_not_toml(self):
         (self.lines(*results_of(GOOD)) / "plan.toml").write_text("games = [")
-        self.refused("plan.toml is not TOML: ")
+        self.check_refusal("plan.toml is not TOML: ")
 
     def test_a_table_of_a_gigabyte_is_not_read(self):
         with (self.lines(*results_of(GOOD)) / "results.csv").open("r+b") as file:
             file.truncate(2**30)
-        self.refused("results.csv has 1073741824 bytes; expected a CSV file of at most 536870912")
+        self.check_refusal("results.csv has 1073741824 bytes; expected a CSV file of at most 536870912")
 
     def test_an_episode_twice(self):
         self.lines(*results_of(GOOD), result("pong", "bass", 1, 0, 5))
-        self.refused("evaluation episode 0 of trial 1 of bass on pong occurs twice; expected each episode once")
+        self.check_refusal("evaluation episode 0 of trial 1 of bass on pong occurs twice; expected each episode once")
 
     def test_the_same_results_twice(self):
         folder = self.lines(*results_of(GOOD))
-        self.refused("of basic on pong occurs twice", folder, folder)
+        self.check_refusal("of basic on pong occurs twice", folder, folder)
 
     def test_two_images_of_a_game(self):
         write(self.root / "a", [result("pong", "basic", 0, 0, 1, md5="aa")])
         write(self.root / "b", [result("pong", "bass", 0, 0, 1, md5="bb")])
-        self.refused("pong has the images aa and bb; expected one image of each game", self.root / "a", self.root / "b")
+        self.check_refusal(
+            "pong has the images aa and bb; expected one image of each game", self.root / "a", self.root / "b"
+        )
 
     def test_a_folder_that_is_full(self):
         self.lines(*results_of(GOOD))
         (self.root / "out").mkdir()
         (self.root / "out/mine").touch()
-        self.refused("out is not empty; expected a new or an empty folder")
+        self.check_refusal("out is not empty; expected a new or an empty folder")
 
     def test_a_folder_that_cannot_be(self):
         self.lines(*results_of(GOOD))
@@ -150,21 +154,21 @@ class BadInput(unittest.TestCase):
 
     def test_reports_of_what_is_not_there(self):
         folder = self.lines(*results_of({("basic", "beamfall"): [[1], [2]]}))
-        self.refused("no curves.csv of RESULTS has one; expected learners", folder, "--report", "machado2018")
-        self.refused(
+        self.check_refusal("no curves.csv of RESULTS has one; expected learners", folder, "--report", "machado2018")
+        self.check_refusal(
             "no game of RESULTS is one of Atari 100k; expected some of alien, amidar", folder, "--report", "atari100k"
         )
 
     def test_every_trial_diverged(self):
         self.lines(result("pong", "basic", 0, 0, "", end="diverged"))
-        self.refused("every trial diverged; expected a score")
+        self.check_refusal("every trial diverged; expected a score")
 
     def test_usage(self):
         folder = self.lines(*results_of(GOOD))
-        self.refused("expected RESULTS, or --paper", "--seed", "1", status=2)
-        self.refused("expected RESULTS, or --paper", folder, "--paper", status=2)
-        self.refused("'-1' is not accepted; expected 0 to 4294967295", folder, "--seed=-1", status=2)
-        self.refused("'0' is not accepted; expected 1 to 1000000", folder, "--repetitions", "0", status=2)
+        self.check_refusal("expected RESULTS, or --paper", "--seed", "1", status=2)
+        self.check_refusal("expected RESULTS, or --paper", folder, "--paper", status=2)
+        self.check_refusal("'-1' is not accepted; expected 0 to 4294967295", folder, "--seed=-1", status=2)
+        self.check_refusal("'0' is not accepted; expected 1 to 1000000", folder, "--repetitions", "0", status=2)
 
 
 class Plans(unittest.TestCase):

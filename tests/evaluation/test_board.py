@@ -106,8 +106,8 @@ class Board(Folder):
         folder.mkdir()
         (folder / "agent.toml").write_text(ABOUT.format(agent="basic", preset="other"))
         lines = (OWN_GAMES / "results.csv").read_text().splitlines()
-        kept = [line for line in lines if line.startswith("unit,") or ",basic," in line]
-        (folder / "results.csv").write_text("\n".join([*kept, ""]))
+        selection = [line for line in lines if line.startswith("unit,") or ",basic," in line]
+        (folder / "results.csv").write_text("\n".join([*selection, ""]))
         shutil.copytree(OWN_GAMES / "logs", folder / "logs")
         done = self.board(folder)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -148,7 +148,7 @@ class BadInput(Folder):
         self.folder, self.rows = submission(self.root / "a")
         self.log = log_path(self.folder, self.rows[0])
 
-    def refused(self, sentence):
+    def check_refusal(self, sentence):
         """Checks that the folder is refused with `sentence`, and that nothing is written."""
         done = self.board(self.folder)
         self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
@@ -160,68 +160,68 @@ class BadInput(Folder):
         whole = self.log.read_bytes()
         for size in (0, 10, 24, len(whole) - 1):
             self.log.write_bytes(whole[:size])
-            self.refused("1.episode ")
+            self.check_refusal("1.episode ")
         for place in (0, 8, 13, 21, 30, len(whole) - 1):
             self.log.write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
-            self.refused("1.episode ")
+            self.check_refusal("1.episode ")
         self.log.unlink()
-        self.refused("1.episode cannot be read: No such file or directory; expected an episode log")
+        self.check_refusal("1.episode cannot be read: No such file or directory; expected an episode log")
 
     def test_a_log_of_a_gigabyte_is_not_read(self):
         with self.log.open("r+b") as file:
             file.truncate(2**30)
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        self.refused("1.episode has 1073741824 bytes; expected an episode log of at most 2097152")
+        self.check_refusal("1.episode has 1073741824 bytes; expected an episode log of at most 2097152")
         self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 100_000)  # KiB
 
     def test_contents_that_grow_without_end(self):
         self.log.write_bytes(seal(bytes(2**25), size=1000))
-        self.refused("1.episode is damaged: its contents do not have 1000 bytes")
+        self.check_refusal("1.episode is damaged: its contents do not have 1000 bytes")
         self.log.write_bytes(seal(bytes(2**25)))
-        self.refused("1.episode has contents of 33554432 bytes; expected at most 2097152")
+        self.check_refusal("1.episode has contents of 33554432 bytes; expected at most 2097152")
 
     def test_a_log_of_another_image_or_score_or_seed(self):
         for column, value in (("image_md5", "aa"), ("score", "2"), ("environment_seed", "8"), ("state_hash", "0" * 16)):
             self.log.write_bytes(log({**self.rows[0], column: value}))
-            self.refused(f"line 2: {column} is '{self.rows[0][column]}'; its log has '{value}'")
+            self.check_refusal(f"line 2: {column} is '{self.rows[0][column]}'; its log has '{value}'")
 
     def test_a_score_that_is_raised_by_one_or_an_action_that_is_changed(self):
         write_rows(self.folder, [{**self.rows[0], "score": "2"}, *self.rows[1:]])
-        self.refused("line 2: score is '2'; its log has '1'")
+        self.check_refusal("line 2: score is '2'; its log has '1'")
         write_rows(self.folder, self.rows)
         self.log.write_bytes(log(self.rows[0], actions=bytes([3] * 299 + [4])))
-        self.refused("line 2: log_digest is ")
+        self.check_refusal("line 2: log_digest is ")
         self.log.write_bytes(log(self.rows[0], actions=bytes([18] * 300)))
-        self.refused("says decisions=300, which does not fit its actions; expected actions from 0 to 17")
+        self.check_refusal("says decisions=300, which does not fit its actions; expected actions from 0 to 17")
 
     def test_other_settings_than_those_of_the_preset(self):
         settings = "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000"
         self.log.write_bytes(log(self.rows[0], settings))
         self.rows[0]["log_digest"] = hashlib.sha256(self.log.read_bytes()).hexdigest()
         write_rows(self.folder, self.rows)
-        self.refused("line 2: the settings of its log are those of machado2018; expected paper2013")
+        self.check_refusal("line 2: the settings of its log are those of machado2018; expected paper2013")
 
     def test_names_that_leave_the_folder(self):
         for column in ("unit", "episode"):
             for name in ("../../b", "/etc/passwd", "..", "", "a b"):
                 number = "3" if column == "unit" else name
                 write_rows(self.folder, [{**self.rows[0], "episode": number, column: name}])
-                self.refused("")
+                self.check_refusal("")
 
     def test_links_are_not_followed(self):
         self.log.rename(self.root / "elsewhere")
         self.log.symlink_to(self.root / "elsewhere")
-        self.refused("1.episode is a link; expected a file")
+        self.check_refusal("1.episode is a link; expected a file")
         self.log.unlink()
         (self.root / "elsewhere").rename(self.log)
         self.log.parent.rename(self.root / "unit")
         self.log.parent.symlink_to(self.root / "unit")
-        self.refused("is a link; expected a folder")
+        self.check_refusal("is a link; expected a folder")
 
     def test_seeds_of_a_phrase(self):
         path = self.folder / "agent.toml"
         path.write_text(path.read_text() + 'phrase = "a phrase"\n')
-        self.refused("line 2: environment_seed is '7'; the phrase gives '")
+        self.check_refusal("line 2: environment_seed is '7'; the phrase gives '")
         self.assertEqual(seed_of_phrase("a phrase", {"game": "beamfall", "trial": "1", "episode": "2"}), 221384134)
 
     def test_agent_toml(self):
@@ -241,11 +241,11 @@ class BadInput(Folder):
             ("#" * 70000, "agent.toml has 70000 bytes; expected a TOML file of at most 65536"),
         ):
             path.write_text(text)
-            self.refused(sentence)
+            self.check_refusal(sentence)
 
     def test_an_agent_that_agent_toml_does_not_name(self):
         (self.folder / "agent.toml").write_text(ABOUT.format(agent="other", preset="paper2013"))
-        self.refused("results.csv has the agent 'mine'; expected 'other', as agent.toml has")
+        self.check_refusal("results.csv has the agent 'mine'; expected 'other', as agent.toml has")
 
     def test_usage(self):
         for arguments, sentence in (

@@ -100,10 +100,10 @@ class Files(Folder):
             self.assertIn(sentence, str(raised.exception))
 
     def test_a_file_of_a_gigabyte_is_not_read(self):
-        for name, most in (("pong.json", 2**28), ("a.csv", 2**29)):
+        for name, limit in (("pong.json", 2**28), ("a.csv", 2**29)):
             with (self.root / name).open("wb") as file:
                 file.truncate(2**30)
-            with self.assertRaisesRegex(BadInput, f"has 1073741824 bytes; expected a .* of at most {most}"):
+            with self.assertRaisesRegex(BadInput, f"has 1073741824 bytes; expected a .* of at most {limit}"):
                 load(self.root / name)
 
 

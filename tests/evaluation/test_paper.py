@@ -46,10 +46,8 @@ class Metrics(unittest.TestCase):
         self.assertEqual((len(above), equal), (39, ["skiing"]))
 
     def test_planners_above_both(self):
-        printed = published("paper2013/planners")
-        above, equal, _ = paired.group_against(
-            printed[["full_tree", "uct"]], printed[["best_learner", "best_baseline"]]
-        )
+        table = published("paper2013/planners")
+        above, equal, _ = paired.group_against(table[["full_tree", "uct"]], table[["best_learner", "best_baseline"]])
         self.assertEqual((len(above), equal), (48, ["skiing"]))
 
     def test_inter_algorithm_scores(self):
@@ -70,12 +68,12 @@ class Metrics(unittest.TestCase):
         )
 
     def test_printed_paired_tests_have_room_in_the_counts_of_means(self):
-        counted = {(pair.first, pair.second): pair for pair in paired.pairs(self.scores, self.learning)}
-        basic_bass, disco_ram = counted["basic", "bass"], counted["disco", "ram"]
+        pairs = {(pair.first, pair.second): pair for pair in paired.pairs(self.scores, self.learning)}
+        basic_bass, disco_ram = pairs["basic", "bass"], pairs["disco", "ram"]
         self.assertEqual((len(basic_bass.higher), len(basic_bass.lower)), (20, 35))
         self.assertEqual((len(disco_ram.lower), len(disco_ram.higher)), (45, 8))
         for row in published("paper2013/paired").reset_index().itertuples():
-            pair = counted[row.first, row.second]
+            pair = pairs[row.first, row.second]
             tied = len(pair.games) - len(pair.higher) - len(pair.lower)
             self.assertLessEqual(row.better, len(pair.higher) + tied)
             self.assertLessEqual(row.worse, len(pair.lower) + tied)
@@ -128,12 +126,12 @@ class Data(unittest.TestCase):
         text = TEXT.read_text()
         titles = list(PAPER["title"])
         for name, table in (("learners", "allRLResults"), ("planners", "allSearchResults")):
-            printed = printed_table(text, table)
+            table_text = printed_table(text, table)
             with open(DATA / f"paper2013/{name}.csv", newline="") as file:
                 ours = list(csv.reader(file))[1:]
-            self.assertEqual([title.replace("Ms. Pacman", "Ms. Pac-Man") for title, _ in printed], titles)
+            self.assertEqual([title.replace("Ms. Pacman", "Ms. Pac-Man") for title, _ in table_text], titles)
             self.assertEqual([row[0] for row in ours], list(PAPER.index))
-            self.assertEqual([row[1:] for row in ours], [cells for _, cells in printed])
+            self.assertEqual([row[1:] for row in ours], [cells for _, cells in table_text])
         beginner = {title: float(cells[-1]) for title, cells in printed_table(text, "selectedRLResults")}
         self.assertEqual(
             beginner, {PAPER["title"][game]: score for game, score in published("paper2013/human")["human"].items()}

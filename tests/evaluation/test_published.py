@@ -88,12 +88,12 @@ class Published(unittest.TestCase):
         self.assertNotIn(("asterix", "mine"), found)
 
     def test_other_settings_are_left_out_unless_they_may_be_mixed(self):
-        for changed, agent, names in (
+        for edit, agent, names in (
             ({"simulations": 10}, "uct", "budget"),
             ({"training": 600}, "basic", "training"),
             ({"sticky": 0.25}, "const", "preset"),
         ):
-            folder = self.results(**changed)
+            folder = self.results(**edit)
             found = tables(folder)
             self.assertNotIn(("asterix", agent), self.rows(found.get("beside-published.csv", "game,agent")))
             sentence = f"{agent} is not beside the published scores: {names} differ or are unknown"

@@ -126,7 +126,8 @@ class Reports(unittest.TestCase):
 
     def test_two_folders_are_evaluated_together(self):
         halves = [
-            {key: value for key, value in made_up().items() if (key[0] == "bass") == wanted} for wanted in (True, False)
+            {key: value for key, value in made_up().items() if (key[0] == "bass") == is_bass}
+            for is_bass in (True, False)
         ]
         scores = tables(*(write(self.root / f"half{number}", results_of(half)) for number, half in enumerate(halves)))[
             "learning-scores.csv"

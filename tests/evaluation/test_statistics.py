@@ -42,8 +42,11 @@ class Scores(unittest.TestCase):
         self.assertEqual(scores.trial_scores("basic", "asterix").tolist(), [2, 10])
 
     def test_a_trial_that_diverged_is_in_no_mean_and_is_named(self):
-        lost = [("asterix", "m", "basic", 1, 0, float("nan"), "diverged"), ("boxing", "m", "ram", 0, 0, 7, "diverged")]
-        scores = scores_of(results_of({("basic", "asterix"): [[4]], ("basic", "boxing"): [[5]]}, lost))
+        missing = [
+            ("asterix", "m", "basic", 1, 0, float("nan"), "diverged"),
+            ("boxing", "m", "ram", 0, 0, 7, "diverged"),
+        ]
+        scores = scores_of(results_of({("basic", "asterix"): [[4]], ("basic", "boxing"): [[5]]}, missing))
         self.assertEqual(scores.means["basic"].to_list(), [4, 5])
         self.assertNotIn("ram", scores.means)
         self.assertEqual(
@@ -55,7 +58,7 @@ class Scores(unittest.TestCase):
         )
 
     def test_const_and_perturb_are_the_best_of_their_policies(self):
-        given = {
+        results = {
             ("random", "boxing"): [[3]],
             ("const_0", "boxing"): [[4]],
             ("const_17", "boxing"): [[9]],
@@ -63,7 +66,7 @@ class Scores(unittest.TestCase):
             ("perturb_3", "boxing"): [[-5]],
             ("basic", "boxing"): [[0]],
         }
-        scores = scores_of(results_of(given))
+        scores = scores_of(results_of(results))
         self.assertEqual(scores.views.loc["boxing"].to_dict(), {"random": 3, "const": 9, "perturb": 5})
         self.assertEqual(list(scores.means), ["basic"])
 
@@ -72,8 +75,8 @@ class Scores(unittest.TestCase):
             results_of({(agent, "boxing"): [[1]] for agent in ("uct", "constant", "basic", "random", "const-3")})
         )
         self.assertEqual([group.agents for group in both.groups], [("basic", "constant"), ("uct",)])
-        alone = scores_of(results_of({(agent, "boxing"): [[1]] for agent in ("random", "const_upfire")}))
-        self.assertEqual([group.agents for group in alone.groups], [("random", "const")])
+        baselines = scores_of(results_of({(agent, "boxing"): [[1]] for agent in ("random", "const_upfire")}))
+        self.assertEqual([group.agents for group in baselines.groups], [("random", "const")])
 
     def test_games_are_in_the_papers_order(self):
         scores = scores_of(results_of({("basic", game): [[1]] for game in ("beamfall", "alien", "freeway")}))
@@ -82,12 +85,14 @@ class Scores(unittest.TestCase):
 
 class Normalisation(unittest.TestCase):
     def setUp(self):
-        given = {("random", "boxing"): [[-2]], ("random", "pong"): [[0]], ("random", "freeway"): [[5]]}
-        given |= {(f"const_{action}", game): [[action]] for action in range(18) for game in ("boxing", "freeway")}
-        given |= {(f"perturb_{action}", game): [[2 * action]] for action in range(18) for game in ("boxing", "freeway")}
-        given |= {("basic", game): [[score]] for game, score in (("boxing", 16), ("pong", 3), ("freeway", 1))}
-        given |= {("bass", game): [[score]] for game, score in (("boxing", 7), ("pong", 3), ("freeway", 2))}
-        self.scores = scores_of(results_of(given))
+        scores = {("random", "boxing"): [[-2]], ("random", "pong"): [[0]], ("random", "freeway"): [[5]]}
+        scores |= {(f"const_{action}", game): [[action]] for action in range(18) for game in ("boxing", "freeway")}
+        scores |= {
+            (f"perturb_{action}", game): [[2 * action]] for action in range(18) for game in ("boxing", "freeway")
+        }
+        scores |= {("basic", game): [[score]] for game, score in (("boxing", 16), ("pong", 3), ("freeway", 1))}
+        scores |= {("bass", game): [[score]] for game, score in (("boxing", 7), ("pong", 3), ("freeway", 2))}
+        self.scores = scores_of(results_of(scores))
         self.ranges = {each.name: each for each in all_ranges(self.scores, Group("learning", ("basic", "bass")))}
 
     def of_basic(self, name):
@@ -154,8 +159,8 @@ class Paired(unittest.TestCase):
         self.assertEqual(self.verdicts([1, 1], [2, 2, 2]), ["constant"])
 
     def test_pairs_use_the_games_that_both_have(self):
-        given = {("basic", "pong"): [[1], [2]], ("bass", "pong"): [[1], [3]], ("bass", "boxing"): [[9], [8]]}
-        (pair,) = paired.pairs(scores_of(results_of(given)), Group("learning", ("basic", "bass")))
+        scores = {("basic", "pong"): [[1], [2]], ("bass", "pong"): [[1], [3]], ("bass", "boxing"): [[9], [8]]}
+        (pair,) = paired.pairs(scores_of(results_of(scores)), Group("learning", ("basic", "bass")))
         self.assertEqual((pair.games, pair.lacking), (["pong"], ["boxing"]))
 
     def test_the_table_says_where_nothing_was_tested(self):
@@ -224,8 +229,8 @@ class Bootstrap(unittest.TestCase):
     def test_an_interval_contains_its_value_and_needs_two_trials(self):
         estimate = FEW.estimate(bootstrap.aggregates, self.first)
         self.assertTrue((estimate.low < estimate.value).all() and (estimate.value < estimate.high).all())
-        alone = FEW.estimate(bootstrap.aggregates, self.first[:1])
-        self.assertTrue(np.isnan(alone.low).all() and np.isnan(alone.high).all() and not np.isnan(alone.value).any())
+        single = FEW.estimate(bootstrap.aggregates, self.first[:1])
+        self.assertTrue(np.isnan(single.low).all() and np.isnan(single.high).all() and not np.isnan(single.value).any())
 
     def test_low_and_high_are_the_bounds_of_the_interval(self):
         # One game, whose trials are 0 or 1 alike: the mean of n draws is binomial. 95 % of 16 draws are 4 to 12.
@@ -276,11 +281,11 @@ class Bootstrap(unittest.TestCase):
         self.assertNotEqual(one.low.tolist(), other.low.tolist())
         constant = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(5), np.full(3, 2.0)]))
         self.assertEqual(constant.low.tolist(), constant.high.tolist())
-        alone = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(1), np.array([1.0, 2, 3])]))
+        single = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(1), np.array([1.0, 2, 3])]))
         self.assertAlmostEqual(
-            alone.value[2], (5 / 6 * 1 + 1 / 6 * 2)
+            single.value[2], (5 / 6 * 1 + 1 / 6 * 2)
         )  # of the weights 4/3, 1/3 and 1/3, the middle half
-        self.assertTrue(np.isnan(alone.low).all())
+        self.assertTrue(np.isnan(single.low).all())
 
 
 class AgainstRandom(unittest.TestCase):
@@ -352,10 +357,10 @@ class Curves(unittest.TestCase):
             for trial, scores in enumerate(([1, 3], [5, 7]))
             for episode, score in enumerate(scores)
         ]
-        made = curves.learning_curves(curves_of(episodes))
-        self.assertEqual(made["frames"].to_list(), [50, 100])
-        self.assertEqual(made["score"].to_list(), [3, 5])
-        self.assertEqual(made["standard error"].to_list(), [2, 2])
+        rows = curves.learning_curves(curves_of(episodes))
+        self.assertEqual(rows["frames"].to_list(), [50, 100])
+        self.assertEqual(rows["score"].to_list(), [3, 5])
+        self.assertEqual(rows["standard error"].to_list(), [2, 2])
 
     def test_checkpoints_take_the_last_100_episodes_that_ended_before(self):
         # Episodes of 10,000 frames: the 1,000th ends at 10 million frames. The score is the number of the episode.
@@ -369,9 +374,9 @@ class Curves(unittest.TestCase):
         self.assertTrue(np.isnan(row["50 M"]))
 
     def test_a_checkpoint_is_reached_if_the_last_whole_episode_ends_just_before(self):
-        for frames, reached in ((9_990, 1), (9_980, 0)):  # of 1,000 episodes: 10,000 and 20,000 short of 10 million
+        for frames, count in ((9_990, 1), (9_980, 0)):  # of 1,000 episodes: 10,000 and 20,000 short of 10 million
             episodes = [("pong", "basic", 0, number, 1, frames) for number in range(1000)]
-            self.assertEqual(machado2018.checkpoints(curves_of(episodes)).iloc[0]["10 M trials"], reached)
+            self.assertEqual(machado2018.checkpoints(curves_of(episodes)).iloc[0]["10 M trials"], count)
 
 
 if __name__ == "__main__":

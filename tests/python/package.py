@@ -27,8 +27,8 @@ def require(*modules):
     wrong = missing or os.environ.get("MALLOC_PERTURB_") != ZEROS
     if wrong and "RACEBEAM_PACKAGE_PYTHON" not in os.environ and (not missing or python.exists()):
         os.environ.update(RACEBEAM_PACKAGE_PYTHON="1", MALLOC_PERTURB_=ZEROS)
-        chosen = str(python) if missing else sys.executable
-        os.execv(chosen, [chosen, "-B", *sys.argv])
+        interpreter = str(python) if missing else sys.executable
+        os.execv(interpreter, [interpreter, "-B", *sys.argv])
     if missing:
         print(f"SKIPPED: not installed: {' and '.join(missing)} (scripts/wheel --venv)")
         sys.exit(SKIPPED)

@@ -42,9 +42,9 @@ SETTINGS = (
 
 def parts(env, observation):
     ale = env.ale
-    named = observation if isinstance(observation, dict) else {"observation": observation}
+    parts = observation if isinstance(observation, dict) else {"observation": observation}
     return {
-        **named,
+        **parts,
         "ram": ale.getRAM(),
         "grey": ale.getScreenGrayscale(),
         "rgb": ale.getScreenRGB(),
@@ -78,17 +78,17 @@ def play(game, seed, settings):
     compare("meanings", ours.get_action_meanings(), theirs.get_action_meanings())
     ours.action_space.seed(seed)
     where = "reset with a seed"
-    seen = [env.reset(seed=seed) for env in (ours, theirs)]
+    results = [env.reset(seed=seed) for env in (ours, theirs)]
     for step in range(options.steps + 1):
-        compare(f"{where}: seen", parts(ours, seen[0][0]), parts(theirs, seen[1][0]))
-        compare(f"{where}: told", seen[0][1:], seen[1][1:])
-        if isinstance(seen[0][-2], bool) and (seen[0][2] or seen[0][3]):
+        compare(f"{where}: seen", parts(ours, results[0][0]), parts(theirs, results[1][0]))
+        compare(f"{where}: told", results[0][1:], results[1][1:])
+        if isinstance(results[0][-2], bool) and (results[0][2] or results[0][3]):
             where = f"reset at step {step}"
-            seen = [env.reset() for env in (ours, theirs)]
+            results = [env.reset() for env in (ours, theirs)]
             continue
         action = ours.action_space.sample()
         where = f"step {step}"
-        seen = [env.step(action) for env in (ours, theirs)]
+        results = [env.step(action) for env in (ours, theirs)]
 
 
 def settings_of(number, run):
@@ -96,12 +96,12 @@ def settings_of(number, run):
 
 
 games = options.games.split(",") if options.games else [game for game in package.roms() if game not in WITHOUT_SCORE]
-played = range(len(games)) if options.games else range(options.first % options.parts, len(games), options.parts)
+indices = range(len(games)) if options.games else range(options.first % options.parts, len(games), options.parts)
 if not games:
     print("SKIPPED: no cartridge images were found")
     sys.exit(package.SKIPPED)
 failures = runs = 0
-for number in played:
+for number in indices:
     game = games[number]
     for run in range(options.first, options.first + options.runs):
         settings = settings_of(number, run)
@@ -113,5 +113,5 @@ for number in played:
             failures += 1
             print(f"FAILED: {game}, seed {1000 * run + number}, {settings}: {difference}")
         runs += 1
-print(f"{len(played)} of {len(games)} games, {runs} runs of {options.steps} steps: {failures} differ")
+print(f"{len(indices)} of {len(games)} games, {runs} runs of {options.steps} steps: {failures} differ")
 sys.exit(failures > 0)

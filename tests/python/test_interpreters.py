@@ -37,7 +37,7 @@ REFUSED = (
 
 
 class Interpreters(unittest.TestCase):
-    def printed(self, program):
+    def output_of(self, program):
         done = subprocess.run(
             [sys.executable, "-W", "error", "-c", SECOND + program], capture_output=True, text=True, timeout=120
         )
@@ -46,7 +46,7 @@ class Interpreters(unittest.TestCase):
 
     def test_a_sub_interpreter_is_refused_and_the_main_one_goes_on(self):
         self.assertEqual(
-            self.printed(f"""
+            self.output_of(f"""
 import racebeam
 in_second({IMPORT!r})
 in_second({IMPORT!r})
@@ -64,7 +64,7 @@ except RuntimeError as error:
 
     def test_the_main_interpreter_has_it_after_a_sub_interpreter_was_refused(self):
         self.assertEqual(
-            self.printed(f"in_second({IMPORT!r})\nin_second({IMPORT!r})\nexec({IMPORT!r})"),
+            self.output_of(f"in_second({IMPORT!r})\nin_second({IMPORT!r})\nexec({IMPORT!r})"),
             [REFUSED, REFUSED, "ALEInterface"],
         )
 

@@ -49,10 +49,10 @@ class Examples(unittest.TestCase):
 
     @needs("matplotlib")
     def test_sarsa(self):
-        said = self.run_example(
+        output = self.run_example(
             "sarsa.py", racebeam.program.path(), "--training", 3, "--frames", 3000, "--curve", "CURVE"
         )
-        self.assertEqual(len(re.findall(r"training episode \d+: score \d+", said)), 3)
+        self.assertEqual(len(re.findall(r"training episode \d+: score \d+", output)), 3)
 
     def verify(self, log):
         return subprocess.run([racebeam.program.path(), "verify", log], capture_output=True, text=True)
@@ -60,12 +60,12 @@ class Examples(unittest.TestCase):
     def test_steps_of_sarsa_end_the_training_and_the_log_of_the_last_episode_is_confirmed(self):
         with tempfile.TemporaryDirectory() as folder:
             log = pathlib.Path(folder, "last.episode")
-            said = self.run_example(
+            output = self.run_example(
                 "sarsa.py", racebeam.program.path(), "--frames", 3000, "--steps", 700, "--evaluation", 1, "--log", log
             )
-            steps = [int(count) for count in re.findall(r"training episode .* in (\d+) decisions", said)]
-            self.assertTrue(sum(steps[:-1]) < 700 <= sum(steps), said)
-            score = re.search(r"evaluation episode \d+: score (\d+)", said)[1]
+            steps = [int(count) for count in re.findall(r"training episode .* in (\d+) decisions", output)]
+            self.assertTrue(sum(steps[:-1]) < 700 <= sum(steps), output)
+            score = re.search(r"evaluation episode \d+: score (\d+)", output)[1]
             self.assertRegex(self.verify(log).stdout, rf"^last.episode \(beamfall, basic, score {score}\): confirmed; ")
 
     def test_what_sarsa_learned_is_kept_and_played_and_filmed(self):
@@ -79,26 +79,26 @@ class Examples(unittest.TestCase):
             self.assertEqual(*again)
             self.assertRegex(again[0], r"^evaluation episode 1: score \d+ in \d+ decisions\n$")
             self.assertRegex(first, r"evaluation episode 3: score \d+")
-            said = subprocess.run(
+            done = subprocess.run(
                 [sys.executable, CLIENT / "sarsa.py", racebeam.program.path(), "--training", "1", "--film", "film"],
                 capture_output=True,
                 text=True,
                 cwd=folder,
             )
-            self.assertRegex(said.stderr, r"^plan: 1 episodes with learning and 0 episodes without, of 18,000 frames")
+            self.assertRegex(done.stderr, r"^plan: 1 episodes with learning and 0 episodes without, of 18,000 frames")
             self.assertEqual(pathlib.Path(folder, "film.gif").read_bytes()[:6], b"GIF89a")
             pathlib.Path(folder, "wrong").write_bytes(b"x")
-            said = subprocess.run(
+            done = subprocess.run(
                 [sys.executable, CLIENT / "sarsa.py", racebeam.program.path(), "--play", pathlib.Path(folder, "wrong")],
                 capture_output=True,
                 text=True,
             )
-            self.assertRegex(said.stderr, r"sarsa.py: --play is '.*wrong': .*; it takes a file of --keep\n$")
+            self.assertRegex(done.stderr, r"sarsa.py: --play is '.*wrong': .*; it takes a file of --keep\n$")
 
     @needs("jax", "optax", "matplotlib")
     def test_ppo_on_ram(self):
-        said = self.run_example("examples/ppo.py", "updraft", "--steps", 8192, "--curve", "CURVE")
-        self.assertRegex(said, r"^plan: 2 updates of 32 x 128 steps, 8,192 steps\n(.*\n)*update 2: [1-9]\d* games")
+        output = self.run_example("examples/ppo.py", "updraft", "--steps", 8192, "--curve", "CURVE")
+        self.assertRegex(output, r"^plan: 2 updates of 32 x 128 steps, 8,192 steps\n(.*\n)*update 2: [1-9]\d* games")
 
     @needs("jax", "optax", "PIL")
     def test_a_policy_is_kept_and_played_and_filmed(self):
@@ -108,9 +108,9 @@ class Examples(unittest.TestCase):
             policy, film = pathlib.Path(folder, "policy"), pathlib.Path(folder, "film.gif")
             one = ("updraft", "--envs", 2, "--horizon", 8, "--steps", 16, "--games", 3)
             self.run_example("examples/ppo.py", *one, "--keep", policy)
-            said = [self.run_example("examples/ppo.py", *one, "--play", policy, "--film", film) for _ in range(2)]
-            self.assertRegex(said[0], r"^3 games: mean score \d+\.\d, from \d+ to \d+\n$")
-            self.assertEqual(*said)
+            outputs = [self.run_example("examples/ppo.py", *one, "--play", policy, "--film", film) for _ in range(2)]
+            self.assertRegex(outputs[0], r"^3 games: mean score \d+\.\d, from \d+ to \d+\n$")
+            self.assertEqual(*outputs)
             with Image.open(film) as frames:
                 self.assertEqual(frames.size, (320, 210))
                 self.assertGreater(frames.n_frames, 10)
@@ -134,8 +134,8 @@ class Examples(unittest.TestCase):
         cells = [("".join(cell["source"]), cell) for cell in notebook["cells"] if cell["cell_type"] == "code"]
         self.assertTrue(all(not cell["outputs"] and cell["execution_count"] is None for _, cell in cells))
         code = "\n".join(source for source, _ in cells)
-        code, changed = re.subn(r"(?m)^GENERATIONS = \d+", "GENERATIONS = 2", code)
-        self.assertEqual(changed, 1)
+        code, count = re.subn(r"(?m)^GENERATIONS = \d+", "GENERATIONS = 2", code)
+        self.assertEqual(count, 1)
         done = subprocess.run(
             [sys.executable, "-c", code], capture_output=True, text=True, env={**os.environ, "MPLBACKEND": "Agg"}
         )
@@ -144,16 +144,16 @@ class Examples(unittest.TestCase):
 
     @needs("jax", "optax")
     def test_ppo_on_pixels(self):
-        said = self.run_example(
+        output = self.run_example(
             "examples/ppo.py", "--observe", "pixels", "--steps", 32, "--horizon", 8, "--envs", 4, "--epochs", 1
         )
-        self.assertRegex(said, r"\d+ steps a second")
+        self.assertRegex(output, r"\d+ steps a second")
         self.refuse("ppo.py")
 
     @needs("stable_baselines3")
     def test_stable_baselines(self):
-        said = self.run_example("examples/stable_baselines.py", "--steps", 64, "--steps-of-update", 16, "--envs", 4)
-        self.assertRegex(said, r"total_timesteps\s*\|\s*64")
+        output = self.run_example("examples/stable_baselines.py", "--steps", 64, "--steps-of-update", 16, "--envs", 4)
+        self.assertRegex(output, r"total_timesteps\s*\|\s*64")
         self.refuse("stable_baselines.py")
 
 

@@ -73,8 +73,8 @@ class Import(unittest.TestCase):
         described = importlib.metadata.metadata("racebeam")
         version = re.search(r"project\(racebeam VERSION ([0-9.]+)", (package.SOURCE / "CMakeLists.txt").read_text())[1]
         self.assertEqual((described["Version"], racebeam.__version__), (version, version))
-        needed = [name for name in importlib.metadata.requires("racebeam") if "extra" not in name]
-        self.assertEqual(needed, ["numpy>=1.24"])
+        requirements = [name for name in importlib.metadata.requires("racebeam") if "extra" not in name]
+        self.assertEqual(requirements, ["numpy>=1.24"])
 
     def test_a_typo_is_an_AttributeError(self):
         with self.assertRaisesRegex(AttributeError, "has no attribute 'Atari'"):
@@ -92,20 +92,20 @@ class Files(unittest.TestCase):
         program = pathlib.Path(sys.executable).parent / "racebeam"
         for file in (racebeam._core.__file__, program):
             linked = subprocess.run(["readelf", "-d", file], capture_output=True, text=True, check=True).stdout
-            needed = set(re.findall(r"NEEDED.*\[(.*?)\]", linked))
+            libraries = set(re.findall(r"NEEDED.*\[(.*?)\]", linked))
             self.assertLessEqual(
-                needed,
+                libraries,
                 {"libc.so.6", "libm.so.6", "libz.so.1", "libgcc_s.so.1", "ld-linux-x86-64.so.2", "libpthread.so.0"},
             )
 
     def test_it_runs_on_the_systems_that_the_document_names(self):
-        told = re.search(r"`manylinux_2_(\d+)_x86_64`", (package.SOURCE / "docs/python/reference.md").read_text())[1]
+        claim = re.search(r"`manylinux_2_(\d+)_x86_64`", (package.SOURCE / "docs/python/reference.md").read_text())[1]
         program = pathlib.Path(sys.executable).parent / "racebeam"
         for file in (racebeam._core.__file__, program):
             versions = subprocess.run(
                 ["readelf", "--version-info", file], capture_output=True, text=True, check=True
             ).stdout
-            self.assertLessEqual(max(map(int, re.findall(r"GLIBC_2\.(\d+)", versions))), int(told), file)
+            self.assertLessEqual(max(map(int, re.findall(r"GLIBC_2\.(\d+)", versions))), int(claim), file)
 
     def test_the_types_are_checked(self):
         self.assertTrue((FOLDER / "py.typed").exists() and (FOLDER / "_core.pyi").exists())
@@ -144,9 +144,9 @@ class Files(unittest.TestCase):
             cwd=FOLDER.parent.parent,
         )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        told = re.findall('Revealed type is "(.*)"', done.stdout)
-        self.assertRegex(told[0], r"tuple\[.*ndarray\[.*signedinteger\[numpy._typing._nbit_base._32Bit\].*bool")
-        self.assertRegex("".join(told[1:]), "GymnasiumEnvPool.*TimeStep")
+        types = re.findall('Revealed type is "(.*)"', done.stdout)
+        self.assertRegex(types[0], r"tuple\[.*ndarray\[.*signedinteger\[numpy._typing._nbit_base._32Bit\].*bool")
+        self.assertRegex("".join(types[1:]), "GymnasiumEnvPool.*TimeStep")
 
 
 class Structure(unittest.TestCase):
@@ -175,8 +175,8 @@ class Structure(unittest.TestCase):
 class Program(unittest.TestCase):
     def test_it_is_beside_python(self):
         program = pathlib.Path(sys.executable).parent / "racebeam"
-        said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
-        self.assertIn(racebeam.__version__, said)
+        output = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+        self.assertIn(racebeam.__version__, output)
 
     def test_launch_finds_it(self):
         with racebeam.launch() as session:

@@ -34,23 +34,23 @@ class Interface(unittest.TestCase):
         frames_before = np.zeros(2)
         for step in range(120):
             seen, rewards, done, infos = self.envs.step(np.full(2, step % 6))
-            expected, theirs, terminated, truncated, told = other.step(np.full(2, step % 6))
+            expected, theirs, terminated, truncated, other_infos = other.step(np.full(2, step % 6))
             self.assertTrue(np.array_equal(seen, expected) and np.array_equal(rewards, theirs))
             self.assertEqual((rewards.dtype, done.tolist()), (np.float32, (terminated | truncated).tolist()))
-            returns += told["raw_reward"]
+            returns += other_infos["raw_reward"]
             for env, info in enumerate(infos):
                 self.assertEqual("terminal_observation" in info, done[env])
-                frames = told["episode_frame_number"][env]
+                frames = other_infos["episode_frame_number"][env]
                 self.assertEqual("episode" in info, frames < frames_before[env])
-                if told["game_over"][env]:
+                if other_infos["game_over"][env]:
                     self.assertIn("episode", info)
                 frames_before[env] = frames
                 ends += done[env]
                 if done[env]:
-                    self.assertTrue(np.array_equal(info["terminal_observation"], told["final_obs"][env]))
+                    self.assertTrue(np.array_equal(info["terminal_observation"], other_infos["final_obs"][env]))
                     self.assertIs(info["TimeLimit.truncated"], False)
                 if "episode" in info:
-                    frames = told["final_info"]["episode_frame_number"][env]
+                    frames = other_infos["final_info"]["episode_frame_number"][env]
                     self.assertEqual((info["episode"]["r"], info["episode"]["l"]), (returns[env], frames))
                     returns[env] = 0
                     episodes += 1
@@ -75,23 +75,23 @@ class Interface(unittest.TestCase):
             wrapper_kwargs={"noop_max": 0, "clip_reward": False},
         )
         ours.seed(3)
-        seen, expected, ended = ours.reset()[:, -1:], theirs.reset(), 0
+        observations, expected, ends = ours.reset()[:, -1:], theirs.reset(), 0
         for step in range(800):
-            self.assertLess((seen != expected.transpose(0, 3, 1, 2)).mean(), 0.05)
+            self.assertLess((observations != expected.transpose(0, 3, 1, 2)).mean(), 0.05)
             action = np.array([ours.action_space.n * (step // 3 * 7 % 11) // 11])
-            seen, rewards, done, infos = ours.step(action)
-            expected, *told = theirs.step(action)
-            seen = seen[:, -1:]
+            observations, rewards, done, infos = ours.step(action)
+            expected, *rest = theirs.step(action)
+            observations = observations[:, -1:]
             self.assertEqual(
                 (rewards.tolist(), done.tolist(), infos[0]["lives"]),
-                (*(part.tolist() for part in told[:2]), told[2][0]["lives"]),
+                (*(part.tolist() for part in rest[:2]), rest[2][0]["lives"]),
             )
             parts = [
-                [info["episode"][key] for key in "rl"] if "episode" in info else None for info in (infos[0], told[2][0])
+                [info["episode"][key] for key in "rl"] if "episode" in info else None for info in (infos[0], rest[2][0])
             ]
             self.assertEqual(parts[0], parts[1])
-            ended += parts[0] is not None
-        self.assertGreater(ended, 0)
+            ends += parts[0] is not None
+        self.assertGreater(ends, 0)
 
     def test_the_infos_have_each_game_that_ends(self):
         for settings in (
@@ -100,13 +100,13 @@ class Interface(unittest.TestCase):
         ):
             envs = VecEnv("beamfall", 2, seed=1, **settings)
             envs.reset()
-            ended = 0
+            ends = 0
             for _ in range(60):
                 _, _, done, infos = envs.step(np.ones(2, int))
-                ended += done.sum()
+                ends += done.sum()
                 with self.subTest(**settings):
                     self.assertEqual(["episode" in info for info in infos], done.tolist())
-            self.assertGreater(ended, 20)
+            self.assertGreater(ends, 20)
 
     def test_settings_that_are_not_those_of_a_VecEnv_are_refused(self):
         for settings, sentence in (

@@ -109,7 +109,7 @@ def expressions(text):
     return [line for line in text.splitlines() if line and line[0] not in "# "]
 
 
-def written(text):
+def with_current_sentences(text):
     """The file with the errors of its expressions. Comments and empty lines stay."""
     with Places() as places:
         names = places.names()
@@ -121,7 +121,7 @@ def written(text):
 class Sentences(unittest.TestCase):
     def test_each_error_says_what_the_file_says(self):
         self.maxDiff = None
-        self.assertEqual(written(GOLDEN.read_text()), GOLDEN.read_text())
+        self.assertEqual(with_current_sentences(GOLDEN.read_text()), GOLDEN.read_text())
 
     def test_each_expression_raises_an_error_and_occurs_once(self):
         text = GOLDEN.read_text()
@@ -152,6 +152,6 @@ def longest_constant(sentence):
 
 if __name__ == "__main__":
     if "--write" in sys.argv:
-        GOLDEN.write_text(written(GOLDEN.read_text()))
+        GOLDEN.write_text(with_current_sentences(GOLDEN.read_text()))
         sys.exit()
     package.main()

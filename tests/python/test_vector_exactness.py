@@ -95,24 +95,24 @@ def play(game, seed, settings):
         theirs = Reference(game, options.envs, **settings)
     compare_spaces(ours, theirs)
     ours.action_space.seed(seed)
-    shown = ours.reset(seed=seed)
+    result = ours.reset(seed=seed)
     with awaiting_the_reference():
         expected = theirs.reset(seed=seed)
-    compare("reset: seen", shown[0], expected[0])
-    compare_infos("reset", shown[1], expected[1], ())
-    ended = 0
+    compare("reset: seen", result[0], expected[0])
+    compare_infos("reset", result[1], expected[1], ())
+    episodes = 0
     for step in range(options.steps):
         actions = ours.action_space.sample()
-        shown = ours.step(actions)
+        result = ours.step(actions)
         with awaiting_the_reference():
             expected = theirs.step(actions)
-        for name, one, other in zip(("seen", "rewards", "terminated", "truncated"), shown, expected):
+        for name, one, other in zip(("seen", "rewards", "terminated", "truncated"), result, expected):
             compare(f"step {step}: {name}", one, other)
         ends = np.flatnonzero(expected[2] | expected[3])
-        compare_infos(f"step {step}", shown[4], expected[4], ends)
-        ended += len(ends)
+        compare_infos(f"step {step}", result[4], expected[4], ends)
+        episodes += len(ends)
     ours.close()
-    return ended
+    return episodes
 
 
 awaits_the_reference = mmap.mmap(-1, 1)  # shared with the process of a run
@@ -132,34 +132,34 @@ def play_apart(game, seed, settings):
     child = os.fork()
     if child == 0:
         try:
-            told = str(play(game, seed, settings))
+            outcome = str(play(game, seed, settings))
         except BaseException as error:
-            told = f"{type(error).__name__}: {error}"
-        os.write(writer, told.encode())
+            outcome = f"{type(error).__name__}: {error}"
+        os.write(writer, outcome.encode())
         os._exit(0)  # the reference's threads may never end
     os.close(writer)
     killer = threading.Timer(options.patience, os.kill, (child, signal.SIGKILL))
     killer.start()
     with open(reader, encoding="utf-8") as pipe:
-        told = pipe.read()
+        outcome = pipe.read()
     killer.cancel()
     _, status = os.waitpid(child, 0)
     if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGKILL:
         raise TimeoutError
-    if not told:
+    if not outcome:
         raise Different(f"the process ended with the wait status {status}")
-    if not told.isdecimal():
-        raise Different(told)
-    return int(told)
+    if not outcome.isdecimal():
+        raise Different(outcome)
+    return int(outcome)
 
 
 games = options.games.split(",") if options.games else [game for game in package.roms() if game not in WITHOUT_SCORE]
-played = range(len(games)) if options.games else range(options.first % options.parts, len(games), options.parts)
+indices = range(len(games)) if options.games else range(options.first % options.parts, len(games), options.parts)
 if not games:
     print("SKIPPED: no cartridge images were found")
     sys.exit(package.SKIPPED)
 failures = runs = ended = never_back = 0
-for number in played:
+for number in indices:
     game = games[number]
     for run in range(options.first, options.first + options.runs):
         settings = SETTINGS[0 if options.defaults else (number + run) % len(SETTINGS)]
@@ -178,7 +178,7 @@ for number in played:
         runs += 1
 print(
     (
-        f"{len(played)} of {len(games)} games, {runs} runs of {options.steps} steps, {ended} episodes that ended: "
+        f"{len(indices)} of {len(games)} games, {runs} runs of {options.steps} steps, {ended} episodes that ended: "
         f"{failures} differ"
     )
     + (f"; in {never_back}, the reference did not come back" if never_back else "")

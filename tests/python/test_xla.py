@@ -52,25 +52,25 @@ class Compiled(unittest.TestCase):
                 reset, step = jax.jit(reset), jax.jit(step)
                 mask = np.array([True, False, True])
                 for arguments in ({}, {"seed": 2**31 - 5}, {"seed": np.array([4, -1, 9])}, {"reset_mask": mask}):
-                    handle, shown = reset(handle, **arguments)
+                    handle, result = reset(handle, **arguments)
                     options = {"reset_mask": arguments["reset_mask"]} if "reset_mask" in arguments else None
-                    self.check(shown, plain.reset(seed=arguments.get("seed"), options=options))
+                    self.check(result, plain.reset(seed=arguments.get("seed"), options=options))
                     for actions in ACTIONS[:12]:
-                        handle, shown = step(handle, actions)
-                        self.check(shown, plain.step(actions))
+                        handle, result = step(handle, actions)
+                        self.check(result, plain.step(actions))
 
     def test_scan(self):
         compiled, plain = both()
         handle, _, step = compiled.xla()
         handle, (observations, rewards, *ends, infos) = jax.lax.scan(step, handle, ACTIONS)
         for index, actions in enumerate(ACTIONS):
-            shown = (
+            results = (
                 observations[index],
                 rewards[index],
                 *(end[index] for end in ends),
                 {key: value[index] for key, value in infos.items()},
             )
-            self.check(shown, plain.step(actions))
+            self.check(results, plain.step(actions))
 
     def test_fori_loop_with_actions_from_observations(self):
         compiled, plain = both()
@@ -107,10 +107,10 @@ class Compiled(unittest.TestCase):
         seeds = np.array([3 * 10**9, 2**32 - 1, 7], np.uint32)
         for call in (reset, jax.jit(reset)):
             for _ in range(2):
-                handle, shown = call(handle, jnp.asarray(seeds))
-                self.check(shown, plain.reset(seed=(seeds & 0x7FFFFFFF).astype(np.int64)))
-                handle, shown = call(handle, jnp.uint32(2**32 - 1))  # counts on at 0
-                self.check(shown, plain.reset(seed=[2**31 - 1, 0, 1]))
+                handle, result = call(handle, jnp.asarray(seeds))
+                self.check(result, plain.reset(seed=(seeds & 0x7FFFFFFF).astype(np.int64)))
+                handle, result = call(handle, jnp.uint32(2**32 - 1))  # counts on at 0
+                self.check(result, plain.reset(seed=[2**31 - 1, 0, 1]))
 
     def test_continuous_actions(self):
         compiled, plain = both(continuous=True, continuous_action_threshold=0.3)
@@ -118,16 +118,16 @@ class Compiled(unittest.TestCase):
         plain.action_space.seed(1)
         for _ in range(10):
             actions = plain.action_space.sample()
-            handle, shown = step(handle, actions)
-            self.check(shown, plain.step(actions))
+            handle, result = step(handle, actions)
+            self.check(result, plain.step(actions))
 
     def test_two_handles_are_two_sets_of_environments(self):
         one, other = both()
         (first, _, step), (second, _, _) = one.xla(), other.xla()
         first, _ = step(first, ACTIONS[0])
-        _, shown = step(first, ACTIONS[1])
+        _, result = step(first, ACTIONS[1])
         second, _ = step(second, ACTIONS[0])
-        self.check(step(second, ACTIONS[1])[1], shown)
+        self.check(step(second, ACTIONS[1])[1], result)
 
     @unittest.skipUnless("breakout" in package.roms(), "no image of breakout was found")
     def test_ale_py_shows_the_same(self):
@@ -145,13 +145,13 @@ class Compiled(unittest.TestCase):
             (ours.is_xla_registered, handle.dtype, handle.shape), (theirs.is_xla_registered, other.dtype, other.shape)
         )
         for arguments in ({"seed": 3}, {"reset_mask": np.array([True, False, True])}, {"seed": np.array([1, 2, 3])}):
-            handle, shown = reset(handle, **arguments)
+            handle, result = reset(handle, **arguments)
             other, expected = other_reset(other, **arguments)
-            self.check(shown, expected)
+            self.check(result, expected)
             for actions in ACTIONS[:10]:
-                handle, shown = step(handle, actions)
+                handle, result = step(handle, actions)
                 other, expected = other_step(other, actions)
-                self.check(shown, expected)
+                self.check(result, expected)
 
 
 class Refused(unittest.TestCase):

@@ -128,11 +128,11 @@ class Tokens(Folder):
             late = connect_tcp(server.port())
             self.assertIn(b" admitted=1 ", ask(late, b"hello token=" + TOKEN.encode()))
             self.assertEqual(other.rest(), full + b"those without a token go first\n")
-            refused = connect_tcp(server.port())
-            self.assertEqual(refused.rest(), full + b"try again later\n")
+            connection = connect_tcp(server.port())
+            self.assertEqual(connection.rest(), full + b"try again later\n")
             for wire in (first, local, late):
                 self.assertTrue(ask(wire, b"stats").startswith(b"ok "))
-            for wire in (first, silent, other, local, late, refused):
+            for wire in (first, silent, other, local, late, connection):
                 wire.close()
 
     def test_who_has_no_token_keeps_no_server_alive(self):
@@ -300,9 +300,9 @@ class Tls(Folder):
     def test_a_conversation_is_encrypted_and_the_same(self):
         requests = b"load beamfall seed=1 sticky=0\nobserve screen:hex ram\nact FIRE*50\nlook\nquit\n"
         with self.serve() as server:
-            heard = self.converse(server, requests)
-        self.assertEqual(heard, run("serve", "--stdio", data=requests)[1])
-        self.assertEqual(len(heard.splitlines()), 5)
+            replies = self.converse(server, requests)
+        self.assertEqual(replies, run("serve", "--stdio", data=requests)[1])
+        self.assertEqual(len(replies.splitlines()), 5)
 
     def test_requests_are_answered_though_the_client_has_closed_its_end(self):
         requests = b"load beamfall seed=1\nlook screen:hex\nact FIRE*9\n"
@@ -315,15 +315,15 @@ class Tls(Folder):
                             tls.unwrap()
                     plain.sendall(outside.read())
                     plain.shutdown(socket.SHUT_WR)
-                    heard = b""
+                    replies = b""
                     while piece := plain.recv(65536):
                         inside.write(piece)
                         try:
                             while more := tls.read(65536):
-                                heard += more
+                                replies += more
                         except (ssl.SSLWantReadError, ssl.SSLZeroReturnError):
                             pass
-                    self.assertEqual(heard, run("serve", "--stdio", data=requests)[1])
+                    self.assertEqual(replies, run("serve", "--stdio", data=requests)[1])
 
     @contextlib.contextmanager
     def connect_by_hand(self, server):
@@ -342,13 +342,13 @@ class Tls(Folder):
 
     def test_large_replies_come_whole(self):
         with self.serve() as server:
-            heard = self.converse(server, b"load beamfall\nobserve rgb:hex\n" + b"look\n" * 20 + b"quit\n")
-        self.assertEqual([len(line) for line in heard.splitlines()][2:-1], [len(b"ok rgb=") + 2 * 3 * 160 * 210] * 20)
+            replies = self.converse(server, b"load beamfall\nobserve rgb:hex\n" + b"look\n" * 20 + b"quit\n")
+        self.assertEqual([len(line) for line in replies.splitlines()][2:-1], [len(b"ok rgb=") + 2 * 3 * 160 * 210] * 20)
 
     def test_tokens_go_with_it(self):
         with self.serve("--token-file", self.write("tokens", TOKEN)) as server:
-            heard = self.converse(server, b"games\nhello token=" + TOKEN.encode() + b"\ngames\nquit\n").splitlines()
-            self.assertEqual([line.split()[0] for line in heard], [b"error", b"ok", b"ok", b"ok"])
+            replies = self.converse(server, b"games\nhello token=" + TOKEN.encode() + b"\ngames\nquit\n").splitlines()
+            self.assertEqual([line.split()[0] for line in replies], [b"error", b"ok", b"ok", b"ok"])
 
     def test_who_speaks_no_TLS_harms_nobody(self):
         with self.serve("--handshake", "1") as server:
@@ -431,22 +431,22 @@ class Tls(Folder):
         for options, requests, last in ((["--idle", "1"], b"hello\n", b"error idle "), ([], b"quit\n", b"ok")):
             with self.subTest(last=last), self.serve(*options) as server, self.connect(server) as connection:
                 connection.sendall(requests)
-                heard = b""
+                replies = b""
                 while piece := connection.recv(65536):  # an end that was not told is an SSLEOFError
-                    heard += piece
-                self.assertTrue(heard.splitlines()[-1].startswith(last), heard)
+                    replies += piece
+                self.assertTrue(replies.splitlines()[-1].startswith(last), replies)
 
     @unittest.skipIf(sanitized(), "a sanitizer needs more memory")
     def test_handshakes_that_stall_count_as_memory(self):
-        most = 48  # MiB
-        with self.serve("--max-memory", f"{most}M", "--handshake", "60") as server, contextlib.ExitStack() as stack:
+        limit = 48  # MiB
+        with self.serve("--max-memory", f"{limit}M", "--handshake", "60") as server, contextlib.ExitStack() as stack:
             port = self.port(server)
             for _ in range(800):
                 stack.callback(connect_tcp(port).close)
             server.wait_for("refused, the server's sessions hold all the memory that they may")
             with open(f"/proc/{server.process.pid}/status") as status:
                 resident = next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
-            self.assertLess(resident / 1024, most)
+            self.assertLess(resident / 1024, limit)
 
     def test_a_session_ends_in_time_when_its_client_does_not_close(self):
         with self.serve() as server:

@@ -47,13 +47,13 @@ class Announced(unittest.TestCase):
             "announce",
         ) as server:
             text = wait_for(server.path("announce"))
-            announced = json.loads(text)
-            tcp, local = announced["addresses"]
+            announcement = json.loads(text)
+            tcp, local = announcement["addresses"]
             self.assertRegex(tcp, r"^tcp://127\.0\.0\.1:\d+$")
             self.assertEqual(local, 'unix:a "quoted" name')
             version = run("--version")[1].decode().split()[1]
             self.assertEqual(
-                {**announced, "addresses": [], "token": ""},
+                {**announcement, "addresses": [], "token": ""},
                 {
                     "racebeam_announce": 1,
                     "addresses": [],
@@ -64,12 +64,12 @@ class Announced(unittest.TestCase):
                     "token": "",
                 },
             )
-            self.assertRegex(announced["token"], "^[0-9a-f]{64}$")
+            self.assertRegex(announcement["token"], "^[0-9a-f]{64}$")
             # The layout that programs without a parser of JSON rely on
             lines = text.splitlines()
             self.assertEqual(lines[0], FIRST_BYTES)
             self.assertIn(f'  "{tcp}",', lines)
-            self.assertEqual(lines[-1], f' "token": "{announced["token"]}"}}')
+            self.assertEqual(lines[-1], f' "token": "{announcement["token"]}"}}')
 
     def test_its_owner_alone_can_read_it(self):
         before = os.umask(0)
@@ -82,11 +82,11 @@ class Announced(unittest.TestCase):
 
     def test_its_token_is_needed_over_TCP_and_not_on_a_Unix_socket(self):
         with serve("--listen", "unix:s", "--announce", "announce") as server:
-            announced = json.loads(wait_for(server.path("announce")))
-            wire, local = connect_tcp(port_of(announced)), connect_unix(server.path("s"))
+            announcement = json.loads(wait_for(server.path("announce")))
+            wire, local = connect_tcp(port_of(announcement)), connect_unix(server.path("s"))
             self.assertTrue(ask(wire, b"games").startswith(b"error unauthorized "))
             self.assertTrue(ask(wire, b"hello token=" + b"0" * 64).startswith(b"error unauthorized "))
-            hello = b"hello token=" + announced["token"].encode()
+            hello = b"hello token=" + announcement["token"].encode()
             self.assertIn(b" admitted=1 ", ask(wire, hello))
             self.assertTrue(ask(wire, b"games").startswith(b"ok "))
             self.assertTrue(ask(local, b"games").startswith(b"ok "))
@@ -101,11 +101,11 @@ class Announced(unittest.TestCase):
                 tokens.write("0123456789abcdef\n")
             os.chmod(path, 0o600)
             with serve("--token-file", path, "--announce", "announce") as server:
-                announced = json.loads(wait_for(server.path("announce")))
+                announcement = json.loads(wait_for(server.path("announce")))
                 server.process.send_signal(signal.SIGHUP)
                 server.wait_for("read the token file again")
-                for token in ("0123456789abcdef", announced["token"]):
-                    wire = connect_tcp(port_of(announced))
+                for token in ("0123456789abcdef", announcement["token"]):
+                    wire = connect_tcp(port_of(announcement))
                     self.assertIn(b" admitted=1 ", ask(wire, b"hello token=" + token.encode()))
                     wire.close()
 
@@ -118,16 +118,16 @@ class Announced(unittest.TestCase):
 
     def test_all_addresses_of_a_machine_are_its_host_name(self):
         with Server("serve", "--listen", "tcp://0.0.0.0:0", "--announce", "announce") as server:
-            announced = json.loads(wait_for(server.path("announce")))
-            self.assertEqual(announced["addresses"], [f"tcp://{socket.gethostname()}:{port_of(announced)}"])
+            announcement = json.loads(wait_for(server.path("announce")))
+            self.assertEqual(announcement["addresses"], [f"tcp://{socket.gethostname()}:{port_of(announcement)}"])
 
 
 class Life(unittest.TestCase):
     def test_it_is_gone_as_soon_as_the_server_is_told_to_stop(self):
         with serve("--announce", "announce", "--grace", "60") as server:
-            announced = json.loads(wait_for(server.path("announce")))
-            wire = connect_tcp(port_of(announced))
-            ask(wire, b"hello token=" + announced["token"].encode())
+            announcement = json.loads(wait_for(server.path("announce")))
+            wire = connect_tcp(port_of(announcement))
+            ask(wire, b"hello token=" + announcement["token"].encode())
             server.process.send_signal(signal.SIGTERM)
             server.wait_for("told to stop")
             self.assertFalse(os.path.exists(server.path("announce")))

@@ -44,10 +44,10 @@ class Documents(unittest.TestCase):
     def test_the_conversations_of_the_classic_protocol_are_real(self):
         found = conversations("protocol/CLASSIC.md")
         self.assertTrue(found)
-        for command, said, heard in found:
+        for command, requests, answers in found:
             with self.subTest(command=command):
-                status, output, _ = run(*command, data="".join(said).encode())
-                expected = re.escape("".join(heard)).replace(re.escape("..."), "[0-9A-F]+")
+                status, output, _ = run(*command, data="".join(requests).encode())
+                expected = re.escape("".join(answers)).replace(re.escape("..."), "[0-9A-F]+")
                 self.assertRegex(output.decode(), f"\\A{expected}\\Z")
                 self.assertEqual(status, 0)
 
@@ -56,28 +56,28 @@ class Documents(unittest.TestCase):
         replies."""
         found = conversations("protocol/PROTOCOL.md")
         self.assertTrue(found)
-        for command, said, heard in found:
+        for command, requests, answers in found:
             options = [word for word in command[1:] if word != "--stdio"]
-            expected = pattern(heard)
+            expected = pattern(answers)
             strict = "--strict" in options  # on streams only; such a conversation ends with an error
             for transport in TRANSPORTS[:2] if strict else TRANSPORTS:
-                with self.subTest(command=command, said=said, transport=transport):
+                with self.subTest(command=command, said=requests, transport=transport):
                     with Session(transport, *options, image=None) as session:
-                        received = converse(session.wire, [line.encode() for line in said])
+                        received = converse(session.wire, [line.encode() for line in requests])
                         self.assertRegex(received.decode("latin-1"), f"\\A{expected}\\Z")
                         self.assertEqual(session.status(), int(strict))
 
     def test_the_conversations_of_the_line_protocol_are_real(self):
         def in_turn(wire, lines):
-            heard = b""
+            answers = b""
             for line in lines:
                 wire.send(line)
                 if not line.startswith(b"#"):  # a comment, which has no reply
                     answer = reply(wire)
                     replies.check(line.decode(), answer.partition(b"\n")[0].decode())
-                    heard += answer
+                    answers += answer
             wire.stop_sending()
-            return heard + wire.rest()
+            return answers + wire.rest()
 
         self.check_lines(in_turn)
 

@@ -58,11 +58,11 @@ class Http(unittest.TestCase):
             wire = connect_tcp(server.port())
             replies = len(wire.send(LOAD) or b"") + sum(len(wire.line()) for _ in range(3))
             replies += len(ask(wire, b"act NOOP*7")) + len(ask(wire, b"act 99")) + len(ask(wire, b"nonsense"))
-            refused = connect_tcp(server.port())
-            refused.rest()
-            refused.close()
+            connection = connect_tcp(server.port())
+            connection.rest()
+            connection.close()
             found = self.metrics(server)
-            sent = len(LOAD) + len(b"act NOOP*7\nact 99\nnonsense\n")
+            count = len(LOAD) + len(b"act NOOP*7\nact 99\nnonsense\n")
             expected = {
                 "sessions_open": 1,
                 'sessions_total{protocol="line"}': 1,
@@ -73,7 +73,7 @@ class Http(unittest.TestCase):
                 'requests_total{command="none",outcome="error"}': 1,
                 "request_seconds_count": 6,
                 'request_seconds_bucket{le="+Inf"}': 6,
-                "received_bytes_total": sent,
+                "received_bytes_total": count,
                 "sent_bytes_total": replies,
             }
             self.assertEqual({key: found["racebeam_" + key] for key in expected}, expected)
@@ -97,19 +97,19 @@ class Http(unittest.TestCase):
                 return wire.line() == b"ok\n"
 
             busy = connect()
-            silent = [connect() for _ in range(63)]
-            slow = silent[1]
+            connections = [connect() for _ in range(63)]
+            slow = connections[1]
             slow.send(b"GET /healthz HTTP/1.1\r\n")  # half a request does not keep a place either
-            self.assertTrue(is_healthy(silent[-1]))  # the server has accepted all
+            self.assertTrue(is_healthy(connections[-1]))  # the server has accepted all
             self.assertTrue(is_healthy(busy))  # from now on it is the latest
             for _ in range(2):
                 self.assertEqual(get(address + "/healthz"), (200, "ok\n"))
             extra = [connect() for _ in range(10)]
             self.assertTrue(all(is_healthy(wire) for wire in extra))
             self.assertTrue(is_healthy(busy))
-            self.assertEqual(silent[0].rest(), b"")
+            self.assertEqual(connections[0].rest(), b"")
             self.assertEqual(slow.rest(), b"")
-            self.assertTrue(is_healthy(silent[-1]))
+            self.assertTrue(is_healthy(connections[-1]))
             crowd = [connect() for _ in range(500)]
             self.assertEqual(get(address + "/healthz"), (200, "ok\n"))
             self.assertEqual(crowd[0].rest(), b"")
@@ -188,11 +188,11 @@ class Log(unittest.TestCase):
                     wire.rest()
                     wire.close()
                 status, text = get(addresses[1] + "/metrics")
-                lost = int(re.search(r"^racebeam_log_lines_lost_total (\d+)$", text, re.MULTILINE).group(1))
-                self.assertGreater(lost, 200)
+                losses = int(re.search(r"^racebeam_log_lines_lost_total (\d+)$", text, re.MULTILINE).group(1))
+                self.assertGreater(losses, 200)
                 fcntl.fcntl(reading, F_SETPIPE_SZ, 1 << 20)
                 lines = self.read(reading, b"client 700: 1 requests").splitlines()
-                self.check_order(lines, lost)
+                self.check_order(lines, losses)
                 self.assertEqual(server.stop(), 0)
             os.close(reading)
 

@@ -69,20 +69,20 @@ def median_wait(wire, count=9):
     """The latency of a short act, in seconds."""
     waits = []
     for _ in range(count):
-        asked = time.monotonic()
+        start = time.monotonic()
         reply = ask(wire, b"act NOOP")
         assert reply.startswith(b"ok"), reply
-        waits.append(time.monotonic() - asked)
+        waits.append(time.monotonic() - start)
         time.sleep(0.005)
     return statistics.median(waits)
 
 
 def health_wait(server):
     address = server.wait_for(r"health and metrics on (http://127\.0\.0\.1:\d+)").group(1)
-    asked = time.monotonic()
+    start = time.monotonic()
     with urllib.request.urlopen(address + "/healthz", timeout=PATIENCE) as response:
         assert response.read() == b"ok\n"
-    return time.monotonic() - asked
+    return time.monotonic() - start
 
 
 def processor_seconds(server):
@@ -141,12 +141,12 @@ class Limits(Case):
     def test_a_mode_that_does_not_come_about_is_given_up(self):
         self.start(serve())
         wire = self.connect()
-        begun = time.monotonic()
+        start = time.monotonic()
         self.assertRegex(
             ask(wire, MODE.replace(b"=1000", b"=200")),
             b"^error bad-value mode 1 of adventure could not be set up on this image: ",
         )
-        self.assertLess(time.monotonic() - begun, PATIENCE)
+        self.assertLess(time.monotonic() - start, PATIENCE)
         self.assertRegex(ask(wire, b"look"), b"^error no-game ")
 
     def test_steps_count_against_the_frames_of_a_request(self):
@@ -179,9 +179,9 @@ class Departure(Case):
         time.sleep(0.1)
         wire.close()
         self.server.wait_for(r"client 1: .*(left|stopped)")
-        used = processor_seconds(self.server)
+        seconds = processor_seconds(self.server)
         time.sleep(0.5)
-        self.assertLess(processor_seconds(self.server) - used, 0.2)
+        self.assertLess(processor_seconds(self.server) - seconds, 0.2)
 
     def test_a_request_of_a_client_that_left_over_tcp_is_given_up(self):
         self.start(serve("--grace", "0", *MANY_FRAMES))
@@ -218,18 +218,18 @@ class HalfClosed(Case):
         connection.sendall(requests)
         shut(connection)
         time.sleep(4)
-        heard = b""
+        replies = b""
         while piece := connection.recv(65536):
-            heard += piece
-        return heard
+            replies += piece
+        return replies
 
     def frames(self):
         """So many that they take more than the four seconds on this machine."""
         wire = self.connect()
         ask(wire, ENDLESS)
-        begun = time.monotonic()
+        start = time.monotonic()
         ask(wire, b"act NOOP*20000")
-        return int(20000 * 5 / (time.monotonic() - begun))
+        return int(20000 * 5 / (time.monotonic() - start))
 
     def test_replies_over_tcp_come_alone(self):
         self.start(serve("--grace", "0", "--max-request-frames", "100000000"))
@@ -261,10 +261,10 @@ class End(unittest.TestCase):
                 wire = connect(server)
                 begin(wire, first, request)
                 time.sleep(0.1)
-                told = time.monotonic()
+                start = time.monotonic()
                 server.process.send_signal(signal.SIGTERM)
                 server.wait()
-                self.assertLess(time.monotonic() - told, self.GRACE + 5)  # of which four are for slow machines
+                self.assertLess(time.monotonic() - start, self.GRACE + 5)  # of which four are for slow machines
                 wire.close()
 
     def test_over_tcp(self):

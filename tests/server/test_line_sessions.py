@@ -41,17 +41,17 @@ class Strict(unittest.TestCase):
                         if ahead:
                             session.wire.send(requests)
                             session.wire.stop_sending()
-                            heard = session.wire.rest().splitlines()
+                            answers = session.wire.rest().splitlines()
                         else:  # the input stays open
-                            heard = []
+                            answers = []
                             for request in requests.splitlines(True)[: len(replies)]:
                                 session.wire.send(request)
                                 if request.endswith(b"\n"):
-                                    heard.append(session.wire.line())
-                            if len(heard) < len(replies):
+                                    answers.append(session.wire.line())
+                            if len(answers) < len(replies):
                                 session.wire.stop_sending()
-                            heard += session.wire.rest().splitlines()
-                        self.assertEqual([line.split()[0] for line in heard], replies)
+                            answers += session.wire.rest().splitlines()
+                        self.assertEqual([line.split()[0] for line in answers], replies)
                         self.assertEqual(session.status(), 1)
 
     def test_without_an_error_all_is_as_ever(self):
@@ -157,9 +157,9 @@ class Sessions(unittest.TestCase):
             one.send(LOAD + b"act NOOP*5\n")
             other.send(b"act NOOP\n" + LOAD + b"act NOOP\n")
             self.assertEqual(lines(one, 4)[3], b"ok frame=5\n")
-            heard = lines(other, 5)
-            self.assertTrue(heard[0].startswith(b"error no-game "))
-            self.assertEqual(heard[4], b"ok frame=1\n")
+            replies = lines(other, 5)
+            self.assertTrue(replies[0].startswith(b"error no-game "))
+            self.assertEqual(replies[4], b"ok frame=1\n")
             for wire in (one, other):
                 wire.close()
 
@@ -196,9 +196,9 @@ class Sessions(unittest.TestCase):
             wire = connect_tcp(server.port())
             wire.send(LOAD + b"branch root NOOP*50000\nact NOOP\n")
             wire.stop_sending()
-            heard = wire.rest().splitlines()
-            self.assertEqual(len(heard), 5)
-            self.assertEqual(heard[4], b"ok frame=1")
+            replies = wire.rest().splitlines()
+            self.assertEqual(len(replies), 5)
+            self.assertEqual(replies[4], b"ok frame=1")
             wire.close()
 
     def test_who_does_not_read_holds_up_nobody(self):
@@ -214,9 +214,9 @@ class Sessions(unittest.TestCase):
                 resident = next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
             if not sanitized():  # most of it is the sanitizer's
                 self.assertLess(resident, 100_000)  # KiB
-            heard = 0
-            while heard < 2004:
-                heard += deaf.read(1 << 20).count(b"\n")
+            count = 0
+            while count < 2004:
+                count += deaf.read(1 << 20).count(b"\n")
             for wire in (deaf, other):
                 wire.close()
 
@@ -255,8 +255,8 @@ class Sessions(unittest.TestCase):
                 session.wire.send(b"x" * (1 << 20))
             session.wire.send(b"\nhelp act\n")
             session.wire.stop_sending()
-            heard = session.wire.rest().splitlines()
-            self.assertEqual([line.split()[:2] for line in heard], [[b"error", b"line-too-long"], [b"ok", b"act"]])
+            replies = session.wire.rest().splitlines()
+            self.assertEqual([line.split()[:2] for line in replies], [[b"error", b"line-too-long"], [b"ok", b"act"]])
             self.assertEqual(session.status(), 0)
         self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, 300_000)
 

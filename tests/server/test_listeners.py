@@ -134,8 +134,8 @@ class Addresses(unittest.TestCase):
     def test_nothing_is_left_behind_when_one_of_several_fails(self):
         with listening("tcp://127.0.0.1:0") as server:
             folder = self.folder()
-            taken = f"tcp://127.0.0.1:{server.port()}"
-            ended, _, errors = run(*SERVE, "--listen", "unix:s", "--listen", taken, cwd=folder)
+            address = f"tcp://127.0.0.1:{server.port()}"
+            ended, _, errors = run(*SERVE, "--listen", "unix:s", "--listen", address, cwd=folder)
             self.assertEqual((ended, len(errors), os.listdir(folder)), (3, 1, []), errors)
 
 
@@ -213,10 +213,10 @@ class Signals(unittest.TestCase):
                     wire.close()
 
     def test_pipes_that_the_server_has_made_are_removed_at_its_end(self):
-        for own, end in ((True, "signal"), (True, "client"), (False, "signal")):
+        for is_private, end in ((True, "signal"), (True, "client"), (False, "signal")):
             with (
-                self.subTest(own=own, end=end),
-                Server(*SERVE, "--pipes", "p", before=None if own else self.make_pipes) as server,
+                self.subTest(own=is_private, end=end),
+                Server(*SERVE, "--pipes", "p", before=None if is_private else self.make_pipes) as server,
             ):
                 server.wait_for("for a client that opens")
                 if end == "client":
@@ -225,8 +225,8 @@ class Signals(unittest.TestCase):
                     self.assertEqual(server.wait(), 0)
                 else:
                     self.assertEqual(server.stop(), 0)
-                self.assertEqual(os.path.exists(server.path("p_out")), not own)
-                self.assertEqual(os.path.exists(server.path("p_in")), not own)
+                self.assertEqual(os.path.exists(server.path("p_out")), not is_private)
+                self.assertEqual(os.path.exists(server.path("p_in")), not is_private)
 
     def make_pipes(self):
         for name in ("p_out", "p_in"):

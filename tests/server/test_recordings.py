@@ -48,8 +48,8 @@ def requests(kind):
 
 class Limits(unittest.TestCase):
     def check(self, kind, lines, folder, reason):
-        told = [line for line in lines if line.startswith(b"ok recording_ended=" + reason + b" ")]
-        self.assertEqual(len(told), 1, lines)
+        replies = [line for line in lines if line.startswith(b"ok recording_ended=" + reason + b" ")]
+        self.assertEqual(len(replies), 1, lines)
         self.assertRegex(
             lines[-2], b"^ok recorded=film.* frames=[1-9][0-9]* .* complete=0 recording_ended=" + reason + b"$"
         )
@@ -75,14 +75,14 @@ class Limits(unittest.TestCase):
                 )
 
     def test_what_the_disk_takes_is_kept(self):
-        for kind, most in {"y4m": LIMIT, "gif": LIMIT // 10, "wav": LIMIT // 10, "y4m,wav": LIMIT}.items():
+        for kind, limit in {"y4m": LIMIT, "gif": LIMIT // 10, "wav": LIMIT // 10, "y4m,wav": LIMIT}.items():
             with self.subTest(kind=kind), tempfile.TemporaryDirectory() as folder:
                 done = subprocess.run(
                     [BINARY, "serve", "--stdio", "--record-dir", folder],
                     input=requests(kind),
                     capture_output=True,
                     timeout=PATIENCE,
-                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)),
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
                 )
                 self.check(kind, done.stdout.splitlines(), folder, b"disk")
                 self.assertEqual(done.returncode, 0)
@@ -292,18 +292,18 @@ class Encoded(unittest.TestCase):
     def test_a_film_shows_what_was_played_and_sounds(self):
         lines = self.record(b"load beamfall sticky=0\nrecord webm,mp4 film\nact FIRE*60\nlook rgb:hex\nrecord stop\n")
         self.assertRegex(lines[-1], b"^ok recorded=film.webm,film.mp4 frames=60 bytes=[0-9]+ complete=1$")
-        seen = bytes.fromhex(lines[-2].split(b"rgb=")[1].split()[0].decode())
+        pixels = bytes.fromhex(lines[-2].split(b"rgb=")[1].split()[0].decode())
         for name in ("film.webm", "film.mp4"):
             with self.subTest(name):
                 self.assertEqual(self.frames(name), 60)
                 frame = self.last_frame(name)
-                shown = [
+                pictures = [
                     frame[3 * (640 * (2 * row) + 4 * column + 1) + part]
                     for row in range(210)
                     for column in range(160)
                     for part in range(3)
                 ]
-                self.assertLess(statistics.mean(abs(a - b) for a, b in zip(shown, seen)), 8)
+                self.assertLess(statistics.mean(abs(a - b) for a, b in zip(pictures, pixels)), 8)
                 sound = self.decoded(name, "-f", "u8", "-ar", "30720")
                 self.assertAlmostEqual(len(sound) / 30720, 1, delta=0.1)
                 self.assertGreater(max(sound) - min(sound), 10)
@@ -420,8 +420,8 @@ class HangingDisk(unittest.TestCase):
                 wire.close()
             self.assertIn(number, range(4, 59))
             self.assertRegex(ask(stays, b"record y4m,wav mine"), b"^error limit a recording would take about ")
-            for left in (stays, wire):
-                left.close()
+            for wire_to_close in (stays, wire):
+                wire_to_close.close()
             self.check_it_ends(server)
 
     def test_a_session_stays(self):

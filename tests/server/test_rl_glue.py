@@ -179,15 +179,15 @@ class RlGlue(unittest.TestCase):
     def test_a_port_and_a_screen_that_do_not_fit_are_refused(self):
         for port in ("0", "65536", "x"):
             environment = {**os.environ, "RLGLUE_PORT": port}
-            refused = subprocess.run(
+            done = subprocess.run(
                 [BINARY, "classic", "-game_controller", "rlglue", GAME],
                 env=environment,
                 text=True,
                 capture_output=True,
                 timeout=PATIENCE,
             )
-            self.assertEqual(refused.returncode, 1)
-            self.assertIn(f"RLGLUE_PORT is '{port}'", refused.stderr)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"RLGLUE_PORT is '{port}'", done.stderr)
 
 
 if __name__ == "__main__":

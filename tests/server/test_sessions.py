@@ -122,11 +122,11 @@ class Leaving(unittest.TestCase):
         received, status, log = converse(transport, data)
         # A last line that is too short is refused; all others are executed.
         last, numbers = data.split(b"\n")[-1], 2 if b"\n" in data else 4
-        refused = bool(last) and len([part for part in last.split(b",") if part]) < numbers
-        self.assertEqual(received.endswith(b"DIE\n"), not refused)
+        is_cut = bool(last) and len([part for part in last.split(b",") if part]) < numbers
+        self.assertEqual(received.endswith(b"DIE\n"), not is_cut)
         self.assertEqual(received.count(b"0,0:\n"), data.count(b"\n"))
-        self.assertEqual(len([line for line in log if "numbers" in line]), 1 if refused else 0, log)
-        self.assertEqual(status, 1 if refused and transport in ("stdio", "pipes") else 0)
+        self.assertEqual(len([line for line in log if "numbers" in line]), 1 if is_cut else 0, log)
+        self.assertEqual(status, 1 if is_cut and transport in ("stdio", "pipes") else 0)
 
     def test_the_client_may_stop_reading_after_any_byte(self):
         answers = b"160-210\n" + b"0,0:\n" * 6
@@ -137,10 +137,10 @@ class Leaving(unittest.TestCase):
 
     def check_heard(self, transport, answers, count):
         lines = answers[:count].count(b"\n")  # this many complete replies were received
-        said = self.SAID.splitlines(keepends=True)
+        requests = self.SAID.splitlines(keepends=True)
         with Session(transport, "--seed", "1", "--sticky", "0") as session:
             wire = session.wire
-            wire.send(b"".join(said[:lines]))
+            wire.send(b"".join(requests[:lines]))
             self.assertEqual(wire.receive(count), answers[:count])
             if transport in ("stdio", "pipes"):
                 wire.stop_reading()

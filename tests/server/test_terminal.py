@@ -24,16 +24,16 @@ def said_on_a_terminal(requests):
     os.close(theirs)
     server.stdin.write(requests)
     server.stdin.close()
-    heard = b""
+    output = b""
     try:
         while piece := os.read(ours, 65536):
-            heard += piece
+            output += piece
     except OSError as error:  # the end of a terminal
         if error.errno != errno.EIO:
             raise
     os.close(ours)
     server.wait(PATIENCE)
-    return heard.decode().replace("\r\n", "\n")
+    return output.decode().replace("\r\n", "\n")
 
 
 def said_to_a_program(requests):

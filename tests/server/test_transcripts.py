@@ -37,24 +37,24 @@ def recorded(name):
 
 def steps(name):
     """Pairs of what the server sends, and what the client sends after it."""
-    said, heard = [], b""
+    pairs, reply = [], b""
     for line in recorded(name):
         if line.startswith(b"< "):
-            heard += line[2:]
+            reply += line[2:]
         else:
-            said.append((heard, line[2:]))
-            heard = b""
-    return said + [(heard, b"")]
+            pairs.append((reply, line[2:]))
+            reply = b""
+    return pairs + [(reply, b"")]
 
 
 def in_turn(wire, conversation, send):
-    for heard, said in conversation[:-1]:
-        received = wire.receive(len(heard))
-        if received != heard:
+    for reply, request in conversation[:-1]:
+        received = wire.receive(len(reply))
+        if received != reply:
             return received + b"..."
-        send(said)
+        send(request)
     wire.stop_sending()
-    return b"".join(heard for heard, _ in conversation[:-1]) + wire.rest()
+    return b"".join(reply for reply, _ in conversation[:-1]) + wire.rest()
 
 
 def whole(wire, conversation):
@@ -70,7 +70,7 @@ def byte_by_byte(wire, conversation):
 
 
 def ahead(wire, conversation):
-    wire.send(b"".join(said for _, said in conversation))
+    wire.send(b"".join(request for _, request in conversation))
     wire.stop_sending()
     return wire.rest()
 
@@ -87,7 +87,7 @@ class Transcripts(unittest.TestCase):
             for name, options in TRANSCRIPTS.items():
                 with self.subTest(transport=transport, transcript=name):
                     conversation = steps(name)
-                    expected = b"".join(heard for heard, _ in conversation)
+                    expected = b"".join(reply for reply, _ in conversation)
                     with Session(transport, *FIXED, *options, image=TETRIS) as session:
                         received = manner(session.wire, conversation)
                         self.assertTrue(received == expected, f"differs: {len(received)} of {len(expected)} bytes")

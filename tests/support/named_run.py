@@ -11,12 +11,12 @@ class NamedRun:
 
     @property
     def name(self):
-        told = [
+        lines = [
             field
             for field in dataclasses.fields(self)[1:]
             if getattr(self, field.name) != field.default or field.name in self.ALWAYS
         ]
-        return f"{self.game}:" + ",".join(f"{field.name}={getattr(self, field.name)}" for field in told)
+        return f"{self.game}:" + ",".join(f"{field.name}={getattr(self, field.name)}" for field in lines)
 
     @classmethod
     def parse(cls, text):

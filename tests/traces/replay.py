@@ -69,12 +69,12 @@ def replay(game):
         text=True,
         timeout=250,
     )
-    printed = run.stdout.splitlines()
+    lines = run.stdout.splitlines()
     if run.returncode != 0:
-        return "DIFFERENT", f"status {run.returncode} after {len(printed)} lines: {run.stderr.strip()}"
-    if printed != expected:
-        return "DIFFERENT", first_difference(expected, printed)
-    return "reproduced", f"{len(printed)} lines"
+        return "DIFFERENT", f"status {run.returncode} after {len(lines)} lines: {run.stderr.strip()}"
+    if lines != expected:
+        return "DIFFERENT", first_difference(expected, lines)
+    return "reproduced", f"{len(lines)} lines"
 
 
 def main():

@@ -80,7 +80,7 @@ class Checking(unittest.TestCase):
         done = cls.run_tool("--rebaseline")
         if done.returncode == SKIPPED:
             raise unittest.SkipTest(done.stdout.strip())
-        cls.kept = json.loads(cls.path.read_text())
+        cls.baseline = json.loads(cls.path.read_text())
 
     @classmethod
     def tearDownClass(cls):
@@ -96,9 +96,9 @@ class Checking(unittest.TestCase):
         )
 
     def check_against(self, change, **environment):
-        changed = json.loads(json.dumps(self.kept))
-        change(changed)
-        self.path.write_text(json.dumps(changed))
+        edited = json.loads(json.dumps(self.baseline))
+        change(edited)
+        self.path.write_text(json.dumps(edited))
         return self.run_tool(**environment)
 
     def scaled(self, factor):

@@ -163,7 +163,7 @@ def compare(ale_py, probe, scheme, seed, frames):
     """The first difference as a sentence, or nothing. For AR, only RAM is compared: the reference's BIOS
     leaves a picture."""
     rng = random.Random(f"{scheme} {seed} accesses")
-    seen = 256 if scheme == "AR" else None
+    limit = 256 if scheme == "AR" else None
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, GAME + ".bin")
         with open(path, "wb") as file:
@@ -171,7 +171,7 @@ def compare(ale_py, probe, scheme, seed, frames):
         theirs, ours = Reference(ale_py, path), Ours(probe, path)
         try:
             a, b = align(scheme, theirs, ours) if scheme in ("AR", "MC") else (theirs.first, ours.first)
-            if a[:seen] != b[:seen]:
+            if a[:limit] != b[:limit]:
                 return f"at the start:\n    {differing(a, b)}\n    reference {a}\n    racebeam  {b}"
             stuck, counter = False, -1
             for frame in range(frames):
@@ -181,7 +181,7 @@ def compare(ale_py, probe, scheme, seed, frames):
                     slots = random_slots(rng, scheme)
                     pokes = list(pokes_of(slots))
                     what, a, b = describe(slots), theirs.frame(pokes), ours.frame(pokes)
-                if a[:seen] != b[:seen]:
+                if a[:limit] != b[:limit]:
                     return f"frame {frame}: {what}\n    {differing(a, b)}\n    reference {a}\n    racebeam  {b}"
                 stuck = counter == counter_in(a)  # a subroutine did not return
                 counter = counter_in(a)

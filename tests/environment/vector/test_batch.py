@@ -66,14 +66,14 @@ class Probe:
         return np.frombuffer(self.process.stdout.read(count), dtype).reshape(shape)
 
     def results(self):
-        shown = {"observation": self.take(np.uint8, *self.shape)}
+        result = {"observation": self.take(np.uint8, *self.shape)}
         if self.same_step:
-            shown["final"] = self.take(np.uint8, *self.shape)
+            result["final"] = self.take(np.uint8, *self.shape)
         for name in ("reward", "lives", "frame_number", "episode_frame_number"):
-            shown[name] = self.take(np.int32, MACHINES)
+            result[name] = self.take(np.int32, MACHINES)
         for name in ("terminated", "truncated", "finished"):
-            shown[name] = self.take(np.uint8, MACHINES).astype(bool)
-        return shown
+            result[name] = self.take(np.uint8, MACHINES).astype(bool)
+        return result
 
     def step(self, actions):
         self.process.stdin.write(np.asarray(actions, np.float32 if actions.ndim == 2 else np.int32).tobytes())
@@ -106,7 +106,7 @@ class Batch(unittest.TestCase):
         reference = AtariVectorEnv(game, num_envs=MACHINES, autoreset_mode=mode, **options)
         probe = Probe(game, seed, same_step, options, start)
         random = np.random.default_rng(seed)
-        ended = 0
+        ends = 0
         try:
             shown, info = reference.reset(seed=seed)
             ours = probe.results()
@@ -124,18 +124,18 @@ class Batch(unittest.TestCase):
                 if same_step and ours["finished"].any():
                     for machine in np.flatnonzero(ours["finished"]):
                         self.same("final observation", ours["final"][machine], info["final_obs"][machine], step)
-                ended += int(ours["finished"].sum())
-            return ended
+                ends += int(ours["finished"].sum())
+            return ends
         finally:
             probe.close()
             reference.close()
 
     def check(self, cases, least_ends):
-        ended = 0
+        ends = 0
         for number, (game, steps, options) in enumerate(cases):
             with self.subTest(game=game, **options):
-                ended += self.compare(game, 11 + number, steps, **options)
-        self.assertGreaterEqual(ended, least_ends, "too few episodes ended for the test to mean much")
+                ends += self.compare(game, 11 + number, steps, **options)
+        self.assertGreaterEqual(ends, least_ends, "too few episodes ended for the test to mean much")
 
     def test_defaults(self):
         self.check([(game, 400, {}) for game in ("breakout", "pong", "ms_pacman", "seaquest", "air_raid")], 3)

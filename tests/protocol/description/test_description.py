@@ -27,7 +27,7 @@ def changed(text):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "protocol.toml"
         path.write_text(f"{description.SOURCE.read_text()}\n{text}")
-        files = generate.made(description.read(path))
+        files = generate.generated(description.read(path))
     return {name: files[name] for name in generate.stale(files)}
 
 

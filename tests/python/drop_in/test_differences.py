@@ -246,12 +246,12 @@ class Differences(unittest.TestCase):
     def test_screens_that_grow_are_the_same(self):
         for size in ((224, 224), (256, 256), (420, 320), (84, 200), (211, 100)):
             settings = {"img_height": size[0], "img_width": size[1], "stack_num": 1}
-            shown = []
+            results = []
             for module in (drop_in, ale_py):
                 envs = module.AtariVectorEnv("pong", 1, **settings)
                 envs.reset(seed=1)
-                shown.append(np.stack([envs.step(np.array([step % 3]))[0] for step in range(10)]))
-            self.assertTrue(np.array_equal(*shown), size)
+                results.append(np.stack([envs.step(np.array([step % 3]))[0] for step in range(10)]))
+            self.assertTrue(np.array_equal(*results), size)
 
     def test_19_no_frames(self):
         ours, theirs = (module.AtariVectorEnv("pong", 2, max_num_frames_per_episode=0) for module in (drop_in, ale_py))

@@ -149,15 +149,15 @@ class Interface(unittest.TestCase):
             (("setInt", "paddle_min", 100000), ("setInt", "paddle_max", 300000)),
             (("setInt", "system_random_seed", 5),),
         )
-        for wanted in settings:
-            with self.subTest(settings=wanted):
-                seen = []
+        for setting in settings:
+            with self.subTest(settings=setting):
+                results = []
                 for ale in pong():
-                    for setter, key, value in wanted:
+                    for setter, key, value in setting:
                         getattr(ale, setter)(key, value)
                     ale.loadROM(PONG)
                     rewards = [ale.act(step * 7 % 6) for step in range(1200)]
-                    seen.append(
+                    results.append(
                         (
                             rewards,
                             ale.getScreenRGB().tobytes(),
@@ -167,28 +167,28 @@ class Interface(unittest.TestCase):
                             ale.getFrameNumber(),
                         )
                     )
-                self.assertEqual(seen[0], seen[1])
+                self.assertEqual(results[0], results[1])
 
     def test_states_agree_on_what_is_played_after_them(self):
-        seen = []
+        results = []
         for ale in pong():
-            told = [[ale.act(step % 6) for step in range(100)]]
+            rewards = [[ale.act(step % 6) for step in range(100)]]
             plain, system = ale.cloneState(), ale.cloneSystemState()
-            told.append(
+            rewards.append(
                 (plain.getFrameNumber(), plain.getEpisodeFrameNumber(), plain.getDifficulty(), plain.getCurrentMode())
             )
-            told.append((plain == ale.cloneState(), plain.equals(ale.cloneState(include_rng=False)), plain == plain))
+            rewards.append((plain == ale.cloneState(), plain.equals(ale.cloneState(include_rng=False)), plain == plain))
             for state, restore in (
                 (system, ale.restoreSystemState),
                 (plain, ale.restoreState),
                 (pickle.loads(pickle.dumps(system)), ale.restoreState),
             ):
                 restore(state)
-                told.append(
+                rewards.append(
                     ([ale.act(step * 5 % 6) for step in range(100)], ale.getRAM().tobytes(), ale.getScreen().tobytes())
                 )
-            seen.append(told)
-        self.assertEqual(seen[0], seen[1])
+            results.append(rewards)
+        self.assertEqual(results[0], results[1])
 
     def test_a_picture_is_the_same_file_to_a_reader(self):
         import struct

@@ -51,12 +51,12 @@ class Names(unittest.TestCase):
         for module in ("env", "registration", "roms", "vector_env"):
             ours = __import__(f"racebeam.ale_py.{module}", fromlist=["x"])
             theirs = sys.modules[f"ale_py.{module}"]
-            own = {
+            additions = {
                 name
                 for name, value in vars(theirs).items()
                 if getattr(value, "__module__", "").startswith("ale_py.") and not name.startswith("_")
             }
-            self.assertEqual({name for name in own if not hasattr(ours, name)}, set(), module)
+            self.assertEqual({name for name in additions if not hasattr(ours, name)}, set(), module)
         self.assertEqual(set(ale_py.__all__) - INTERNAL, set(drop_in.__all__) - INTERNAL)
 
     def test_every_method_is_there(self):
@@ -132,12 +132,12 @@ class Names(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_names_that_are_imported_late_are_listed(self):
-        listed = in_process(
+        names = in_process(
             "import racebeam, racebeam.ale_py; print(*dir(racebeam)); print(*dir(racebeam.ale_py))"
         ).stdout.splitlines()
-        self.assertLessEqual(set(racebeam.__all__), set(listed[0].split()))
+        self.assertLessEqual(set(racebeam.__all__), set(names[0].split()))
         self.assertLessEqual(
-            {*drop_in.__all__, "env", "registration", "roms", "vector_env", "register_v5_envs"}, set(listed[1].split())
+            {*drop_in.__all__, "env", "registration", "roms", "vector_env", "register_v5_envs"}, set(names[1].split())
         )
 
     def test_the_ids_are_those_of_ale_py(self):

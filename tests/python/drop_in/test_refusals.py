@@ -25,7 +25,7 @@ class Refusals(unittest.TestCase):
             return lambda module: getattr(module, name)(*arguments, **named)
 
         def call(name, method, *arguments, **named):
-            return lambda module: getattr(self.made(module, name), method)(*arguments, **named)
+            return lambda module: getattr(self.make(module, name), method)(*arguments, **named)
 
         calls = [make("AtariEnv", game) for game in ("nope", 3)]
         calls += [make("AtariVectorEnv", "nope", 2)]
@@ -91,20 +91,20 @@ class Refusals(unittest.TestCase):
             lambda module: module.AtariVectorEnv("pong", 2).reset(options={"reset_mask": np.array([True, False])}),
         ]
         calls += [
-            lambda module: self.made(module, "AtariVectorEnv").ale.reset([0, 1], [1]),
-            lambda module: self.made(module, "AtariVectorEnv").ale.send([0, 0], [1.0]),
+            lambda module: self.make(module, "AtariVectorEnv").ale.reset([0, 1], [1]),
+            lambda module: self.make(module, "AtariVectorEnv").ale.send([0, 0], [1.0]),
         ]
-        for number, refused in enumerate(calls):
+        for number, refused_call in enumerate(calls):
             with self.subTest(call=number):
                 raised = []
                 for module in (ale_py, drop_in):
                     with warnings.catch_warnings(), self.assertRaises(Exception) as refusal:
                         warnings.simplefilter("ignore")
-                        refused(module)
+                        refused_call(module)
                     raised.append(type(refusal.exception))
                 self.assertTrue(issubclass(raised[1], raised[0]), raised)
 
-    def made(self, module, name):
+    def make(self, module, name):
         env = getattr(module, name)(*(["pong", 2] if name == "AtariVectorEnv" else ["pong"]))
         env.reset(seed=1)
         return env

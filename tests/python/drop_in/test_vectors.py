@@ -92,12 +92,12 @@ class Vectors(unittest.TestCase):
         for envs in both:
             envs.reset(seed=1)
         for mask in ([False, False, True], [True, False, True], [True, True, True]):
-            chosen = np.array(mask)
+            selection = np.array(mask)
             for seed in (50, np.arange(60, 60 + sum(mask))):
-                self.check(*(envs.reset(seed=seed, options={"reset_mask": chosen}) for envs in both))
+                self.check(*(envs.reset(seed=seed, options={"reset_mask": selection}) for envs in both))
                 self.check(*(envs.step(np.array([1, 2, 3])) for envs in both))
             for envs in both:
-                self.assertRaises(ValueError, envs.reset, seed=np.arange(4), options={"reset_mask": chosen})
+                self.assertRaises(ValueError, envs.reset, seed=np.arange(4), options={"reset_mask": selection})
         for envs in both:
             self.assertRaises(
                 ValueError, envs.reset, seed=np.arange(3), options={"reset_mask": np.array([True, False, False])}

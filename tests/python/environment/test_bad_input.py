@@ -25,28 +25,30 @@ HOMEBREW = package.SOURCE / "games/homebrew"
 
 
 class BadInput(unittest.TestCase):
-    def refused(self, error, sentence, call, *words, **arguments):
+    def check_refusal(self, error, sentence, call, *words, **arguments):
         with self.assertRaisesRegex(error, sentence):
             call(*words, **arguments)
 
     def test_arguments(self):
         make, wrong = racebeam.AtariEnv, gym.error.Error
-        self.refused(racebeam.UnknownGame, "game 'beamfal'.* beamfall", make, "beamfal")
-        self.refused(racebeam.UnknownGame, r"game \[1\]", make, [1])
-        self.refused(wrong, "^obs_type .*'text'", make, "beamfall", obs_type="text")
-        self.refused(
+        self.check_refusal(racebeam.UnknownGame, "game 'beamfal'.* beamfall", make, "beamfal")
+        self.check_refusal(racebeam.UnknownGame, r"game \[1\]", make, [1])
+        self.check_refusal(wrong, "^obs_type .*'text'", make, "beamfall", obs_type="text")
+        self.check_refusal(
             wrong, "render_mode is 'ansi'; it takes None, human, rgb_array", make, "beamfall", render_mode="ansi"
         )
-        self.refused(wrong, "frameskip has the type float", make, "beamfall", frameskip=4.0)
+        self.check_refusal(wrong, "frameskip has the type float", make, "beamfall", frameskip=4.0)
         for frameskip in (0, -1, (0, 3), (3, 3), (4, 3), (1, 2, 3), ()):
-            self.refused(wrong, "frameskip is", make, "beamfall", frameskip=frameskip)
-        self.refused(RuntimeError, "mode 7", make, "beamfall", mode=7)
-        self.refused(RuntimeError, "difficulty 9", make, "beamfall", difficulty=9)
-        self.refused(racebeam.InvalidInput, "preset 'dqn'", make, "beamfall", preset="dqn")
-        self.refused(racebeam.InvalidInput, r"preset \[1\]", make, "beamfall", preset=[1])
-        self.refused(racebeam.InvalidInput, "^rules .*5", make, "beamfall", rules=5)
+            self.check_refusal(wrong, "frameskip is", make, "beamfall", frameskip=frameskip)
+        self.check_refusal(RuntimeError, "mode 7", make, "beamfall", mode=7)
+        self.check_refusal(RuntimeError, "difficulty 9", make, "beamfall", difficulty=9)
+        self.check_refusal(racebeam.InvalidInput, "preset 'dqn'", make, "beamfall", preset="dqn")
+        self.check_refusal(racebeam.InvalidInput, r"preset \[1\]", make, "beamfall", preset=[1])
+        self.check_refusal(racebeam.InvalidInput, "^rules .*5", make, "beamfall", rules=5)
         for probability in (2, -0.5, "x", float("nan"), [0.5]):
-            self.refused(wrong, "repeat_action_probability is", make, "beamfall", repeat_action_probability=probability)
+            self.check_refusal(
+                wrong, "repeat_action_probability is", make, "beamfall", repeat_action_probability=probability
+            )
         for name, values in (
             ("mode", ("x", 1.0, -1, 2**40)),
             ("difficulty", ("x", -1)),
@@ -58,11 +60,11 @@ class BadInput(unittest.TestCase):
             ("timeout", ("x", 0, -1, float("nan"))),
         ):
             for value in values:
-                self.refused(wrong, f"{name} (is|has)", make, "beamfall", **{name: value})
+                self.check_refusal(wrong, f"{name} (is|has)", make, "beamfall", **{name: value})
         for name in ("frameskip", "max_num_frames_per_episode", "noop_max"):
             make("beamfall", **{name: np.int64(4)}).reset(seed=1)
         make("beamfall", frameskip=(np.int64(2), 5), mode=np.int32(0), difficulty=np.int64(1)).reset(seed=1)
-        self.refused(racebeam.InvalidInput, "beamfall has no mode for two", make, "beamfall", two_player=True)
+        self.check_refusal(racebeam.InvalidInput, "beamfall has no mode for two", make, "beamfall", two_player=True)
         for arguments, kind in (
             ({"frameskip": 0}, ValueError),
             ({"frameskip": (3, 3)}, ValueError),
@@ -78,9 +80,9 @@ class BadInput(unittest.TestCase):
             ({"two_player": True, "continuous": True}, ValueError),
         ):
             for also in (wrong, kind):
-                self.refused(also, next(iter(arguments)), make, "beamfall", **arguments)
+                self.check_refusal(also, next(iter(arguments)), make, "beamfall", **arguments)
         for flag in ("two_player", "continuous", "sound", "sound_obs", "life_loss_ends", "full_action_space"):
-            self.refused(
+            self.check_refusal(
                 wrong, f"{flag} is array.*; it takes True or False", make, "beamfall", **{flag: np.ones(2, bool)}
             )
 
@@ -88,9 +90,9 @@ class BadInput(unittest.TestCase):
         env = racebeam.AtariEnv("beamfall")
         env.reset(seed=1)
         for action in (18, -1, 10**30):
-            self.refused(IndexError, "^action ", env.step, action)
+            self.check_refusal(IndexError, "^action ", env.step, action)
         for action in (1.5, "FIRE", None, np.zeros(2)):
-            self.refused(TypeError, "", env.step, action)
+            self.check_refusal(TypeError, "", env.step, action)
         before = env.ale.getFrameNumber()
         for action in (3, np.int64(3), np.array(3), np.uint8(3), True):
             env.step(action)
@@ -107,19 +109,19 @@ class BadInput(unittest.TestCase):
             self.assertEqual(racebeam.ALEInterface.isSupportedROM(rom), "beamfall")
         for rom in (5, [1], env):
             for call in (lambda rom: racebeam.AtariEnv("beamfall", rom=rom), env.ale.loadROM, env.ale.isSupportedROM):
-                self.refused(TypeError, "^rom ", call, rom)
+                self.check_refusal(TypeError, "^rom ", call, rom)
         for rom, sentence in (
             (b"", "it is empty"),
             (b"x" * 600000, "larger than the largest image"),
             ("/nowhere/x.bin", "no such file"),
             ("/dev/zero", "image /dev/zero"),
         ):
-            self.refused(racebeam.InvalidInput, sentence, racebeam.AtariEnv, "beamfall", rom=rom)
+            self.check_refusal(racebeam.InvalidInput, sentence, racebeam.AtariEnv, "beamfall", rom=rom)
 
     def test_seeds(self):
         env = racebeam.AtariEnv("beamfall")
         for seed in (-1, 1.5, "x", np.int64(3)):
-            self.refused(gym.error.Error, "Seed must be", env.reset, seed=seed)
+            self.check_refusal(gym.error.Error, "Seed must be", env.reset, seed=seed)
         self.assertEqual(len(env.reset(seed=2**100)[1]["seeds"]), 2)
 
     def test_a_missing_image_says_where_was_looked(self):
@@ -166,16 +168,18 @@ class BadInput(unittest.TestCase):
                     image.write_bytes((HOMEBREW / f"{name}.bin").read_bytes())
                     self.assertEqual(images.find_all().get(game), expected)
                     if expected is None:
-                        self.refused(racebeam.MissingImage, "no file has an MD5 of the game", racebeam.find_image, game)
+                        self.check_refusal(
+                            racebeam.MissingImage, "no file has an MD5 of the game", racebeam.find_image, game
+                        )
                     else:
                         self.assertEqual(racebeam.find_image(game), expected)
 
     def test_what_counts_as_an_image_is_in_the_document(self):
-        told = re.search(
+        table = re.search(
             r"A file that ends in (.*?) is identified",
             (package.SOURCE / "docs/python/reference.md").read_text().replace("\n", " "),
         )[1]
-        self.assertEqual(told, "`.bin`, `.a26` or `.rom`, also with `.gz` after it,")
+        self.assertEqual(table, "`.bin`, `.a26` or `.rom`, also with `.gz` after it,")
         with tempfile.TemporaryDirectory() as folder:
             names = ("a.bin", "b.a26", "c.rom", "d.bin.gz", "e.BIN", "f", "g.foo", "h.bin.bak", "i.zip", "sub/j.bin")
             pathlib.Path(folder, "sub").mkdir()
@@ -210,7 +214,7 @@ class BadInput(unittest.TestCase):
             lambda: copy.deepcopy(env),
             lambda: pickle.dumps(env),
         ):
-            self.refused(gym.error.ClosedEnvironmentError, "was closed", call)
+            self.check_refusal(gym.error.ClosedEnvironmentError, "was closed", call)
         self.assertEqual(env.get_action_meanings(), ours.get_action_meanings())
 
     def test_states(self):
@@ -223,8 +227,10 @@ class BadInput(unittest.TestCase):
             (whole[:-9], ""),
             (whole + b"x", ""),
         ):
-            self.refused(racebeam.InvalidInput, sentence, lambda data=data: env.restore_state(racebeam.ALEState(data)))
-        self.refused(
+            self.check_refusal(
+                racebeam.InvalidInput, sentence, lambda data=data: env.restore_state(racebeam.ALEState(data))
+            )
+        self.check_refusal(
             racebeam.InvalidInput, "the state is of", racebeam.AtariEnv("updraft").restore_state, env.clone_state()
         )
         self.assertEqual(env.clone_state().serialize(), whole)

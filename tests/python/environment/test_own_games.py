@@ -29,7 +29,7 @@ DUMP = IMAGE[:UNUSED] + bytes([IMAGE[UNUSED] ^ 1]) + IMAGE[UNUSED + 1 :]
 ACTIONS = [1, 3, 3, 1, 4, 0, 5, 1] * 12
 
 
-def played(env):
+def play(env):
     env.reset(seed=3)
     return [(step[0].tobytes(), *step[1:4]) for step in (env.step(action % env.action_space.n) for action in ACTIONS)]
 
@@ -51,10 +51,10 @@ class Own(unittest.TestCase):
 
     def test_a_game_file_is_played_as_a_game_of_the_catalogue(self):
         with self.quiet():
-            own = racebeam.AtariEnv(game_file=self.file, rom=self.rom)
-        expected = played(racebeam.AtariEnv("beamfall"))
-        self.assertEqual(played(own), expected)
-        self.assertIn("my_game", repr(own))
+            env = racebeam.AtariEnv(game_file=self.file, rom=self.rom)
+        expected = play(racebeam.AtariEnv("beamfall"))
+        self.assertEqual(play(env), expected)
+        self.assertIn("my_game", repr(env))
         self.assertGreater(sum(step[1] for step in expected), 0)
 
     def test_copies_keep_their_game(self):
@@ -69,23 +69,23 @@ class Own(unittest.TestCase):
 
     def test_vectors_and_ids(self):
         expected = racebeam.AtariVectorEnv("beamfall", 2, seed=5)
-        own = racebeam.AtariVectorEnv(game_file=self.file, rom=self.rom, num_envs=2, seed=5)
+        own_envs = racebeam.AtariVectorEnv(game_file=self.file, rom=self.rom, num_envs=2, seed=5)
         env_id = racebeam.register(self.file, self.rom)
         self.assertEqual(env_id, "racebeam/MyGame-v5")
         self.addCleanup(gym.registry.pop, env_id)
-        made = gym.make_vec(env_id, num_envs=2, seed=5, preset="ale")
-        frames = [envs.reset()[0] for envs in (expected, own, made)]
+        registered = gym.make_vec(env_id, num_envs=2, seed=5, preset="ale")
+        frames = [envs.reset()[0] for envs in (expected, own_envs, registered)]
         for number in range(40):
             for frame in frames[1:]:
                 np.testing.assert_array_equal(frame, frames[0])
-            frames = [envs.step([number % 3, 1])[0] for envs in (expected, own, made)]
+            frames = [envs.step([number % 3, 1])[0] for envs in (expected, own_envs, registered)]
         self.assertEqual(gym.make(env_id).unwrapped._frameskip, 4)
 
     def test_an_unknown_image_plays_without_score(self):
-        env, known = racebeam.AtariEnv(rom=DUMP), racebeam.AtariEnv("beamfall", full_action_space=True)
-        env.reset(seed=3), known.reset(seed=3)
+        env, expected = racebeam.AtariEnv(rom=DUMP), racebeam.AtariEnv("beamfall", full_action_space=True)
+        env.reset(seed=3), expected.reset(seed=3)
         for action in ACTIONS:
-            step, other = env.step(action), known.step(action)
+            step, other = env.step(action), expected.step(action)
             np.testing.assert_array_equal(step[0], other[0])
             self.assertEqual(step[1:3], (0, False))
         envs = racebeam.AtariVectorEnv(rom=self.rom, num_envs=2)
@@ -150,9 +150,7 @@ class Own(unittest.TestCase):
             while not ready.exists():
                 time.sleep(0.01)
             address = f"unix:{self.folder}/s"
-            self.assertEqual(
-                played(racebeam.AtariEnv("my_game", server=address)), played(racebeam.AtariEnv("beamfall"))
-            )
+            self.assertEqual(play(racebeam.AtariEnv("my_game", server=address)), play(racebeam.AtariEnv("beamfall")))
             self.assertRaises(racebeam.UnknownGame, racebeam.AtariEnv, "my_gam", server=address)
             tall = racebeam.AtariEnv("my_game", server=address, height=220)
             self.assertEqual(tall.observation_space.shape[0], 220)

@@ -16,7 +16,7 @@ import numpy as np
 import racebeam
 
 
-def played(env, actions):
+def play(env, actions):
     """What some steps show, as comparable values."""
     return [(step[0].tobytes(), *step[1:]) for step in (env.step(action) for action in actions)]
 
@@ -28,58 +28,58 @@ class Playing(unittest.TestCase):
         self.actions = [int(action) for action in np.random.default_rng(5).integers(18, size=200)]
 
     def test_the_same_seed_is_the_same_game_and_another_is_not(self):
-        first = played(self.env, self.actions)
+        first = play(self.env, self.actions)
         self.env.reset(seed=11)
-        self.assertEqual(played(self.env, self.actions), first)
+        self.assertEqual(play(self.env, self.actions), first)
         self.env.reset(seed=12)
-        self.assertNotEqual(played(self.env, self.actions), first)
+        self.assertNotEqual(play(self.env, self.actions), first)
 
     def test_a_restored_state_shows_what_it_showed(self):
-        played(self.env, self.actions[:20])
+        play(self.env, self.actions[:20])
         seen, ram, info = self.env.ale.getScreenRGB(), self.env.ale.getRAM(), self.env._get_info()
         state = self.env.clone_state(include_rng=True)
-        first = played(self.env, self.actions)
+        first = play(self.env, self.actions)
         self.env.restore_state(state)
         self.assertEqual(self.env.ale.getScreenRGB().tobytes(), seen.tobytes())
         self.assertEqual(self.env.ale.getRAM().tobytes(), ram.tobytes())
         self.assertEqual(self.env._get_info(), info)
-        self.assertEqual(played(self.env, self.actions), first)
+        self.assertEqual(play(self.env, self.actions), first)
 
     def test_a_state_as_bytes_goes_to_another_environment(self):
-        played(self.env, self.actions[:20])
+        play(self.env, self.actions[:20])
         state = racebeam.ALEState(self.env.clone_state(include_rng=True).serialize())
-        first = played(self.env, self.actions)
+        first = play(self.env, self.actions)
         other = racebeam.AtariEnv("beamfall")
         other.reset(seed=99)
         other.restore_state(pickle.loads(pickle.dumps(state)))
-        self.assertEqual(played(other, self.actions), first)
+        self.assertEqual(play(other, self.actions), first)
 
     def test_copies_go_on_where_the_game_is(self):
-        played(self.env, self.actions[:30])
+        play(self.env, self.actions[:30])
         self.env.action_space.seed(3)
         copies = [
             copy.deepcopy(self.env),
             pickle.loads(pickle.dumps(self.env)),
             pickle.loads(pickle.dumps(gym.make("racebeam/Updraft-v5", frameskip=(2, 5)))),
         ]
-        first = played(self.env, self.actions), self.env.action_space.sample()
+        first = play(self.env, self.actions), self.env.action_space.sample()
         for env in copies[:2]:
-            self.assertEqual((played(env, self.actions), env.action_space.sample()), first)
+            self.assertEqual((play(env, self.actions), env.action_space.sample()), first)
         self.assertEqual(
-            played(copies[0].reset(seed=11) and copies[0], self.actions),
-            played(self.env.reset(seed=11) and self.env, self.actions),
+            play(copies[0].reset(seed=11) and copies[0], self.actions),
+            play(self.env.reset(seed=11) and self.env, self.actions),
         )
 
     def test_a_copy_draws_the_same_frameskips(self):
         env = racebeam.AtariEnv("updraft", frameskip=(2, 9))
         env.reset(seed=1)
         actions = [action % env.action_space.n for action in self.actions]
-        self.assertEqual(played(copy.deepcopy(env), actions), played(env, actions))
+        self.assertEqual(play(copy.deepcopy(env), actions), play(env, actions))
 
     def test_observations_are_the_callers_own(self):
         first = self.env.step(0)[0]
         before = first.copy()
-        played(self.env, self.actions[:20])
+        play(self.env, self.actions[:20])
         self.assertTrue(np.array_equal(first, before))
         first[:] = 7
         self.assertFalse(np.array_equal(self.env.ale.getScreenRGB(), first))
@@ -107,8 +107,8 @@ class Playing(unittest.TestCase):
             env = racebeam.AtariEnv("pong", two_player=True, repeat_action_probability=0.0)
             env.reset(seed=1)
             for _ in range(30):
-                seen = env.step((0, b))[0]
-            screens.append(seen.tobytes())
+                observation = env.step((0, b))[0]
+            screens.append(observation.tobytes())
         self.assertNotEqual(*screens)
 
     def test_a_mode_for_two_needs_two_players(self):
@@ -140,18 +140,18 @@ class Playing(unittest.TestCase):
     def test_presets_are_those_of_the_line_protocol(self):
         with racebeam.launch() as session:
             for name in ("paper2013", "dqn2015", "machado2018", "gym-v5"):
-                told = session.load("beamfall", preset=name)
+                settings = session.load("beamfall", preset=name)
                 env = racebeam.AtariEnv("beamfall", preset=name)
                 low, high = env._reward_range or ("none", "none")
                 self.assertEqual(
                     (
-                        told["frame_skip"],
-                        told["sticky"],
-                        told["max_episode_frames"],
-                        told["life_loss"],
-                        told["noop_max"],
-                        told["reward_min"],
-                        told["reward_max"],
+                        settings["frame_skip"],
+                        settings["sticky"],
+                        settings["max_episode_frames"],
+                        settings["life_loss"],
+                        settings["noop_max"],
+                        settings["reward_min"],
+                        settings["reward_max"],
                     ),
                     (
                         env._frameskip,
@@ -207,17 +207,17 @@ class Playing(unittest.TestCase):
     def test_sound_is_heard(self):
         env = racebeam.AtariEnv("beamfall", sound_obs=True)
         env.reset(seed=1)
-        heard = {env.step(1)[0]["sound"].tobytes() for _ in range(40)}
-        self.assertGreater(len(heard), 3)
+        sounds = {env.step(1)[0]["sound"].tobytes() for _ in range(40)}
+        self.assertGreater(len(sounds), 3)
 
     def test_a_long_step_is_one_step(self):
         whole, parts = (racebeam.AtariEnv("beamfall", frameskip=frames) for frames in (5000, 1))
         whole.reset(seed=2)
         parts.reset(seed=2)
-        seen = whole.step(1)
+        result = whole.step(1)
         reward = sum(parts.step(1)[1] for _ in range(5000))
         self.assertEqual(
-            (seen[0].tobytes(), seen[1], seen[4]), (parts.ale.getScreenRGB().tobytes(), reward, parts._get_info())
+            (result[0].tobytes(), result[1], result[4]), (parts.ale.getScreenRGB().tobytes(), reward, parts._get_info())
         )
 
 

@@ -24,14 +24,14 @@ from racebeam.single.record_log import COLUMNS
 
 def play_games(env, games, seed=None):
     """Plays at random until so many games are logged."""
-    random, left = np.random.default_rng(3), games
-    while left:
+    random, remaining = np.random.default_rng(3), games
+    while remaining:
         env.reset(seed=seed)
         over = False
         while not over:
             *_, terminated, truncated, _ = env.step(int(random.integers(env.action_space.n)))
             over = terminated or truncated
-        left -= env.unwrapped.ale.game_over()
+        remaining -= env.unwrapped.ale.game_over()
     return env
 
 
@@ -73,8 +73,10 @@ class Submissions(unittest.TestCase):
             with self.subTest(**arguments):
                 env = self.record(**arguments)
                 self.assertEqual((env.logged, env.unlogged), (2, 0))
-                status, told = self.verify()
-                self.assertEqual((status, told.split(";")[0]), (0, "2 rows confirmed, 0 wrong, 0 could not be checked"))
+                status, output = self.verify()
+                self.assertEqual(
+                    (status, output.split(";")[0]), (0, "2 rows confirmed, 0 wrong, 0 could not be checked")
+                )
                 self.assertIn(
                     f'preset = "{arguments.get("preset", "other")}"', (self.folder / "agent.toml").read_text()
                 )
@@ -97,14 +99,14 @@ class Submissions(unittest.TestCase):
         self.record(phrase="a headline of tomorrow")
         rows = self.rows()
         self.write_rows([rows[0] | {"score": str(int(rows[0]["score"]) + 1)}, rows[1]])
-        status, told = self.verify()
+        status, output = self.verify()
         self.assertEqual(status, 1)
-        self.assertRegex(told, "score is '.*'; its log has")
+        self.assertRegex(output, "score is '.*'; its log has")
         swapped = {"environment_seed": rows[1]["environment_seed"]}
         self.write_rows([rows[0] | swapped, rows[1]])
-        status, told = self.verify()
+        status, output = self.verify()
         self.assertEqual(status, 1)
-        self.assertIn("environment_seed", told)
+        self.assertIn("environment_seed", output)
 
     def test_an_action_that_was_changed_is_refused(self):
         start = Start("beamfall", 7, 4, max_episode_frames=400)
@@ -115,9 +117,9 @@ class Submissions(unittest.TestCase):
         (unit / "1.episode").write_bytes(log)
         (self.folder / "agent.toml").write_text('agent = "liar"\n')
         self.write_rows([{column: row[column] for column in COLUMNS.split(",")}])
-        status, told = self.verify()
-        self.assertEqual(status, 1, told)
-        self.assertIn("not confirmed", told)
+        status, output = self.verify()
+        self.assertEqual(status, 1, output)
+        self.assertIn("not confirmed", output)
 
     def test_episodes_that_cannot_be_repeated_have_no_log(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=200), self.folder)

@@ -39,8 +39,8 @@ class Window(unittest.TestCase):
             "    assert (a[0] == b[0]).all() and a[1:] == b[1:], (a[1:], b[1:])\n"
             "took = time.monotonic() - begin\n"
             "import pygame\n"
-            "shown = pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
-            "assert (shown == a[0]).all()\n"
+            "picture = pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
+            "assert (picture == a[0]).all()\n"
             "env.close()\n"
             "print(0.8 < took)"
         )
@@ -49,16 +49,16 @@ class Window(unittest.TestCase):
     def test_games_share_the_window_until_each_is_closed(self):
         self.check(
             "import copy, pygame, racebeam\n"
-            "def shown(): return pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
+            "def window(): return pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
             "games = [racebeam.AtariEnv(game, render_mode='human', sound=True) for game in ('beamfall', 'updraft')]\n"
             "games.append(copy.deepcopy(games[0]))\n"
             "for _ in range(2):\n"
             "    for game in games:\n"
-            "        assert (game.reset(seed=1)[0] == shown()).all()\n"
+            "        assert (game.reset(seed=1)[0] == window()).all()\n"
             "        print(pygame.display.get_caption()[0])\n"
             "for game in games[:2]:\n"
             "    game.close()\n"
-            "assert (games[2].step(1)[0] == shown()).all()\n"
+            "assert (games[2].step(1)[0] == window()).all()\n"
             "games[2].close()\n"
             "assert not pygame.display.get_init() and not pygame.mixer.get_init()\n"
             "games = [racebeam.AtariEnv('beamfall', render_mode='human') for _ in range(2)]\n"
@@ -117,7 +117,7 @@ class Window(unittest.TestCase):
     def test_a_person_sees_the_environments_of_a_vector(self):
         self.check(
             "import numpy as np, pygame, racebeam, time\n"
-            "def shown(): return pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
+            "def window(): return pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
             "envs = racebeam.AtariVectorEnv('beamfall', 3, seed=1, obs_type='rgb', stack_num=1, maxpool=False,\n"
             "    render_mode='human')\n"
             "envs.reset()\n"
@@ -126,7 +126,7 @@ class Window(unittest.TestCase):
             "    screens = envs.step([step, 1, 0])[0][:, 0]\n"
             "took = time.monotonic() - begin\n"
             "empty = np.zeros_like(screens[0])\n"
-            "assert (shown() == np.block([[[screens[0]], [screens[1]]], [[screens[2]], [empty]]])).all()\n"
+            "assert (window() == np.block([[[screens[0]], [screens[1]]], [[screens[2]], [empty]]])).all()\n"
             "print(pygame.display.get_caption()[0], 0.25 < took, envs.render())\n"
             "envs.close()\n"
             "print(pygame.display.get_init())\n",

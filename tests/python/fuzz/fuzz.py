@@ -177,10 +177,10 @@ POOL = {
 
 def arguments_of(table):
     """Some of the table, one in five of them senseless."""
-    chosen = {name: chance.choice(values) for name, values in table.items() if chance.random() < 0.4}
+    settings = {name: chance.choice(values) for name, values in table.items() if chance.random() < 0.4}
     if chance.random() < 0.2:
-        chosen[chance.choice(list(table))] = value()
-    return chosen
+        settings[chance.choice(list(table))] = value()
+    return settings
 
 
 def game():
@@ -274,7 +274,7 @@ def documented(act, *arguments):
 
 
 def round_of_calls(calls, failures):
-    kept = []
+    states = []
     thing = None
     for _ in range(calls):
         try:
@@ -286,13 +286,13 @@ def round_of_calls(calls, failures):
                 chance.choice(SERVERS.checks())()
             if thing is not None and not isinstance(thing, racebeam.Session) and chance.random() < 0.01:
                 thing = documented(lambda: pickle.loads(pickle.dumps(thing))) or thing
-            if kept and chance.random() < 0.01:
-                kept.append(pickle.loads(pickle.dumps(chance.choice(kept))))
+            if states and chance.random() < 0.01:
+                states.append(pickle.loads(pickle.dumps(chance.choice(states))))
             if thing is None:
                 continue
             if chance.random() < 0.05 and not isinstance(thing, racebeam.Session):
-                together(thing, kept, failures)
-            documented(call, thing, kept)
+                together(thing, states, failures)
+            documented(call, thing, states)
         except Exception:
             failures.append(traceback.format_exc())
             return

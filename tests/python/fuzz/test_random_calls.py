@@ -100,7 +100,7 @@ def is_too_long(method, arguments):
 def run():
     """How many calls returned, and how many were refused."""
     ale, states = racebeam.ALEInterface(), []
-    returned = refused = 0
+    returned = refusals = 0
     for call in range(options.calls):
         method = chance.choice(METHODS)
         arguments = arguments_of(method, states)
@@ -110,7 +110,7 @@ def run():
             value = getattr(ale, method)(*arguments)
             returned += 1
         except DOCUMENTED:
-            refused += 1
+            refusals += 1
             continue
         if isinstance(value, racebeam.ALEState):
             states = [
@@ -119,7 +119,7 @@ def run():
             ]
         if call % 50 == 0:
             ale = pickle.loads(pickle.dumps(ale))
-    return returned, refused
+    return returned, refusals
 
 
 for seed in range(options.seed, options.seed + options.runs):

@@ -81,12 +81,12 @@ SENSELESS = [
 ]
 
 
-def made():
+def make():
     """New environments, with an argument in five senseless."""
-    chosen = {name: chance.choice(values) for name, values in ARGUMENTS.items() if chance.random() < 0.4}
+    settings = {name: chance.choice(values) for name, values in ARGUMENTS.items() if chance.random() < 0.4}
     if chance.random() < 0.2:
-        chosen[chance.choice(list(ARGUMENTS))] = chance.choice(SENSELESS)
-    return AtariVectorEnv(chance.choice(["beamfall", "updraft"]), **chosen)
+        settings[chance.choice(list(ARGUMENTS))] = chance.choice(SENSELESS)
+    return AtariVectorEnv(chance.choice(["beamfall", "updraft"]), **settings)
 
 
 def sensible_call(envs, states):
@@ -107,29 +107,29 @@ def sensible_call(envs, states):
 
 def run():
     """How many calls returned, and how many were refused."""
-    returned = refused = 0
+    returned = refusals = 0
     envs, states = None, []
     for _ in range(options.calls):
         try:
             if envs is None or chance.random() < 0.03:
-                envs = made()
+                envs = make()
             method, arguments = sensible_call(envs, states)
-            named = {}
+            keywords = {}
             if chance.random() < 0.3:
                 arguments = [chance.choice(SENSELESS) for _ in arguments]
-                named = {
+                keywords = {
                     name: chance.choice(SENSELESS)
                     for name in ("seed", "options", "out")
                     if method == "reset" and chance.random() < 0.5
                 }
-            value = getattr(envs, method)(*arguments, **named)
+            value = getattr(envs, method)(*arguments, **keywords)
             returned += 1
         except DOCUMENTED:
-            refused += 1
+            refusals += 1
             continue
         if method == "save":
             states = [*states[-8:], value]
-    return returned, refused
+    return returned, refusals
 
 
 for seed in range(options.seed, options.seed + options.runs):

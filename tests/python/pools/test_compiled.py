@@ -32,16 +32,16 @@ class Compiled(unittest.TestCase):
                     handle, recv, send, step = envs.xla()
                     envs.async_reset()
                     others.async_reset()
-                    handle, shown = recv(handle)
-                    self.same(shown, others.recv())
+                    handle, result = recv(handle)
+                    self.same(result, others.recv())
                     compiled = jax.jit(step)
                     for number in range(40):
                         actions = np.array([number % 18, 1, 3], np.int32)
-                        handle, shown = compiled(handle, actions)
-                        self.same(shown, others.step(actions))
+                        handle, result = compiled(handle, actions)
+                        self.same(result, others.step(actions))
                     ids = np.array([2, 0, 1], np.int32)
-                    handle, shown = step(handle, {"action": actions, "env_id": ids})
-                    self.same(shown, others.step(actions, ids))
+                    handle, result = step(handle, {"action": actions, "env_id": ids})
+                    self.same(result, others.step(actions, ids))
 
     def same(self, compiled, shown):
         import jax

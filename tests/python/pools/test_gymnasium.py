@@ -33,14 +33,16 @@ class Gymnasium(unittest.TestCase):
     def test_shapes_and_types(self):
         envs = make()
         self.assertIsInstance(envs, gymnasium.vector.VectorEnv)
-        seen, info = envs.reset()
-        shown = envs.step(np.zeros(3, int))
-        for one in (seen, shown[0]):
+        observations, info = envs.reset()
+        result = envs.step(np.zeros(3, int))
+        for one in (observations, result[0]):
             self.assertEqual((one.dtype, one.shape), (np.uint8, (3, 4, 84, 84)))
-        self.assertEqual([value.dtype for value in shown[1:4]], [np.float32, bool, bool])
-        for told in (info, shown[4]):
-            self.assertEqual({key: None if key == "players" else str(value.dtype) for key, value in told.items()}, INFO)
-            self.assertEqual(told["ram"].shape, (3, 128))
+        self.assertEqual([value.dtype for value in result[1:4]], [np.float32, bool, bool])
+        for infos in (info, result[4]):
+            self.assertEqual(
+                {key: None if key == "players" else str(value.dtype) for key, value in infos.items()}, INFO
+            )
+            self.assertEqual(infos["ram"].shape, (3, 128))
         self.assertEqual((envs.observation_space.shape, envs.action_space.n), ((4, 84, 84), 18))
         self.assertEqual((len(envs), envs.is_async, envs.all_env_ids.tolist()), (3, False, [0, 1, 2]))
         self.assertEqual(envs.render([0, 2]).shape, (2, 210, 160, 3))
@@ -48,14 +50,14 @@ class Gymnasium(unittest.TestCase):
     @unittest.skipUnless(HAS_VECTORS, "AtariVectorEnv needs Gymnasium 1.1")
     def test_colours_are_channels(self):
         grey, coloured = make(), make(gray_scale=False)
-        seen = coloured.reset()[0]
-        self.assertEqual((seen.shape, coloured.observation_space.shape), ((3, 12, 84, 84), (12, 84, 84)))
-        self.assertTrue(np.array_equal(seen[:, :3], seen[:, 9:]))
+        observations = coloured.reset()[0]
+        self.assertEqual((observations.shape, coloured.observation_space.shape), ((3, 12, 84, 84), (12, 84, 84)))
+        self.assertTrue(np.array_equal(observations[:, :3], observations[:, 9:]))
         whole = racebeam.AtariVectorEnv("beamfall", 3, grayscale=False, start="noops-fire", stack_start="repeats")
         expected = whole.reset(seed=42)[0]
         self.assertTrue(
             all(
-                np.array_equal(seen[:, 3 * frame + colour], expected[:, frame, :, :, colour])
+                np.array_equal(observations[:, 3 * frame + colour], expected[:, frame, :, :, colour])
                 for frame in range(4)
                 for colour in range(3)
             )
@@ -85,25 +87,25 @@ class Gymnasium(unittest.TestCase):
     def test_a_limit_and_the_steps_so_far(self):
         envs = make(max_episode_steps=5)
         envs.reset()
-        shown = [envs.step(np.zeros(3, int)) for _ in range(8)]
-        self.assertEqual([int(one[4]["elapsed_step"][0]) for one in shown], [1, 2, 3, 4, 5, 0, 1, 2])
-        self.assertEqual([bool(one[3][0]) for one in shown], [False] * 4 + [True] + [False] * 3)
-        self.assertFalse(any(one[2].any() for one in shown))
+        results = [envs.step(np.zeros(3, int)) for _ in range(8)]
+        self.assertEqual([int(one[4]["elapsed_step"][0]) for one in results], [1, 2, 3, 4, 5, 0, 1, 2])
+        self.assertEqual([bool(one[3][0]) for one in results], [False] * 4 + [True] + [False] * 3)
+        self.assertFalse(any(one[2].any() for one in results))
 
     def test_a_lost_life_ends_the_episode_and_not_the_game(self):
         envs = make(episodic_life=True, frame_skip=60, reward_clip=True)
         envs.reset()
-        shown = [envs.step(np.ones(3, int)) for _ in range(80)]
-        done = np.array([one[2] for one in shown])
-        over = np.array([one[4]["terminated"] for one in shown])
-        steps = np.array([one[4]["elapsed_step"] for one in shown])
+        results = [envs.step(np.ones(3, int)) for _ in range(80)]
+        done = np.array([one[2] for one in results])
+        over = np.array([one[4]["terminated"] for one in results])
+        steps = np.array([one[4]["elapsed_step"] for one in results])
         self.assertGreater(done.sum(), over.sum())
         self.assertGreater(over.sum(), 0)
         for env in range(3):
             for step in np.flatnonzero(done[:-1, env]):
                 self.assertEqual(steps[step + 1, env], 0 if over[step, env] else steps[step, env])
-        raw = np.array([one[4]["reward"] for one in shown])
-        self.assertTrue(np.array_equal(np.clip(raw, -1, 1), [one[1] for one in shown]))
+        raw = np.array([one[4]["reward"] for one in results])
+        self.assertTrue(np.array_equal(np.clip(raw, -1, 1), [one[1] for one in results]))
         self.assertGreater(raw.max(), 1)
 
     def test_a_reset_of_some(self):
@@ -178,26 +180,26 @@ class Gymnasium(unittest.TestCase):
         for one in (envs, others):
             one.reset()
         for _ in range(10):
-            seen = envs.step(np.array([1, 3, 4]))[0]
+            observations = envs.step(np.array([1, 3, 4]))[0]
             expected, *_, info = others.step(
                 {"action": np.array([4, 1, 3], np.int32), "env_id": np.array([2, 0, 1], np.int32)}
             )
             self.assertEqual(info["env_id"].tolist(), [2, 0, 1])  # results are in this order, too
-            self.assertTrue(np.array_equal(seen[[2, 0, 1]], expected))
+            self.assertTrue(np.array_equal(observations[[2, 0, 1]], expected))
 
     def test_a_step_of_some(self):
         envs, others = make(episodic_life=True, frame_skip=60), make(episodic_life=True, frame_skip=60)
         for _step in range(30):
             seen, *whole, info = envs.step(np.array([1, 3, 4]))
             for ids in ([1], [2, 0]):
-                part, *rest, told = others.step(
+                part, *rest, infos = others.step(
                     np.array([[1, 3, 4][env] for env in ids], np.int32), np.array(ids, np.int32)
                 )
                 self.assertTrue(np.array_equal(part, seen[ids]))
                 self.assertEqual([one.tolist() for one in rest], [one[ids].tolist() for one in whole])
-                self.assertEqual((told["env_id"].tolist(), told["players"]["env_id"].tolist()), (ids, ids))
+                self.assertEqual((infos["env_id"].tolist(), infos["players"]["env_id"].tolist()), (ids, ids))
                 for key in set(INFO) - {"env_id", "players"}:
-                    self.assertTrue(np.array_equal(told[key], info[key][ids]), key)
+                    self.assertTrue(np.array_equal(infos[key], info[key][ids]), key)
         others.send(np.zeros(2, np.int32), np.array([2, 1]))
         others.send(np.zeros(1, np.int32), np.array([0]))
         self.assertEqual(others.recv()[4]["env_id"].tolist(), [2, 1, 0])
@@ -205,11 +207,11 @@ class Gymnasium(unittest.TestCase):
 
     def test_the_first_step_of_each_is_its_reset(self):
         envs, others = make(), make()
-        seen = others.reset()[0]
-        self.assertTrue(np.array_equal(envs.reset(np.array([1]))[0], seen[[1]]))
+        observations = others.reset()[0]
+        self.assertTrue(np.array_equal(envs.reset(np.array([1]))[0], observations[[1]]))
         shown, *_, info = envs.step(np.ones(3, np.int32))
         self.assertEqual(info["elapsed_step"].tolist(), [0, 1, 0])
-        self.assertTrue(np.array_equal(shown[[0, 2]], seen[[0, 2]]))
+        self.assertTrue(np.array_equal(shown[[0, 2]], observations[[0, 2]]))
 
     def test_a_reset_after_a_lost_life_is_a_new_game(self):
         envs = make(episodic_life=True, frame_skip=60, num_envs=1)
@@ -224,9 +226,9 @@ class Gymnasium(unittest.TestCase):
         self.assertEqual((info["lives"][0], info["elapsed_step"][0]), (lives, 0))
 
     def test_negative_seeds(self):
-        seen = [make(seed=seed).reset()[0] for seed in (-1, [-1, 0, 1], [2**31 - 1, 0, 1])]
-        self.assertTrue(np.array_equal(seen[0], seen[1]))
-        self.assertTrue(np.array_equal(seen[1][1:], seen[2][1:]))
+        observations = [make(seed=seed).reset()[0] for seed in (-1, [-1, 0, 1], [2**31 - 1, 0, 1])]
+        self.assertTrue(np.array_equal(observations[0], observations[1]))
+        self.assertTrue(np.array_equal(observations[1][1:], observations[2][1:]))
 
 
 class OldGymnasium(unittest.TestCase):

@@ -137,14 +137,14 @@ class Spec(unittest.TestCase):
 
     def test_what_is_made_fits(self):
         envs = make("dm")
-        shown = envs.reset()
+        result = envs.reset()
         names = {name.removeprefix("info:"): array for name, array in envs.spec.state_array_spec.items()}
         for name, array in names.items():
             value = {
-                "players.env_id": shown.observation.players.env_id,
-                "step_type": shown.step_type,
-                "discount": shown.discount,
-            }.get(name, getattr(shown.observation, name, None))
+                "players.env_id": result.observation.players.env_id,
+                "step_type": result.step_type,
+                "discount": result.discount,
+            }.get(name, getattr(result.observation, name, None))
             if value is not None:
                 self.assertEqual(
                     (value.dtype, value.shape[1:]),
@@ -158,12 +158,12 @@ class Spec(unittest.TestCase):
 
         envs = make("dm")
         self.assertEqual(envs.action_spec(), specs.DiscreteArray(18, np.int32, "action"))
-        seen = envs.observation_spec()
-        shown = envs.reset().observation
+        spec = envs.observation_spec()
+        observation = envs.reset().observation
         for name in ("obs", "lives", "reward", "terminated", "ram"):
-            getattr(seen, name).validate(getattr(shown, name)[0])
-        seen.players.env_id.validate(shown.players.env_id[0])
-        self.assertIsInstance(seen.terminated, specs.DiscreteArray)
+            getattr(spec, name).validate(getattr(observation, name)[0])
+        spec.players.env_id.validate(observation.players.env_id[0])
+        self.assertIsInstance(spec.terminated, specs.DiscreteArray)
 
     def test_bad_input_is_refused(self):
         self.assertRaises(racebeam.UnknownGame, envpool.make_spec, "Nope-v5")

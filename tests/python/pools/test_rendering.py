@@ -50,9 +50,9 @@ class Rendering(unittest.TestCase):
         envs = envpool.make_gymnasium(
             "AirRaid-v5", gray_scale=False, stack_num=1, img_height=210, img_width=160, use_inter_area_resize=False
         )
-        seen = envs.reset()[0]
+        observations = envs.reset()[0]
         self.assertEqual(envs.render().shape, (1, 210, 160, 3))
-        self.assertTrue(np.array_equal(seen[0].transpose(1, 2, 0), envs.render()[0]))
+        self.assertTrue(np.array_equal(observations[0].transpose(1, 2, 0), envs.render()[0]))
         self.assertEqual(racebeam.AtariVectorEnv("air_raid", 1, obs_type="rgb").reset()[0].shape, (1, 4, 250, 160, 3))
 
     def test_render_returns_the_chosen_environment(self):

@@ -42,16 +42,16 @@ class Others(unittest.TestCase):
 
     def test_time_steps_of_dm(self):
         envs = make("dm", max_episode_steps=2)
-        shown = [envs.reset(), *(envs.step(np.zeros(3, int)) for _ in range(3))]
-        self.assertEqual([one.step_type.tolist() for one in shown], [[0] * 3, [1] * 3, [2] * 3, [0] * 3])
-        self.assertEqual([one.discount.tolist() for one in shown], [[1] * 3, [1] * 3, [0] * 3, [1] * 3])
-        self.assertEqual(shown[0].observation.obs.shape, (3, 4, 84, 84))
+        results = [envs.reset(), *(envs.step(np.zeros(3, int)) for _ in range(3))]
+        self.assertEqual([one.step_type.tolist() for one in results], [[0] * 3, [1] * 3, [2] * 3, [0] * 3])
+        self.assertEqual([one.discount.tolist() for one in results], [[1] * 3, [1] * 3, [0] * 3, [1] * 3])
+        self.assertEqual(results[0].observation.obs.shape, (3, 4, 84, 84))
         self.assertEqual(
-            [[one.first().tolist(), one.mid().tolist(), one.last().tolist()] for one in shown[:3]],
+            [[one.first().tolist(), one.mid().tolist(), one.last().tolist()] for one in results[:3]],
             [[[part == kind] * 3 for part in range(3)] for kind in range(3)],
         )
         self.assertEqual(
-            shown[0].observation._fields, ("env_id", "players", "obs", "lives", "reward", "terminated", "ram")
+            results[0].observation._fields, ("env_id", "players", "obs", "lives", "reward", "terminated", "ram")
         )
 
     def test_actions_of_other_types(self):
@@ -73,11 +73,11 @@ class Others(unittest.TestCase):
             (np.full(3, -0.5), 0),
             (np.full(3, 3.0, np.float32), 3),
         ):
-            shown = [
+            results = [
                 [envs.step(action)[4]["ram"] for _ in range(9)]
                 for envs, action in ((make(), cut), (make(), np.full(3, whole)))
             ]
-            self.assertTrue(np.array_equal(*shown))
+            self.assertTrue(np.array_equal(*results))
 
     def test_they_are_closed_at_the_end_of_a_block(self):
         for env_type in ("gymnasium", "gym", "dm"):

@@ -68,8 +68,8 @@ class Options(unittest.TestCase):
         self.assertRaisesRegex(Error, "batch_size is 5", dataclasses.replace, options, batch_size=5)
 
     def test_the_constructor_takes_each_of_them(self):
-        taken = set(inspect.signature(AtariVectorEnv).parameters)
-        self.assertEqual({field.name for field in dataclasses.fields(VectorOptions)} - taken, {"rows"})
+        arguments = set(inspect.signature(AtariVectorEnv).parameters)
+        self.assertEqual({field.name for field in dataclasses.fields(VectorOptions)} - arguments, {"rows"})
 
     def test_the_core_has_what_they_say(self):
         core = VectorOptions(

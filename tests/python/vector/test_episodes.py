@@ -19,9 +19,11 @@ from vectors import SHORT, play, same
 class Seeds(unittest.TestCase):
     def test_a_seed_decides_everything(self):
         envs = AtariVectorEnv("beamfall", 3, repeat_action_probability=0.25)
-        shown = [(envs.reset(seed=seed), *play(envs, 30)) for seed in (3, np.int64(3), [3, 4, 5], np.array([3, 4, 6]))]
-        self.assertTrue(same(shown[0], shown[1]) and same(shown[0], shown[2]))
-        last, other = shown[0][-1][0], shown[3][-1][0]
+        results = [
+            (envs.reset(seed=seed), *play(envs, 30)) for seed in (3, np.int64(3), [3, 4, 5], np.array([3, 4, 6]))
+        ]
+        self.assertTrue(same(results[0], results[1]) and same(results[0], results[2]))
+        last, other = results[0][-1][0], results[3][-1][0]
         self.assertTrue(np.array_equal(last[:2], other[:2]))
         self.assertFalse(np.array_equal(last[2], other[2]))
 
@@ -63,11 +65,11 @@ class Episodes(unittest.TestCase):
         for mode in ("NextStep", "SAME_STEP", AutoresetMode.DISABLED):
             envs = AtariVectorEnv("beamfall", 2, autoreset_mode=mode, **SHORT)
             envs.reset(seed=2)
-            shown = play(envs, 5)
+            results = play(envs, 5)
             kind = envs.metadata["autoreset_mode"]
             self.assertIsInstance(kind, AutoresetMode)
             self.assertEqual(
-                [int(one[3][0]) for one in shown],
+                [int(one[3][0]) for one in results],
                 [
                     0,
                     0,
@@ -77,10 +79,10 @@ class Episodes(unittest.TestCase):
                     ],
                 ],
             )
-            frames = [int(one[4]["episode_frame_number"][0]) for one in shown]
+            frames = [int(one[4]["episode_frame_number"][0]) for one in results]
             self.assertEqual(frames[3] == frames[2], kind is AutoresetMode.DISABLED)
-            self.assertEqual("final_obs" in shown[2][4], kind is AutoresetMode.SAME_STEP)
-            self.assertFalse(any("final_obs" in shown[step][4] for step in (0, 1, 3, 4)))
+            self.assertEqual("final_obs" in results[2][4], kind is AutoresetMode.SAME_STEP)
+            self.assertFalse(any("final_obs" in results[step][4] for step in (0, 1, 3, 4)))
         self.assertNotIn("autoreset_mode", VectorEnv.metadata)
 
     def test_final_observations_are_those_of_the_episode_that_ended(self):
@@ -136,11 +138,11 @@ class Episodes(unittest.TestCase):
     def test_the_info_has_unclipped_rewards_and_true_ends(self):
         envs = AtariVectorEnv("beamfall", 2, frameskip=60, life_loss="end")
         envs.reset(seed=1)
-        shown = [envs.step([1, 1]) for _ in range(60)]
-        raw = np.array([one[4]["raw_reward"] for one in shown])
-        self.assertTrue(np.array_equal(np.clip(raw, -1, 1), [one[1] for one in shown]))
+        results = [envs.step([1, 1]) for _ in range(60)]
+        raw = np.array([one[4]["raw_reward"] for one in results])
+        self.assertTrue(np.array_equal(np.clip(raw, -1, 1), [one[1] for one in results]))
         self.assertGreater(raw.max(), 1)
-        ends, games = (np.array(one) for one in zip(*((one[2], one[4]["game_over"]) for one in shown)))
+        ends, games = (np.array(one) for one in zip(*((one[2], one[4]["game_over"]) for one in results)))
         self.assertGreater(games.sum(), 0)
         self.assertGreater(ends.sum(), games.sum())
 
@@ -149,9 +151,9 @@ class Episodes(unittest.TestCase):
         for lives in ("ignored", "reported", "end", "restart"):
             envs = AtariVectorEnv("beamfall", 1, frameskip=60, life_loss=lives, noop_max=0)
             envs.reset(seed=1)
-            shown = [envs.step([1]) for _ in range(40)]
-            first = next(step for step, one in enumerate(shown) if one[2][0])
-            frames[lives] = [int(one[4]["lives"][0]) for one in shown[first : first + 2]]
+            results = [envs.step([1]) for _ in range(40)]
+            first = next(step for step, one in enumerate(results) if one[2][0])
+            frames[lives] = [int(one[4]["lives"][0]) for one in results[first : first + 2]]
         self.assertEqual(
             {lives: after for lives, (_, after) in frames.items()},
             {"ignored": 4, "reported": 3, "end": 3, "restart": 4},
@@ -167,8 +169,8 @@ class Episodes(unittest.TestCase):
 
     def test_several_games(self):
         envs = AtariVectorEnv(["beamfall", "updraft", "beamfall"], full_action_space=True, seed=1)
-        alone = AtariVectorEnv("updraft", 3, full_action_space=True, seed=1)
-        together, expected = play(envs, 10), play(alone, 10)
+        single = AtariVectorEnv("updraft", 3, full_action_space=True, seed=1)
+        together, expected = play(envs, 10), play(single, 10)
         self.assertTrue(all(np.array_equal(one[0][1], other[0][1]) for one, other in zip(together, expected)))
         self.assertFalse(np.array_equal(together[-1][0][0], together[-1][0][1]))
         for arguments in ((["beamfall", "updraft"], 3), ([],)):

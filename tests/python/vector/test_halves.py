@@ -19,9 +19,9 @@ class Halves(unittest.TestCase):
         together, envs = AtariVectorEnv("beamfall", 4), AtariVectorEnv("beamfall", 4, batch_size=2, num_threads=2)
         expected = [[together.reset(seed=1)[0][env]] for env in range(4)]
         for step in range(20):
-            seen = together.step(np.full(4, step % 3))[0]
+            observations_of_all = together.step(np.full(4, step % 3))[0]
             for env in range(4):
-                expected[env].append(seen[env])
+                expected[env].append(observations_of_all[env])
         steps = [0] * 4
 
         def check(observations, info):

@@ -19,10 +19,10 @@ from vectors import play
 class Observations(unittest.TestCase):
     def test_they_are_the_callers_own(self):
         envs = AtariVectorEnv("beamfall", 2)
-        shown = [envs.reset(seed=1)[0], envs.step(np.zeros(2, int))[0]]
-        before = [one.copy() for one in shown]
+        observations = [envs.reset(seed=1)[0], envs.step(np.zeros(2, int))[0]]
+        before = [one.copy() for one in observations]
         play(envs, 20)
-        self.assertTrue(all(map(np.array_equal, shown, before)))
+        self.assertTrue(all(map(np.array_equal, observations, before)))
 
     def test_infos_are_the_callers_own_too(self):
         envs = AtariVectorEnv("beamfall", 4, batch_size=2, seed=1)
@@ -72,8 +72,8 @@ class Observations(unittest.TestCase):
             env.load_game()
             env.ale.reset_game()
             for action in (1, 3, 4, 0, 1):
-                seen = envs.step([action])[0].reshape(env.observation_space.shape)
-                self.assertTrue(np.array_equal(seen, env.step(action)[0]), kind)
+                observation = envs.step([action])[0].reshape(env.observation_space.shape)
+                self.assertTrue(np.array_equal(observation, env.step(action)[0]), kind)
 
     def test_the_sound_is_that_of_AtariEnv(self):
         settings = {"obs_type": "ram", "sound_obs": True}
@@ -84,15 +84,15 @@ class Observations(unittest.TestCase):
         env.ale.setInt("random_seed", 3)
         env.load_game()
         env.ale.reset_game()
-        heard = set()
+        sounds = set()
         for step in range(60):
             self.assertIn(seen, envs.observation_space)
             self.assertEqual({name: part.shape for name, part in seen.items()}, {"image": (2, 128), "sound": (2, 512)})
             seen, single = envs.step([1, 0])[0], env.step(1)[0]
             for name, part in single.items():
                 self.assertTrue(np.array_equal(seen[name][0], part), (name, step))
-            heard.add(seen["sound"][0].tobytes())
-        self.assertGreater(len(heard), 5)
+            sounds.add(seen["sound"][0].tobytes())
+        self.assertGreater(len(sounds), 5)
         self.assertTrue(np.array_equal(envs.show()[0]["sound"], seen["sound"]))
 
     def test_the_sound_of_some_environments(self):
@@ -112,10 +112,12 @@ class Observations(unittest.TestCase):
             full = AtariVectorEnv("beamfall", 2, obs_type="rgb", stack_num=1, maxpool=False)
             for one in (envs, full):
                 one.reset(seed=1)
-            shown = [play(one, 7)[-1][0] for one in (envs, full)]
+            observations = [play(one, 7)[-1][0] for one in (envs, full)]
             pictures = envs.render()
             self.assertEqual(len(pictures), 2)
-            self.assertTrue(all(np.array_equal(picture, seen[0]) for picture, seen in zip(pictures, shown[1])))
+            self.assertTrue(
+                all(np.array_equal(picture, observation[0]) for picture, observation in zip(pictures, observations[1]))
+            )
         with self.assertRaisesRegex(Error, "render_mode"):
             full.render()
 

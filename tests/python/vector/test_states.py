@@ -19,11 +19,11 @@ from vectors import play, same
 class States(unittest.TestCase):
     def test_an_image_is_given_as_bytes_of_any_kind(self):
         image = (package.SOURCE / "games/homebrew/beamfall.bin").read_bytes()
-        shown = [
+        results = [
             AtariVectorEnv("beamfall", 1, rom=rom).reset(seed=1)[0]
             for rom in (image, bytearray(image), memoryview(image))
         ]
-        self.assertTrue(np.array_equal(shown[0], shown[1]) and np.array_equal(shown[0], shown[2]))
+        self.assertTrue(np.array_equal(results[0], results[1]) and np.array_equal(results[0], results[2]))
         self.assertRaisesRegex(TypeError, "^rom .* int", AtariVectorEnv, "beamfall", 1, rom=3)
 
     def test_one_environment_goes_back(self):
@@ -32,8 +32,8 @@ class States(unittest.TestCase):
         state = envs.save(1)
         first = play(envs, 20)
         envs.restore(1, state)
-        seen = envs.show()[0]
-        self.assertTrue(np.array_equal(seen[1], before[1]) and np.array_equal(seen[0], first[-1][0][0]))
+        observations = envs.show()[0]
+        self.assertTrue(np.array_equal(observations[1], before[1]) and np.array_equal(observations[0], first[-1][0][0]))
         second = play(envs, 20)
         self.assertTrue(
             all(
@@ -72,14 +72,14 @@ class States(unittest.TestCase):
                 states = [envs.save(env) for env in range(2)]
 
                 def on():
-                    shown = []
+                    results = []
                     for step in range(100):
-                        shown.append(envs.step([step % 4, 1]))
-                        ended = shown[-1][2] | shown[-1][3]
-                        if mode == "Disabled" and ended.any():
-                            observations, info = envs.reset(options={"reset_mask": ended})
-                            shown.append((observations, info))
-                    return shown
+                        results.append(envs.step([step % 4, 1]))
+                        ends = results[-1][2] | results[-1][3]
+                        if mode == "Disabled" and ends.any():
+                            observations, info = envs.reset(options={"reset_mask": ends})
+                            results.append((observations, info))
+                    return results
 
                 first = on()
                 for env in range(2):

@@ -15,6 +15,6 @@ def same(one, other):
     """Whether two lists of what was shown are equal, their infos included."""
     return all(
         np.array_equal(a, b)
-        for shown, expected in zip(one, other)
-        for a, b in zip([*shown[:-1], *shown[-1].values()], [*expected[:-1], *expected[-1].values()])
+        for found, expected in zip(one, other)
+        for a, b in zip([*found[:-1], *found[-1].values()], [*expected[:-1], *expected[-1].values()])
     )

@@ -68,11 +68,11 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
         self.assertIn("reward", after[0])
 
     async def test_a_request_that_is_cancelled_leaves_the_others(self):
-        given_up, kept = (asyncio.create_task(self.session.request("act", action)) for action in ("0*3000", "1"))
+        cancelled, waiting = (asyncio.create_task(self.session.request("act", action)) for action in ("0*3000", "1"))
         await asyncio.sleep(0)
-        given_up.cancel()
-        self.assertIn("reward", (await kept)[0])
-        self.assertTrue(given_up.cancelled())
+        cancelled.cancel()
+        self.assertIn("reward", (await waiting)[0])
+        self.assertTrue(cancelled.cancelled())
 
     async def test_a_request_that_is_cut_off_ends_the_session(self):
         with unittest.mock.patch.object(asyncio, "get_running_loop", side_effect=KeyboardInterrupt):  # after it is sent
@@ -125,7 +125,7 @@ class Ends(unittest.IsolatedAsyncioTestCase):
                     await session.request("look", "ram:raw")
 
     async def test_a_server_that_goes_is_a_ConnectionError(self):
-        for said in (
+        for greeting in (
             b"",
             b"ok ram=12",
             b"ok ram=4 raw=4\nab",
@@ -135,8 +135,8 @@ class Ends(unittest.IsolatedAsyncioTestCase):
             b"ok ram=1 raw=3\nabc",
             b"ok ram=1 raw=99999999999\n",
         ):
-            with self.subTest(said=said):
-                await self.check(said, ConnectionError, "has ended")
+            with self.subTest(said=greeting):
+                await self.check(greeting, ConnectionError, "has ended")
 
     async def test_a_line_that_is_too_long_is_one_too(self):
         await self.check(b"ok " + b"x" * 5000, ConnectionError, "has ended", longest_reply=1000)

@@ -30,14 +30,14 @@ class Interrupt:
     anywhere."""
 
     def __init__(self, after):
-        self.left, self.is_raised = after, False
+        self.remaining, self.is_raised = after, False
 
     def __call__(self, frame, event, _):
         if not frame.f_code.co_filename.startswith(WIRE):
             return None
         if event == "line" and not self._is_of_a_block(frame):
-            self.left -= 1
-            if self.left < 0:
+            self.remaining -= 1
+            if self.remaining < 0:
                 self.is_raised = True
                 raise KeyboardInterrupt
         return self
@@ -56,7 +56,7 @@ class Interrupt:
         return self.is_raised
 
 
-def shown(result):
+def contents_of(result):
     """What reset() or step() returned, as comparable values."""
     observation, *rest = result
     return observation.tobytes(), str(rest)
@@ -68,22 +68,22 @@ class Interrupted(unittest.TestCase):
         asked."""
         here = make(None)
         here.reset(seed=1)
-        expected = shown(here.reset(seed=5))
-        ended = answered = 0
+        expected = contents_of(here.reset(seed=5))
+        ends = answered = 0
         while True:
             there = make(self.address)
             there.reset(seed=1)
             there.step(act)
-            if not Interrupt(ended + answered).within(lambda: there.step(act)):
+            if not Interrupt(ends + answered).within(lambda: there.step(act)):
                 break
             try:
-                self.assertEqual(shown(there.reset(seed=5)), expected)
+                self.assertEqual(contents_of(there.reset(seed=5)), expected)
                 answered += 1
             except ConnectionError as error:
                 self.assertRegex(str(error), "was interrupted|were interrupted")
-                ended += 1
+                ends += 1
             there.close()
-        self.assertGreater(ended, 5)
+        self.assertGreater(ends, 5)
         self.assertGreater(answered, 5)
 
     def test_a_step_that_is_cut_off_anywhere(self):
@@ -154,7 +154,7 @@ class Blocked(unittest.TestCase):
             there = AtariEnv("beamfall", server=address, **settings)
             for env in (here, there):
                 env.reset(seed=1)
-            self.assertEqual(shown(there.step(1)), shown(here.step(1)))
+            self.assertEqual(contents_of(there.step(1)), contents_of(here.step(1)))
             self.assertEqual(there.clone_state(include_rng=True), here.clone_state(include_rng=True))
 
     def test_closing_does_not_wait_for_a_server_that_does_not_read(self):

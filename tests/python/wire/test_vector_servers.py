@@ -127,9 +127,9 @@ class Halves(Servers):
         for envs in (here, there):
             envs.send([0] * COUNT)
         self.kill(self.second)
-        shown = there.recv()
-        self.assertTrue(shown[3][SECOND].all() and np.array_equal(shown[0][SECOND], before[SECOND]))
-        self.check(shown, here.recv(), FIRST, lost=SECOND)
+        result = there.recv()
+        self.assertTrue(result[3][SECOND].all() and np.array_equal(result[0][SECOND], before[SECOND]))
+        self.check(result, here.recv(), FIRST, lost=SECOND)
         self.check(there.step([0] * COUNT), here.step([0] * COUNT), FIRST)
 
     def test_the_info_has_a_server_lost_before_a_reset(self):
@@ -181,14 +181,14 @@ class Lost(Servers):
         here.step([1] * COUNT)
         self.kill(self.second)
         self.check_truncated(there.step([0] * COUNT), before, here.step([0] * COUNT))
-        begun, rewards, *_, info = shown = there.step([0] * COUNT)
-        self.check(shown, here.step([0] * COUNT), FIRST)
-        self.assertFalse(rewards[SECOND].any() or info["episode_frame_number"][SECOND].any() or shown[3].any())
-        self.assertFalse(np.array_equal(begun[SECOND], before[SECOND]))
+        observations, rewards, *_, info = result = there.step([0] * COUNT)
+        self.check(result, here.step([0] * COUNT), FIRST)
+        self.assertFalse(rewards[SECOND].any() or info["episode_frame_number"][SECOND].any() or result[3].any())
+        self.assertFalse(np.array_equal(observations[SECOND], before[SECOND]))
         for _ in range(50):  # they play on
-            shown = there.step([1] * COUNT)
-            self.check(shown, here.step([1] * COUNT), FIRST)
-        self.assertTrue(shown[-1]["episode_frame_number"][SECOND].all())
+            result = there.step([1] * COUNT)
+            self.check(result, here.step([1] * COUNT), FIRST)
+        self.assertTrue(result[-1]["episode_frame_number"][SECOND].all())
         self.check(there.reset(seed=3), here.reset(seed=3))
         self.play(here, there, 5)
 
@@ -225,10 +225,10 @@ class Lost(Servers):
         here, there = self.both()
         self.play(here, there, 2)
         self.second.send_signal(signal.SIGTERM)
-        lost, until = 0, time.monotonic() + 60
-        while not lost and time.monotonic() < until:  # the server's grace is a second
-            lost = there.step([0] * COUNT)[-1]["lost"].sum()
-        self.assertEqual(lost, SECOND.sum())
+        losses, until = 0, time.monotonic() + 60
+        while not losses and time.monotonic() < until:  # the server's grace is a second
+            losses = there.step([0] * COUNT)[-1]["lost"].sum()
+        self.assertEqual(losses, SECOND.sum())
         self.assertFalse(there.step([0] * COUNT)[-1]["lost"].any())
 
     def test_a_server_that_does_not_answer_in_time_is_lost(self):
@@ -291,13 +291,13 @@ class Lost(Servers):
             self.both(servers=[self.one, busy])
 
     def test_without_any_server_the_addresses_are_named(self):
-        absent = ["tcp://127.0.0.1:1", "unix:/nonexistent", "file:/nonexistent"]  # the last one is spare
+        missing = ["tcp://127.0.0.1:1", "unix:/nonexistent", "file:/nonexistent"]  # the last one is spare
         with self.assertRaisesRegex(
             ConnectionError,
             "no server is left for environments 0 to 0: "
-            + "; ".join(f"no server answers at {address}: [^;]*" for address in absent),
+            + "; ".join(f"no server answers at {address}: [^;]*" for address in missing),
         ):
-            AtariVectorEnv("beamfall", 2, server=absent)
+            AtariVectorEnv("beamfall", 2, server=missing)
         for make in (lambda **how: AtariVectorEnv("beamfall", 2, **how), lambda **how: AtariEnv("beamfall", **how)):
             with self.assertRaisesRegex(ConnectionError, "no server answers at tcp://127.0.0.1:1: .*refused"):
                 make(server="tcp://127.0.0.1:1")

@@ -61,7 +61,7 @@ def both(address, game="beamfall", count=3, **settings):
 
 class Same(Compared):
     def test_observations_and_infos(self):
-        ended = 0
+        ends = 0
         with server() as (address, _):
             for settings in SETTINGS:
                 with self.subTest(**settings):
@@ -69,11 +69,11 @@ class Same(Compared):
                     self.assertEqual(
                         (there.observation_space, there.action_space), (here.observation_space, here.action_space)
                     )
-                    ended += self.play(here, there, 10)
+                    ends += self.play(here, there, 10)
                     self.check(there.reset(seed=9), here.reset(seed=9))
-                    ended += self.play(here, there, 40)
+                    ends += self.play(here, there, 40)
                     there.close()
-        self.assertGreater(ended, 50)
+        self.assertGreater(ends, 50)
 
     def test_resets_of_some_and_seeds_of_each(self):
         with server() as (address, _):
@@ -204,7 +204,7 @@ class Halves(Compared):
 
 class States(Compared):
     def test_a_state_goes_from_here_to_there_and_back(self):
-        ended = 0
+        ends = 0
         with server() as (address, _):
             for settings in SETTINGS:
                 with self.subTest(**settings):
@@ -224,9 +224,9 @@ class States(Compared):
                             [there.save(env).__getstate__() for env in range(3)],
                             [state.__getstate__() for state in expected],
                         )
-                        ended += self.play(here, there, 30)
+                        ends += self.play(here, there, 30)
                     there.close()
-        self.assertGreater(ended, 50)
+        self.assertGreater(ends, 50)
 
     def test_a_state_without_generators_keeps_those_that_are_there(self):
         with server() as (address, _):
@@ -285,7 +285,7 @@ class Refused(unittest.TestCase):
 
     def test_a_server_refuses_what_it_does_not_do(self):
         with server("--max-machines", "4") as (address, _):
-            _held = AtariVectorEnv("beamfall", 2, server=address)
+            _player = AtariVectorEnv("beamfall", 2, server=address)
             for arguments in ({"batch_size": 1}, {"num_envs": 5}, {"start": "baselines", "use_fire_reset": False}):
                 with self.subTest(arguments=arguments), self.assertRaises(InvalidInput):
                     AtariVectorEnv("beamfall", **{"num_envs": 2, "server": address, **arguments})

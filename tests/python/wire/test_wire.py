@@ -59,21 +59,21 @@ def server(*options):
 
 
 def parts(observation):
-    named = observation if isinstance(observation, dict) else {"": observation}
-    return [(name, value.dtype, value.shape, value.tobytes()) for name, value in named.items()]
+    parts_by_name = observation if isinstance(observation, dict) else {"": observation}
+    return [(name, value.dtype, value.shape, value.tobytes()) for name, value in parts_by_name.items()]
 
 
-def played(env, steps):
+def play(env, steps):
     env.action_space.seed(4)
     observation, info = env.reset(seed=9)
-    told = [(parts(observation), info)]
+    results = [(parts(observation), info)]
     for _ in range(steps):
         observation, *rest = env.step(env.action_space.sample())
-        told.append((parts(observation), rest))
+        results.append((parts(observation), rest))
         if rest[1] or rest[2]:
             observation, info = env.reset()
-            told.append((parts(observation), info))
-    return told
+            results.append((parts(observation), info))
+    return results
 
 
 class Environment(unittest.TestCase):
@@ -87,7 +87,7 @@ class Environment(unittest.TestCase):
                             racebeam.AtariEnv("beamfall", server=where, **settings) for where in (None, address)
                         )
                         self.assertEqual(there.observation_space, here.observation_space)
-                        self.assertEqual(played(there, 300), played(here, 300))
+                        self.assertEqual(play(there, 300), play(here, 300))
                         there.close()
 
     def test_an_image_that_only_the_client_has_is_sent(self):
@@ -99,7 +99,7 @@ class Environment(unittest.TestCase):
                     here, there = (
                         racebeam.AtariEnv("pong", server=where, **settings) for where in (None, addresses[0])
                     )
-                    self.assertEqual(played(there, 100), played(here, 100))
+                    self.assertEqual(play(there, 100), play(here, 100))
 
     def test_states_go_from_here_to_there(self):
         with server() as (addresses, _):
@@ -144,8 +144,8 @@ class Environment(unittest.TestCase):
         calls += [("setRAM", words) for words in ((1, 255), (1, 256), (128, 0), (True, 1), ("x", 1))]
         calls += [("act", words) for words in ((racebeam.Action.FIRE,), (18,), (1, True), (1, "x"), (1, float("nan")))]
         calls += [("saveScreenPNG", (5,))]
-        usual = [1, 1.0, 1, 2, 18, 0.0]
-        calls += [("step", (*usual[:at], value, *usual[at + 1 :])) for at in (0, 3, 4) for value in wrong]
+        defaults = [1, 1.0, 1, 2, 18, 0.0]
+        calls += [("step", (*defaults[:at], value, *defaults[at + 1 :])) for at in (0, 3, 4) for value in wrong]
         calls += [
             ("step", words) for words in ((1, "x", 1, 2), (1, 1.0, "x", 2), (1, 1.0, 1, 2, 18, "x"), (1, True, 1, 2))
         ]
@@ -162,8 +162,8 @@ class Environment(unittest.TestCase):
                 value = getattr(ale, name)(*words)
             except Exception as error:
                 return type(error)
-            written = zlib.crc32(bytes(words[0])) if name.startswith("get") else 0
-            return "a state" if isinstance(value, racebeam.ALEState) else str(value), written
+            checksum = zlib.crc32(bytes(words[0])) if name.startswith("get") else 0
+            return "a state" if isinstance(value, racebeam.ALEState) else str(value), checksum
 
         with server() as (addresses, _):
             here, there = (racebeam.AtariEnv("beamfall", server=where).ale for where in (None, addresses[0]))
@@ -198,9 +198,9 @@ class Sessions(unittest.TestCase):
     def test_arrays_have_shapes(self):
         with racebeam.launch(arrays=True) as session:
             session.load("beamfall", seed=1, sound=1)
-            shown = session.look("screen", "rgb", "grey", "ram", "palette", "audio")
+            result = session.look("screen", "rgb", "grey", "ram", "palette", "audio")
             self.assertEqual(
-                {name: value.shape for name, value in shown.items()},
+                {name: value.shape for name, value in result.items()},
                 {
                     "screen": (210, 160),
                     "rgb": (210, 160, 3),
@@ -210,7 +210,7 @@ class Sessions(unittest.TestCase):
                     "audio": (512,),
                 },
             )
-            self.assertTrue(np.array_equal(shown["palette"][shown["screen"]], shown["rgb"]))
+            self.assertTrue(np.array_equal(result["palette"][result["screen"]], result["rgb"]))
             session.observe("grey84x4", "screen:delta")
             self.assertEqual([session.act(1)[name].shape for name in ("grey84x4", "screen")], [(4, 84, 84), (210, 160)])
 
@@ -227,8 +227,8 @@ class Sessions(unittest.TestCase):
             tokens = pathlib.Path(folder, "tokens")
             tokens.write_text("0123456789abcdef0123456789abcdef\n")
             tokens.chmod(0o600)
-            said = subprocess.run([racebeam.program.path(), "serve", "--help"], capture_output=True, text=True).stdout
-            self.assertIn("--token-file", said)
+            output = subprocess.run([racebeam.program.path(), "serve", "--help"], capture_output=True, text=True).stdout
+            self.assertIn("--token-file", output)
             with server("--token-file", str(tokens)) as (addresses, _):
                 tcp = next(address for address in addresses if address.startswith("tcp"))
                 with self.assertRaises(racebeam.Refused) as refused:
@@ -296,16 +296,16 @@ class Sessions(unittest.TestCase):
             self.assertEqual(session.load("beamfall")["game"], "beamfall")
 
     def test_a_session_ends_with_the_last_reference_to_it(self):
-        def held():
+        def memory():
             children = pathlib.Path(f"/proc/self/task/{os.getpid()}/children").read_text().split()
             return children, len(os.listdir("/proc/self/fd"))
 
         gc.collect()
-        before = held()
+        before = memory()
         for _ in range(3):
             racebeam.launch().load("beamfall")
         gc.collect()
-        self.assertEqual(held(), before)
+        self.assertEqual(memory(), before)
 
     def test_a_session_may_be_left_to_the_end_of_python(self):
         script = "import racebeam; session = racebeam.launch(); session.load('beamfall')"

@@ -62,10 +62,10 @@ class Compared(unittest.TestCase):
     def play(self, here, there, steps):
         """How many episodes ended."""
         here.action_space.seed(1)
-        ended = 0
+        ends = 0
         for _ in range(steps):
             actions = here.action_space.sample()
             expected = here.step(actions)
             self.check(there.step(actions), expected)
-            ended += np.count_nonzero(expected[2] | expected[3])
-        return ended
+            ends += np.count_nonzero(expected[2] | expected[3])
+        return ends

@@ -28,13 +28,13 @@ class Limits(unittest.TestCase):
             wires = [connect_tcp(server.port()) for _ in range(2)]
             for wire in wires:
                 self.assertTrue(ask(wire, b"hello").startswith(b"ok "))
-            refused = connect_tcp(server.port())
-            self.assertTrue(refused.rest().startswith(b"error busy there are 2 sessions"))
+            connection = connect_tcp(server.port())
+            self.assertTrue(connection.rest().startswith(b"error busy there are 2 sessions"))
             wires.pop().close()
             server.wait_for("1 requests")
             wires.append(connect_tcp(server.port()))
             self.assertTrue(ask(wires[-1], b"hello").startswith(b"ok "))
-            for wire in (refused, *wires):
+            for wire in (connection, *wires):
                 wire.close()
 
     def test_who_would_not_understand_it_is_turned_away_without_a_word(self):
@@ -165,9 +165,9 @@ class UntilIdle(unittest.TestCase):
                 wire = connect_tcp(server.port())
                 ask(wire, b"quit")
                 wire.close()
-            ended = time.monotonic()
+            start = time.monotonic()
             self.assertEqual(server.wait(), 0)
-            self.assertGreater(time.monotonic() - ended, 1.5)
+            self.assertGreater(time.monotonic() - start, 1.5)
 
 
 if __name__ == "__main__":

@@ -74,9 +74,9 @@ class Files(unittest.TestCase):
         self.assertTrue(wire.rest().endswith(b"\r\n\r\nok\n"))
 
     def test_there_are_no_more_sessions_than_files_and_others_are_told(self):
-        most = int(self.server.wait_for(r"sessions: (\d+), limited by the open files \(ulimit -n\)$").group(1))
-        self.assertEqual(most, self.FILES // 2)
-        wires = [self.connect(self.port) for _ in range(most)]
+        limit = int(self.server.wait_for(r"sessions: (\d+), limited by the open files \(ulimit -n\)$").group(1))
+        self.assertEqual(limit, self.FILES // 2)
+        wires = [self.connect(self.port) for _ in range(limit)]
         for wire in wires:
             self.assertTrue(ask(wire, b"hello").startswith(b"ok "))
         self.assertTrue(self.connect(self.port).rest().startswith(b"error busy there are 40 sessions"))
@@ -88,11 +88,11 @@ class Files(unittest.TestCase):
             self.connect(self.port)
         for _ in range(3):
             self.check_health()
-        silent = [self.connect(self.http) for _ in range(70)]
+        connections = [self.connect(self.http) for _ in range(70)]
         for _ in range(3):
             self.check_health()
         self.assertLess(sum("cannot take a client" in line for line in self.server.log()), 20)
-        self.assertEqual(silent[0].rest(), b"")
+        self.assertEqual(connections[0].rest(), b"")
 
 
 class Threads(unittest.TestCase):

@@ -108,9 +108,9 @@ class Recorded(unittest.TestCase):
                     self.check(requests, [line[2:] for line in lines[1::2]])
 
     def check(self, requests, expected):
-        heard = hold(requests)
-        self.assertEqual(len(heard), len(expected))
-        for request, reply, line in zip(requests, heard, expected):
+        replies = hold(requests)
+        self.assertEqual(len(replies), len(expected))
+        for request, reply, line in zip(requests, replies, expected):
             now, then = (
                 parsed(reply),
                 [
@@ -123,8 +123,8 @@ class Recorded(unittest.TestCase):
             )
             self.assertEqual([now[0], len(now)], [then[0], len(then)], request)
             for group, before in zip(now[1:], then[1:]):
-                kept = {key: group.get(key) for key in before}
-                self.assertEqual(kept, before, request)
+                values = {key: group.get(key) for key in before}
+                self.assertEqual(values, before, request)
 
 
 if __name__ == "__main__":

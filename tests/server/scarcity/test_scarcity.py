@@ -98,18 +98,18 @@ class Scarce(unittest.TestCase):
 class Memory(Scarce):
     def converse(self, port, said):
         """Everything that the server answers. A connection may fail at any time."""
-        heard = b""
+        reply = b""
         try:
             with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE) as connection:
                 connection.sendall(said)
                 connection.shutdown(socket.SHUT_WR)
                 while piece := connection.recv(65536):
-                    heard += piece
+                    reply += piece
         except TimeoutError:
             raise AssertionError("the server says nothing") from None
         except OSError:
             pass
-        return heard
+        return reply
 
     def check_that_it_is_well(self, server, alive):
         """It neither spins nor leaks."""
@@ -118,9 +118,9 @@ class Memory(Scarce):
         while self.scarcity.get("alive") > alive + 200 and time.monotonic() < deadline:
             time.sleep(0.05)
         self.assertLess(self.scarcity.get("alive"), alive + 200)
-        used = processor_seconds(server)
+        seconds = processor_seconds(server)
         time.sleep(0.5)
-        self.assertLess(processor_seconds(server) - used, 0.25)
+        self.assertLess(processor_seconds(server) - seconds, 0.25)
 
     def check_every_allocation(self, port, said, failures, step=1):
         server = self.server
@@ -132,10 +132,10 @@ class Memory(Scarce):
             with self.subTest(allocation=number):
                 self.converse(port, said)
                 self.assertTrue(server.alive(), server.log()[-3:])
-            reached = self.scarcity.get("failures") < failures
+            is_over = self.scarcity.get("failures") < failures
             self.scarcity.set("until_failure", 0)
             self.assertEqual(self.converse(port, said), expected, number)
-            if not reached:
+            if not is_over:
                 break
             number += step
         self.check_that_it_is_well(server, alive)
@@ -270,14 +270,14 @@ class Files(unittest.TestCase):
             self.assertEqual(server.stop(), 0)
 
     def check_that_a_client_is_served(self, path):
-        deadline, heard = time.monotonic() + PATIENCE, b""
-        while not heard.startswith(b"ok ") and time.monotonic() < deadline:
+        deadline, reply = time.monotonic() + PATIENCE, b""
+        while not reply.startswith(b"ok ") and time.monotonic() < deadline:
             with socket.socket(socket.AF_UNIX) as client:
                 client.settimeout(PATIENCE)
                 client.connect(path)
                 client.sendall(b"hello\n")
-                heard = client.recv(4096)
-        self.assertTrue(heard.startswith(b"ok "), heard)
+                reply = client.recv(4096)
+        self.assertTrue(reply.startswith(b"ok "), reply)
 
 
 if __name__ == "__main__":

@@ -105,7 +105,7 @@ class Tokens(Case, test_access.Folder):
 
     def test_connections_without_a_session_are_closed(self):
         self.start("--token-file", self.tokens, "--handshake", "1")
-        begun = time.monotonic()
+        start = time.monotonic()
         silent, half, other = self.raw(), self.raw(), self.connect()
         half.sendall(b"GET /session HTTP/1.1\r\nHost: x\r\n")
         slow = self.raw()
@@ -113,7 +113,7 @@ class Tokens(Case, test_access.Folder):
             for byte in request("x" * 4000):  # one byte at a time
                 slow.sendall(bytes([byte]))
                 time.sleep(0.01)
-        self.assertLess(time.monotonic() - begun, PATIENCE)
+        self.assertLess(time.monotonic() - start, PATIENCE)
         self.assertEqual((silent.recv(1), half.recv(1)), (b"", b""))
         self.assertEqual(other.end(), (b"error unauthorized no token came within 1 seconds", 1008))
         self.server.wait_for("no handshake came within 1 seconds")

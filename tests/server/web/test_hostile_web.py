@@ -25,9 +25,9 @@ class Hostile(Case):
     def check_bystander(self):
         waits = []
         for _ in range(15):
-            begun = time.monotonic()
+            start = time.monotonic()
             self.assertTrue(self.bystander.ask(b"act NOOP*10").startswith(b"ok "))
-            waits.append(time.monotonic() - begun)
+            waits.append(time.monotonic() - start)
         self.assertLess(sorted(waits)[len(waits) // 2], 0.1)
 
     def memory(self):
@@ -137,12 +137,12 @@ class Hostile(Case):
             small = WebSocket(port_of(server))
             stack.callback(small.close)
             small.ask(b"load beamfall")
-            wire, refused = WebSocket(port_of(server)), False
+            wire, is_refused = WebSocket(port_of(server)), False
             stack.callback(wire.close)
             wire.ask(b"load beamfall")
             for number in range(256, 0, -64):
-                refused |= wire.ask(b"open %d" % number).startswith(b"error limit ")
-            self.assertTrue(refused)
+                is_refused |= wire.ask(b"open %d" % number).startswith(b"error limit ")
+            self.assertTrue(is_refused)
             self.assertTrue(small.ask(b"act NOOP").startswith(b"ok "))
 
 

@@ -39,13 +39,13 @@ class Page(Case):
 
     def answers(self, *pieces):
         """What the server says after each piece of a request, and then until it closes."""
-        connection, heard = self.raw(), []
+        connection, replies = self.raw(), []
         for piece in pieces:
             connection.sendall(piece)
-            heard.append(connection.recv(65536))
+            replies.append(connection.recv(65536))
         while piece := connection.recv(65536):
-            heard[-1] += piece
-        return heard
+            replies[-1] += piece
+        return replies
 
     def test_who_waits_before_the_body_is_told_to_go_on(self):
         for method, status in ((b"GET", b"HTTP/1.1 200 OK\r\n"), (b"POST", b"HTTP/1.1 405 ")):
@@ -76,10 +76,10 @@ class Page(Case):
             for request_text, status in cases:
                 with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE) as connection:
                     connection.sendall(request_text)
-                    heard = b""
+                    reply = b""
                     while piece := connection.recv(65536):
-                        heard += piece
-                    self.assertTrue(heard.startswith(status), (status, heard))
+                        reply += piece
+                    self.assertTrue(reply.startswith(status), (status, reply))
 
     def test_other_paths_are_not(self):
         self.start()

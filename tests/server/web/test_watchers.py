@@ -65,8 +65,8 @@ class Agent:
         self.wire.close()
 
 
-def ask_ahead(port, count, ahead, seconds, begun, seen):
-    """Watchers that each have about so many requests in flight. `begun`: an event; `seen`: receives the sum of
+def ask_ahead(port, count, ahead, seconds, is_ready, total):
+    """Watchers that each have about so many requests in flight. `is_ready`: an event; `total`: receives the sum of
     pictures."""
     watchers = [WebSocket(port) for _ in range(count)]
     received = dict.fromkeys((watcher.connection for watcher in watchers), 0)
@@ -76,13 +76,13 @@ def ask_ahead(port, count, ahead, seconds, begun, seen):
             watcher.connection.setblocking(False)
             watcher.write(frame(TEXT, REQUEST) * ahead)
             selector.register(watcher.connection, selectors.EVENT_READ)
-        begun.set()
+        is_ready.set()
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             for key, _ in selector.select(0.1):
                 connection = key.fileobj
                 pictures, received[connection] = divmod(received[connection] + len(connection.recv(1 << 18)), 160 * 210)
-                seen.value += pictures
+                total.value += pictures
                 with contextlib.suppress(BlockingIOError):
                     connection.send(frame(TEXT, REQUEST) * pictures)
 
@@ -129,11 +129,11 @@ class Watchers(unittest.TestCase):
         before = self.memory()
         for _ in range(1000):  # 33 MB of pictures
             sleeper.send(REQUEST)
-        seen = [self.watch(other)]
+        screens = [self.watch(other)]
         for _ in range(5):
             self.check_not_held_up(agent, alone)
-            seen.append(self.watch(other))
-        self.assertEqual(seen, sorted(set(seen)))
+            screens.append(self.watch(other))
+        self.assertEqual(screens, sorted(set(screens)))
         self.assertLess(self.memory() - before, 8 << 20)
         agent.go_on()
         frames = []
@@ -141,7 +141,7 @@ class Watchers(unittest.TestCase):
             frames.append(number(sleeper.line(), "frame"))
             self.assertEqual(len(sleeper.message()[1]), 160 * 210)
         self.assertEqual(frames, sorted(frames))
-        self.assertGreater(frames[-1], seen[-1])  # the last is new, not from before the sleep
+        self.assertGreater(frames[-1], screens[-1])  # the last is new, not from before the sleep
 
     def test_a_tab_that_sleeps_too_long_is_closed(self):
         agent = self.serve("--idle", "1")
@@ -174,24 +174,24 @@ class Watchers(unittest.TestCase):
                 self.assertTrue(reply.startswith(b"ok game=beamfall "), reply[:80])
                 seen.add(number(reply, "frame"))
             self.assertLess(max(agent.times, default=0), LONGEST)
-        refused = self.watcher().ask(b"watch room")
-        self.assertTrue(refused.startswith(b"error limit "), refused)
+        refusal = self.watcher().ask(b"watch room")
+        self.assertTrue(refusal.startswith(b"error limit "), refusal)
         grown = (self.memory() - before) / 1000
         self.assertLess(grown, 150 << 10)
         self.check_not_held_up(agent, alone)  # those that do not ask cost nothing
 
     def acts_for_each_picture(self, agent, watchers, seconds):
         """How many acts the agent gets in the time in which each of many watchers that ask ahead gets a picture."""
-        begun, seen = multiprocessing.Event(), multiprocessing.Value("q")
+        is_ready, total = multiprocessing.Event(), multiprocessing.Value("q")
         crowd = multiprocessing.Process(
-            target=ask_ahead, args=(self.port, watchers, 30, seconds, begun, seen), daemon=True
+            target=ask_ahead, args=(self.port, watchers, 30, seconds, is_ready, total), daemon=True
         )
         crowd.start()
-        self.assertTrue(begun.wait(PATIENCE))
+        self.assertTrue(is_ready.wait(PATIENCE))
         before = agent.acts
         crowd.join()
         self.assertEqual(crowd.exitcode, 0)
-        return (agent.acts - before) * watchers / seen.value
+        return (agent.acts - before) * watchers / total.value
 
     def test_watchers_that_always_have_a_request_in_flight(self):
         agent = self.serve("--threads", "1")

@@ -16,17 +16,17 @@ from web_socket import BINARY, CLOSE, PING, PONG, TEXT, Refused, WebSocket, fram
 
 class Conversation(Case):
     def test_the_conversations_of_the_line_protocol_are_real(self):
-        for command, said, heard in conversations("protocol/PROTOCOL.md"):
+        for command, requests, replies in conversations("protocol/PROTOCOL.md"):
             options = [word for word in command[2:] if word != "--stdio"]
             if "--strict" in options:  # on streams only
                 continue
             with (
-                self.subTest(command=command, said=said),
+                self.subTest(command=command, said=requests),
                 Server("serve", "--listen", "ws://127.0.0.1:0", *options) as server,
             ):
                 wire = WebSocket(port_of(server))
                 found = b""
-                for line in said:
+                for line in requests:
                     wire.send(line.rstrip("\n").encode())
                     if line.startswith("#"):
                         continue
@@ -37,7 +37,7 @@ class Conversation(Case):
                         self.assertEqual(opcode, BINARY)
                         found += payload
                 wire.close()
-                self.assertRegex(found.decode("latin-1"), f"\\A{pattern(heard)}\\Z")
+                self.assertRegex(found.decode("latin-1"), f"\\A{pattern(replies)}\\Z")
 
     def test_a_message_is_one_line_or_several_in_any_number_of_frames(self):
         self.start()
@@ -124,9 +124,9 @@ class BesideThePage(Case):
         wire = self.connect("http")
         self.assertTrue(wire.ask(b"load beamfall").startswith(b"ok game=beamfall"))
         self.assertIn(b'racebeam_sessions_total{protocol="line"} 1\n', self.get("/metrics", "http")[2])
-        refused = self.refusal("http")
-        self.assertEqual(refused.status, 503)
-        self.assertIn("there are 1 sessions", refused.text)
+        reply = self.refusal("http")
+        self.assertEqual(reply.status, 503)
+        self.assertIn("there are 1 sessions", reply.text)
         self.assertTrue(wire.ask(b"act NOOP").startswith(b"ok "))
 
     def test_a_server_without_the_line_protocol_offers_no_session(self):

@@ -40,9 +40,9 @@ class Case(unittest.TestCase):
         return found.exception
 
     def get(self, path, scheme="ws", **fields):
-        asked = urllib.request.Request(f"http://127.0.0.1:{port_of(self.server, scheme)}{path}", headers=fields)
+        request = urllib.request.Request(f"http://127.0.0.1:{port_of(self.server, scheme)}{path}", headers=fields)
         try:
-            with urllib.request.urlopen(asked, timeout=PATIENCE) as response:
+            with urllib.request.urlopen(request, timeout=PATIENCE) as response:
                 return response.status, response.headers, response.read()
         except urllib.error.HTTPError as error:
             with error:

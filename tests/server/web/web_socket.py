@@ -14,14 +14,14 @@ GUID = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
 
 def request(host, path="/session", **fields):
     """The request that opens a WebSocket. `fields` replace or add fields; None removes one."""
-    usual = {
+    defaults = {
         "Host": host,
         "Upgrade": "websocket",
         "Connection": "Upgrade",
         "Sec-WebSocket-Version": "13",
         "Sec-WebSocket-Key": base64.b64encode(os.urandom(16)).decode(),
     }
-    lines = [f"{name}: {value}\r\n" for name, value in (usual | fields).items() if value is not None]
+    lines = [f"{name}: {value}\r\n" for name, value in (defaults | fields).items() if value is not None]
     return f"GET {path} HTTP/1.1\r\n{''.join(lines)}\r\n".encode()
 
 
