@@ -65,18 +65,18 @@ std::vector<std::string> option_names(const CLI::App& command) {
 }
 
 // " did you mean A?", or "".
-std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
-  return racebeam::did_you_mean(word, std::vector<std::string_view>(known.begin(), known.end()));
+std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
+  return racebeam::did_you_mean(word, std::vector<std::string_view>(names.begin(), names.end()));
 }
 
 std::string explain_no_subcommand(const CLI::App& app) {
-  const auto given = app.remaining();
-  const auto known = subcommand_names(app);
-  const std::string names = CLI::detail::join(known, ", ");
-  if (given.empty()) return "a subcommand is required: " + names;
-  const std::string meant = suggestion(given.front(), known);
-  return "unknown subcommand '" + given.front() + "';" +
-         (meant.empty() ? " accepted: " : meant + " Accepted: ") + names;
+  const auto words = app.remaining();
+  const auto commands = subcommand_names(app);
+  const std::string names = CLI::detail::join(commands, ", ");
+  if (words.empty()) return "a subcommand is required: " + names;
+  const std::string similar = suggestion(words.front(), commands);
+  return "unknown subcommand '" + words.front() + "';" +
+         (similar.empty() ? " accepted: " : similar + " Accepted: ") + names;
 }
 
 bool is_option(const std::string& word) { return word.starts_with('-'); }
@@ -91,8 +91,8 @@ std::string explain_extras(const CLI::App& command) {
   const std::string sentence = "unknown argument: " + CLI::detail::join(words, " ");
   const auto option = std::ranges::find_if(words, is_option);
   if (option == words.end()) return sentence;
-  const std::string meant = suggestion(option->substr(0, option->find('=')), option_names(command));
-  return meant.empty() ? sentence : sentence + ";" + meant;
+  const std::string similar = suggestion(option->substr(0, option->find('=')), option_names(command));
+  return similar.empty() ? sentence : sentence + ";" + similar;
 }
 
 // Tools from the time of ALE 0.6 call a program of that name.

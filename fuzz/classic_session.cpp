@@ -42,14 +42,14 @@ std::string conversation(unsigned options, std::string_view text, std::size_t pi
   Environment machine = make_machine(options);
   ClassicSession session(machine, {.run_length = (options & kRunLength) != 0,
                                    .max_num_frames = (options & kFewFrames) != 0 ? 30 : 0});
-  std::string said;
+  std::string requests;
   const auto listen = [&] {
     while (!session.ended()) {
       const auto reply = session.reply();
       if (!reply) return;
       require(reply->ends_with('\n'), "the server's output consists of lines");
       require(is_printable(reply->substr(0, reply->size() - 1)), "lines are printable");
-      said += *reply;
+      requests += *reply;
     }
   };
   try {
@@ -68,9 +68,9 @@ std::string conversation(unsigned options, std::string_view text, std::size_t pi
     }
   } catch (const ClassicError& error) {
     require(*error.what() != '\0' && is_printable(error.what()), "an error has a message");
-    said += error.what();
+    requests += error.what();
   }
-  return said;
+  return requests;
 }
 
 }  // namespace
@@ -79,8 +79,8 @@ void run(Bytes input) {
   Reader reader(input);
   const unsigned options = reader.byte();
   const std::string_view text = text_of(reader.rest());
-  const std::string said = conversation(options, text, 4096);
-  require(said == conversation(options, text, 1 + options % 7),
+  const std::string requests = conversation(options, text, 4096);
+  require(requests == conversation(options, text, 1 + options % 7),
           "answers do not depend on the pieces of the input");
 }
 

@@ -31,10 +31,10 @@ Properties properties_of(std::uint8_t scheme) {
 // size: an index of kSizes; beyond them, the image has the size of `content`.
 Rom make_rom(std::uint8_t size, Bytes content) {
   Rom rom(content.begin(), content.end());
-  const std::size_t wanted = size < kSizes.size() ? kSizes[size] : rom.size();
+  const std::size_t length = size < kSizes.size() ? kSizes[size] : rom.size();
   if (rom.empty()) rom.resize(1);
-  for (std::size_t at = 0; rom.size() < wanted; ++at) rom.push_back(rom[at]);
-  rom.resize(std::max(wanted, std::size_t{1}));
+  for (std::size_t at = 0; rom.size() < length; ++at) rom.push_back(rom[at]);
+  rom.resize(std::max(length, std::size_t{1}));
   return rom;
 }
 

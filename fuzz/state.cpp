@@ -115,10 +115,10 @@ void run(Bytes input) {
   }
   require(to_bytes(*saved, interpreted) == state, "a state that was accepted is written as it was read");
   Environment translated = make_machine(cartridge, CpuKind::kAuto);
-  const State left = play(interpreted, *saved);
-  require(left == play(translated, *saved), "a state leads to the same, interpreted and translated");
+  const State end = play(interpreted, *saved);
+  require(end == play(translated, *saved), "a state leads to the same, interpreted and translated");
   try {
-    from_bytes(left, interpreted);
+    from_bytes(end, interpreted);
   } catch (const std::invalid_argument& refusal) {
     require(false, "what an accepted state leads to is accepted", refusal.what());
   }

@@ -36,9 +36,9 @@ class Reader {
     return low | byte() * 256U;
   }
   Bytes take(std::size_t most) {
-    const Bytes taken = rest_.first(std::min(most, rest_.size()));
-    rest_ = rest_.subspan(taken.size());
-    return taken;
+    const Bytes part = rest_.first(std::min(most, rest_.size()));
+    rest_ = rest_.subspan(part.size());
+    return part;
   }
   Bytes rest() const { return rest_; }
   bool empty() const { return rest_.empty(); }

@@ -61,10 +61,10 @@ Properties properties_of_dump(const Game& game, const Image& image) {
 // image that no game lists is taken for another dump of `game`.
 std::shared_ptr<const Game> with_properties_of(const Image& image, std::shared_ptr<const Game> game) {
   if (describes(*game, image)) return game;
-  const CatalogueImage* const known = known_image(image.md5);
-  if (known == nullptr && game->images.empty()) return game;
+  const CatalogueImage* const entry = known_image(image.md5);
+  if (entry == nullptr && game->images.empty()) return game;
   const Properties properties =
-      known ? parsed(known->entry)->properties_for(image.md5) : properties_of_dump(*game, image);
+      entry ? parsed(entry->entry)->properties_for(image.md5) : properties_of_dump(*game, image);
   return std::make_shared<const Game>(with_image(*game, {image.md5, properties, false}));
 }
 
@@ -112,8 +112,8 @@ std::shared_ptr<const Game> find_game(std::string_view name) {
 }
 
 std::shared_ptr<const Game> find_game_by_md5(std::string_view md5) {
-  const CatalogueImage* known = known_image(md5);
-  return known && known->accepted ? parsed(known->entry) : nullptr;
+  const CatalogueImage* entry = known_image(md5);
+  return entry && entry->accepted ? parsed(entry->entry) : nullptr;
 }
 
 std::vector<std::string_view> game_names() {

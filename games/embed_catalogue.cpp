@@ -35,10 +35,10 @@ Contents read_folder(const fs::path& folder, const std::string& ending) {
 // Raw string literals, several in a row, because compilers limit the length of one.
 std::string literal(std::string_view text) {
   constexpr std::size_t kPiece = 8000;
-  std::string made;
+  std::string literal;
   for (; !text.empty(); text.remove_prefix(std::min(text.size(), kPiece)))
-    made += "R\"toml(" + std::string(text.substr(0, kPiece)) + ")toml\"";
-  return made;
+    literal += "R\"toml(" + std::string(text.substr(0, kPiece)) + ")toml\"";
+  return literal;
 }
 
 std::string raw(std::string_view text) { return "R\"(" + std::string(text) + ")\""; }

@@ -54,13 +54,13 @@ std::shared_ptr<const Image> image_of(std::vector<std::uint8_t> bytes, std::stri
 }
 
 std::shared_ptr<const Image> built_in(std::string_view name) {
-  std::string known;
+  std::string names;
   for (const BuiltInImage& image : builtin_images()) {
     if (image.name == name) return image_of({image.bytes.begin(), image.bytes.end()}, std::string(name));
-    known += (known.empty() ? "" : ", ") + std::string(kBuiltIn) + std::string(image.name);
+    names += (names.empty() ? "" : ", ") + std::string(kBuiltIn) + std::string(image.name);
   }
   refuse(std::string(kBuiltIn) + std::string(name),
-         "unknown built-in image; accepted: " + (known.empty() ? "none" : known));
+         "unknown built-in image; accepted: " + (names.empty() ? "none" : names));
 }
 
 bool looks_like_image(const std::filesystem::path& path) {

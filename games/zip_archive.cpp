@@ -73,7 +73,7 @@ std::vector<ZipEntry> zip_entries(std::string_view archive) {
   if (word(end, 8) != word(end, 10)) throw InvalidInput("the zip archive has several parts");
   std::vector<ZipEntry> entries;
   std::size_t at = number(end, 16, 4);
-  for (unsigned left = word(end, 10); left > 0; --left) {
+  for (unsigned remaining = word(end, 10); remaining > 0; --remaining) {
     const std::string_view head = part(archive, at, kCentralSize);
     if (!head.starts_with(kCentral)) refuse_damaged();
     const std::string_view name = part(archive, at + kCentralSize, word(head, 28));

@@ -134,16 +134,16 @@ std::vector<Action> VectorEnvironment::actions(std::size_t machine) const {
 }
 
 VectorResults VectorEnvironment::make_results() const {
-  BatchResults made = impl_->batch.make_results();
-  return {.observations = std::move(made.observations),
-          .final_observations = std::move(made.final_observations),
-          .ram = std::move(made.ram),
-          .rewards = std::move(made.rewards),
-          .lives = std::move(made.lives),
-          .episode_frames = std::move(made.episode_frames),
-          .terminated = std::move(made.terminated),
-          .truncated = std::move(made.truncated),
-          .machines = std::move(made.numbers)};
+  BatchResults results = impl_->batch.make_results();
+  return {.observations = std::move(results.observations),
+          .final_observations = std::move(results.final_observations),
+          .ram = std::move(results.ram),
+          .rewards = std::move(results.rewards),
+          .lives = std::move(results.lives),
+          .episode_frames = std::move(results.episode_frames),
+          .terminated = std::move(results.terminated),
+          .truncated = std::move(results.truncated),
+          .machines = std::move(results.numbers)};
 }
 
 void VectorEnvironment::step(std::span<const int> actions, const VectorArrays& out) {

@@ -63,7 +63,7 @@ class Gif final : public Media {
 
   // Rounded so that errors do not add up.
   std::size_t delay() {
-    const auto time = [this](int shown) { return (shown * kEvery * 100 + rate_ / 2) / rate_; };
+    const auto time = [this](int frames) { return (frames * kEvery * 100 + rate_ / 2) / rate_; };
     const int number = shown_++;
     return static_cast<std::size_t>(time(number + 1) - time(number));
   }

@@ -170,11 +170,11 @@ void Recording::close() {
 }
 
 void Recording::commit() {
-  std::vector<std::string> kept;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < media_.size(); ++i) {
     try {
       media_[i]->commit();
-      kept.push_back(order_.file_names()[i]);
+      names.push_back(order_.file_names()[i]);
     } catch (const EncoderFailed& error) {
       result_.failure = error.what();
       change([this] { cut_ = Cut::kEncoder; });
@@ -183,7 +183,7 @@ void Recording::commit() {
       change([this] { cut_ = Cut::kDisk; });
     }
   }
-  result_.names = listed(kept);
+  result_.names = listed(names);
   result_.bytes = budget_.taken();
 }
 

@@ -44,14 +44,14 @@ std::string printable(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string out;
   while (!text.empty()) {
-    const std::size_t shown = shown_at_front(text);
-    if (shown > 0) {
-      out += text.substr(0, shown);
+    const std::size_t front = shown_at_front(text);
+    if (front > 0) {
+      out += text.substr(0, front);
     } else {
       const auto byte = static_cast<unsigned char>(text.front());
       ((out += "\\x") += kDigits[byte >> 4]) += kDigits[byte & 15];
     }
-    text.remove_prefix(shown > 0 ? shown : 1);
+    text.remove_prefix(front > 0 ? front : 1);
   }
   return out;
 }

@@ -57,9 +57,10 @@ std::string_view value_of(std::string_view word, std::string_view key, std::stri
 }
 
 std::string advice(std::string_view given, Words known, std::string accepted) {
-  const std::string meant = did_you_mean(given, known);
-  if (!meant.empty()) accepted[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(accepted[0])));
-  return meant + ' ' + accepted;
+  const std::string similar = did_you_mean(given, known);
+  if (!similar.empty())
+    accepted[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(accepted[0])));
+  return similar + ' ' + accepted;
 }
 
 std::string unknown_name(std::string_view kind, std::string_view name, Words known) {

@@ -18,12 +18,12 @@ FileLock::FileLock(const std::string& path) : FileLock() {
 }
 
 std::optional<FileLock> FileLock::attempt(const std::string& path) {
-  std::optional<FileLock> made(FileLock{});
+  std::optional<FileLock> lock_file(FileLock{});
   do {
-    made->open(path);
-    if (!made->lock(path, LOCK_EX | LOCK_NB)) return std::nullopt;
-  } while (!made->is_at(path));
-  return made;
+    lock_file->open(path);
+    if (!lock_file->lock(path, LOCK_EX | LOCK_NB)) return std::nullopt;
+  } while (!lock_file->is_at(path));
+  return lock_file;
 }
 
 FileLock::~FileLock() {

@@ -34,8 +34,8 @@ const Bytef* bytes_of(std::string_view text) { return reinterpret_cast<const Byt
 
 // The checksum covers all bytes but its own four.
 std::uint32_t checksum(std::string_view head, std::string_view deflated) {
-  const uLong begun = crc32_z(0, bytes_of(head), kChecksumAt);
-  return static_cast<std::uint32_t>(crc32_z(begun, bytes_of(deflated), deflated.size()));
+  const uLong sum = crc32_z(0, bytes_of(head), kChecksumAt);
+  return static_cast<std::uint32_t>(crc32_z(sum, bytes_of(deflated), deflated.size()));
 }
 
 [[noreturn]] void refuse(const SealedKind& kind, const std::string& name, const std::string& reason) {
@@ -45,10 +45,11 @@ std::uint32_t checksum(std::string_view head, std::string_view deflated) {
 std::string inflated(const SealedKind& kind, const std::string& name, std::string_view deflated,
                      std::size_t size) {
   std::string contents(size, '\0');
-  uLongf got = size;
+  uLongf size_found = size;
   uLong used = deflated.size();
-  const int status = uncompress2(reinterpret_cast<Bytef*>(contents.data()), &got, bytes_of(deflated), &used);
-  if (status != Z_OK || got != size || used != deflated.size())
+  const int status =
+      uncompress2(reinterpret_cast<Bytef*>(contents.data()), &size_found, bytes_of(deflated), &used);
+  if (status != Z_OK || size_found != size || used != deflated.size())
     refuse(kind, name, "its contents are damaged");
   return contents;
 }

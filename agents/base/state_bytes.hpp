@@ -64,9 +64,9 @@ class StateReader {
  private:
   std::string_view take(std::uint64_t size) {
     if (size > left_.size()) refuse();
-    const std::string_view taken = left_.substr(0, size);
+    const std::string_view part = left_.substr(0, size);
     left_.remove_prefix(size);
-    return taken;
+    return part;
   }
 
   std::string_view take_counted(std::size_t each) {

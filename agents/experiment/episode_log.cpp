@@ -51,8 +51,8 @@ class LogReader {
   }
 
  private:
-  [[noreturn]] static void fail(const std::string& wanted) {
-    throw InvalidInput("its contents are not an episode: " + wanted + " is missing");
+  [[noreturn]] static void fail(const std::string& expected) {
+    throw InvalidInput("its contents are not an episode: " + expected + " is missing");
   }
 
   // The rest of the next line, which begins with `word`.

@@ -52,8 +52,8 @@ std::string PhraseRows::fault(const ResultRow& row) {
            "; with a phrase, no other unit has its seeds";
   ++own.count;
   own.last = std::max(own.last, episode);
-  const std::string wanted = std::to_string(seed_of_phrase(phrase_, game, trial, episode));
-  return seed == wanted ? "" : "environment_seed is '" + seed + "'; the phrase gives '" + wanted + "'";
+  const std::string expected = std::to_string(seed_of_phrase(phrase_, game, trial, episode));
+  return seed == expected ? "" : "environment_seed is '" + seed + "'; the phrase gives '" + expected + "'";
 }
 
 void PhraseRows::each_gap(const std::function<void(const std::string& sentence)>& visit) const {

@@ -112,12 +112,13 @@ Episode Trial::play_episode(Stage& stage, PlayOptions options) {
 
 void Trial::train() {
   const int number = account_.trained + 1;
-  const std::int64_t left = length_.training_frames > 0 ? length_.training_frames - account_.training_frames
-                                                        : std::numeric_limits<std::int64_t>::max();
+  const std::int64_t remaining = length_.training_frames > 0
+                                     ? length_.training_frames - account_.training_frames
+                                     : std::numeric_limits<std::int64_t>::max();
   agent_->set_learning(true);
   training_stage_->begin(environment_seed(plan_, unit_, true, number));
   const Episode episode =
-      play_episode(*training_stage_, {.most_frames = left, .lives_end = lives_end(plan_)});
+      play_episode(*training_stage_, {.most_frames = remaining, .lives_end = lives_end(plan_)});
   account_.trained = number;
   account_.training_frames += episode.end.frames;
   account_.frames += episode.end.frames;

@@ -59,10 +59,10 @@ class RowJudge {
   }
 
   std::string against_plan(const ResultRow& row, const PlanRows::Place& place) const {
-    ResultRow wanted = row_of_plan(plan_, *place.unit, place.episode);
+    ResultRow expected = row_of_plan(plan_, *place.unit, place.episode);
     for (std::size_t i = 0; i < row.size(); ++i)
-      if (wanted[i].empty()) wanted[i] = row[i];
-    return first_difference(row, wanted, "the plan gives");
+      if (expected[i].empty()) expected[i] = row[i];
+    return first_difference(row, expected, "the plan gives");
   }
 
   RowVerdict judge_episode(const ResultRow& row, const PlanRows::Place& place) {
@@ -79,10 +79,10 @@ class RowJudge {
 
   // Settings that the log leaves out have their defaults, as in a replay.
   std::string wrong_settings(const EpisodeLog& log, const PlanRows::Place& place) const {
-    PlaySettings wanted = play_settings(plan_, *place.unit->agent);
-    wanted.machine.random_seed = environment_seed(plan_, *place.unit, false, place.episode);
+    PlaySettings expected = play_settings(plan_, *place.unit->agent);
+    expected.machine.random_seed = environment_seed(plan_, *place.unit, false, place.episode);
     const std::string ours = words_of(settings_of(log), any_machine_);
-    const std::string theirs = words_of(wanted, any_machine_);
+    const std::string theirs = words_of(expected, any_machine_);
     return first_difference_of_words(ours, theirs);
   }
 
@@ -99,15 +99,15 @@ class Verification {
       : folder_(folder),
         plan_(plan_of_results(folder, images)),
         units_(units_of(plan_)),
-        wanted_(units_),
+        plan_rows_(units_),
         tally_(threads, finding),
         judge_(plan_, folder_, images, tally_.threads(), cpu) {}
 
   // The table is read twice, so that a table that does not fit is refused before a log is played.
   Verdict all() {
-    each_result(folder_.results(), [&](const ResultRow& row, std::size_t) { wanted_.note(row); });
+    each_result(folder_.results(), [&](const ResultRow& row, std::size_t) { plan_rows_.note(row); });
     each_result(folder_.results(), [&](const ResultRow& row, std::size_t line) { take(row, line); });
-    wanted_.each_unmarked([&](const Unit& unit, int episode) {
+    plan_rows_.each_unmarked([&](const Unit& unit, int episode) {
       tally_.wrong("results.csv: the row of " + unit.name + ", episode " + std::to_string(episode) +
                    " is missing");
     });
@@ -121,13 +121,13 @@ class Verification {
   // A row that is not in the plan, or stands twice, is not judged.
   void take(const ResultRow& row, std::size_t line) {
     const std::string name = name_of_row(row, line);
-    const auto place = wanted_.find(row[0], field(row, "episode"));
+    const auto place = plan_rows_.find(row[0], field(row, "episode"));
     if (!place) {
       const std::string log = folder_.log(row[0], field(row, "episode"));
       std::error_code none;
       if (fs::exists(fs::symlink_status(log, none))) logs_of_strangers_.insert(log);
       tally_.take_wrong(name + ": is not in the plan");
-    } else if (!wanted_.mark(*place)) {
+    } else if (!plan_rows_.mark(*place)) {
       tally_.take_wrong(name + ": stands twice");
     } else {
       tally_.take(name, [this, row, place] { return judge_.judge(row, *place); });
@@ -136,20 +136,22 @@ class Verification {
 
   // Folders are, but for links to them. The logs of a unit may lie elsewhere.
   bool is_wanted_folder(const fs::path& path) const {
-    return !is_link(path) || (path.parent_path() == folder_.logs() && wanted_.has(path.filename().string()));
+    return !is_link(path) ||
+           (path.parent_path() == folder_.logs() && plan_rows_.has(path.filename().string()));
   }
 
   bool is_wanted_log(const fs::path& path) const {
     const std::string unit = path.parent_path().filename().string(), episode = path.stem().string();
     if (path == folder_.log(unit, episode))
-      if (const auto place = wanted_.find(unit, episode); place && wanted_.is_marked(*place)) return true;
+      if (const auto place = plan_rows_.find(unit, episode); place && plan_rows_.is_marked(*place))
+        return true;
     return logs_of_strangers_.contains(path.string());
   }
 
   const ResultsFolder& folder_;
   const Plan plan_;
   const std::vector<Unit> units_;
-  PlanRows wanted_;
+  PlanRows plan_rows_;
   RowTally tally_;
   RowJudge judge_;
   std::set<std::string> logs_of_strangers_;  // of rows that are not in the plan

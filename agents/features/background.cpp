@@ -13,11 +13,11 @@ namespace {
 constexpr std::size_t kMostDecisionsBefore = 600, kDecisionsAfter = 600;
 constexpr double kPerturb = 0.95;
 
-Settings machine_of_samples(const Settings& wanted) {
+Settings machine_of_samples(const Settings& requested) {
   Settings machine;
-  machine.frame_skip = wanted.frame_skip;
-  machine.color_averaging = wanted.color_averaging;
-  machine.cpu = wanted.cpu;
+  machine.frame_skip = requested.frame_skip;
+  machine.color_averaging = requested.color_averaging;
+  machine.cpu = requested.cpu;
   machine.sticky = 0;
   return machine;
 }
@@ -31,19 +31,20 @@ void sample_screens(const Cartridge& cartridge, const SampleSettings& settings, 
   PlaySettings play = settings.play;
   play.noop_max = 0;
   const auto any = [&] { return static_cast<int>(random.below(kActions)); };
-  int seen = 0;
-  while (seen < screens) {
+  int count = 0;
+  while (count < screens) {
     begin_episode(machine, play, static_cast<std::uint32_t>(random.next()) | 1U);
     machine.set_drawing(Drawing::kNone);
     const int fixed = any();
-    for (std::size_t left = random.below(kMostDecisionsBefore); left > 0 && !machine.game_over(); --left)
+    for (std::size_t remaining = random.below(kMostDecisionsBefore); remaining > 0 && !machine.game_over();
+         --remaining)
       machine.act(random.uniform() < kPerturb ? fixed : any());
     machine.set_drawing(Drawing::kLast);
-    for (std::size_t left = kDecisionsAfter; left > 0 && seen < screens; --left, ++seen) {
+    for (std::size_t remaining = kDecisionsAfter; remaining > 0 && count < screens; --remaining, ++count) {
       machine.act(any());
-      look(machine, left == kDecisionsAfter);
+      look(machine, remaining == kDecisionsAfter);
       if (machine.game_over()) {
-        ++seen;
+        ++count;
         break;
       }
     }

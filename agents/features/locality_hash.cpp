@@ -20,13 +20,13 @@ LocalityHash::LocalityHash(int vectors, int ones, int buckets, std::uint64_t see
   std::vector<One> all;
   std::vector<std::uint32_t> owner(kFeaturePixels * kBitsOfColour);  // the last vector that has a bit, from 1
   for (std::size_t vector = 0; vector < sums_.size(); ++vector) {
-    for (int left = ones; left > 0;) {
+    for (int remaining = ones; remaining > 0;) {
       const std::size_t bit = random.below(owner.size());
       if (owner[bit] == vector + 1) continue;  // the ones of a vector are distinct
       owner[bit] = static_cast<std::uint32_t>(vector + 1);
       const auto hash = static_cast<std::uint16_t>(random.below(buckets_));
       all.push_back({static_cast<std::uint32_t>(bit), {static_cast<std::uint16_t>(vector), hash}});
-      --left;
+      --remaining;
     }
   }
   std::ranges::stable_sort(all, {}, &One::bit);
@@ -44,9 +44,9 @@ void LocalityHash::forget() {
 
 // The hashes of the pixel's bits that are set now are added, and those of bits that were set are taken away.
 void LocalityHash::apply(const Change& change) {
-  for (unsigned left = change.before ^ change.now; left != 0; left &= left - 1) {
-    const std::size_t bit = change.pixel * kBitsOfColour + static_cast<std::size_t>(std::countr_zero(left));
-    const std::int32_t sign = (change.now & left & -left) != 0 ? 1 : -1;
+  for (unsigned bits = change.before ^ change.now; bits != 0; bits &= bits - 1) {
+    const std::size_t bit = change.pixel * kBitsOfColour + static_cast<std::size_t>(std::countr_zero(bits));
+    const std::int32_t sign = (change.now & bits & -bits) != 0 ? 1 : -1;
     for (std::uint32_t at = first_[bit]; at < first_[bit + 1]; ++at)
       sums_[entries_[at].vector] += sign * entries_[at].hash;
   }

@@ -23,14 +23,14 @@ Box around(const Box& a, const Box& b) {
 // Makes a shape of the runs of several that do not overlap.
 void put_in_order(Shape& runs) {
   std::ranges::sort(runs, {}, [](const PixelRun& run) { return std::tuple(run.row, run.first); });
-  std::size_t kept = 0;
+  std::size_t last = 0;
   for (std::size_t i = 1; i < runs.size(); ++i) {
-    if (runs[i].row == runs[kept].row && runs[i].first == runs[kept].last + 1)
-      runs[kept].last = runs[i].last;
+    if (runs[i].row == runs[last].row && runs[i].first == runs[last].last + 1)
+      runs[last].last = runs[i].last;
     else
-      runs[++kept] = runs[i];
+      runs[++last] = runs[i];
   }
-  runs.resize(kept + 1);
+  runs.resize(last + 1);
 }
 
 }  // namespace

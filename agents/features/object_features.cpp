@@ -112,9 +112,9 @@ void ObjectFeatures::add(std::uint32_t feature) {
 // Moves what was counted to `active`.
 void ObjectFeatures::take_counts(ActiveFeatures& active) {
   for (std::size_t word = 0; word < counted_.size(); ++word) {
-    for (std::uint64_t left = std::exchange(counted_[word], 0); left != 0; left &= left - 1) {
+    for (std::uint64_t bits = std::exchange(counted_[word], 0); bits != 0; bits &= bits - 1) {
       const auto feature =
-          static_cast<std::uint32_t>(word * 64) + static_cast<std::uint32_t>(std::countr_zero(left));
+          static_cast<std::uint32_t>(word * 64) + static_cast<std::uint32_t>(std::countr_zero(bits));
       active.indices.push_back(feature);
       const float count = std::exchange(counts_[feature], 0.0F);
       if (count_instances_) active.counts.push_back(count);

@@ -19,8 +19,8 @@ class RamBits final : public FeatureSet {
   void extract(std::span<const std::uint8_t, kRamSize> ram, ActiveFeatures& active) const {
     active.clear();
     for (std::uint32_t byte = 0; byte < kRamSize; ++byte) {
-      for (unsigned left = ram[byte]; left != 0; left &= left - 1)
-        active.indices.push_back(8 * byte + static_cast<std::uint32_t>(std::countr_zero(left)));
+      for (unsigned bits = ram[byte]; bits != 0; bits &= bits - 1)
+        active.indices.push_back(8 * byte + static_cast<std::uint32_t>(std::countr_zero(bits)));
     }
     append_pairs(active, kBits);
   }

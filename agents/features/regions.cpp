@@ -118,15 +118,15 @@ void Regions::measure() {
 
 void Regions::leave_out_single_pixels() {
   renamed_.resize(regions_.size());
-  Number kept = 0, runs = 0;
+  Number end = 0, runs = 0;
   for (Number number = 0; number < regions_.size(); ++number) {
-    renamed_[number] = regions_[number].area == 1 ? kNoRegion : kept;
+    renamed_[number] = regions_[number].area == 1 ? kNoRegion : end;
     if (renamed_[number] == kNoRegion) continue;
-    regions_[kept] = regions_[number];
-    regions_[kept++].first_run = runs;
+    regions_[end] = regions_[number];
+    regions_[end++].first_run = runs;
     runs += regions_[number].run_count;
   }
-  regions_.resize(kept);
+  regions_.resize(end);
   for (Number& region : region_of_) region = renamed_[region];
 }
 

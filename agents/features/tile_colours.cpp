@@ -74,10 +74,10 @@ void TileColours::extract(Screen screen, ActiveFeatures& active) const {
     }
     for (int column = 0; column < grid_width_; ++column, first += static_cast<std::uint32_t>(colours_)) {
       const ColourSet& tile = tiles[static_cast<std::size_t>(column)];
-      for (std::uint64_t left = tile.low; left != 0; left &= left - 1)
-        active.indices.push_back(first + static_cast<std::uint32_t>(std::countr_zero(left)));
-      for (std::uint64_t left = tile.high; left != 0; left &= left - 1)
-        active.indices.push_back(first + 64 + static_cast<std::uint32_t>(std::countr_zero(left)));
+      for (std::uint64_t bits = tile.low; bits != 0; bits &= bits - 1)
+        active.indices.push_back(first + static_cast<std::uint32_t>(std::countr_zero(bits)));
+      for (std::uint64_t bits = tile.high; bits != 0; bits &= bits - 1)
+        active.indices.push_back(first + 64 + static_cast<std::uint32_t>(std::countr_zero(bits)));
     }
   }
   if (pairs_) append_pairs(active, static_cast<std::uint32_t>(tiles_));

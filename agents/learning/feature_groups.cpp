@@ -36,9 +36,9 @@ FeatureGroups::Slot& FeatureGroups::slot_of(std::uint32_t feature) {
 
 // For so many features that may be new.
 void FeatureGroups::make_room(std::size_t features) {
-  const std::size_t wanted = std::bit_ceil(2 * std::min(seen_ + features, most_));
-  if (wanted <= slots_.size()) return;
-  const HugeTable<Slot> old = std::exchange(slots_, HugeTable<Slot>(wanted, Slot{kNoFeature, 0}));
+  const std::size_t slots = std::bit_ceil(2 * std::min(seen_ + features, most_));
+  if (slots <= slots_.size()) return;
+  const HugeTable<Slot> old = std::exchange(slots_, HugeTable<Slot>(slots, Slot{kNoFeature, 0}));
   for (const Slot& slot : old)
     if (slot.feature != kNoFeature) slot_of(slot.feature) = slot;
 }

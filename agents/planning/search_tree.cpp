@@ -184,22 +184,22 @@ TreeSearch::Number TreeSearch::child_of_root(int action) const {
 // Drops all nodes but those of the subtree of `to`, which keep their order.
 void TreeSearch::move_root(Number to) {
   std::vector<Number> number_of(nodes_.size());  // 0: it is dropped, or is the new root
-  std::vector<Node> kept;
-  kept.push_back(std::move(nodes_[to]));
-  kept[0].parent = kept[0].twin = 0;
-  kept[0].frames = 0;
-  kept[0].reward = 0;
+  std::vector<Node> nodes;
+  nodes.push_back(std::move(nodes_[to]));
+  nodes[0].parent = nodes[0].twin = 0;
+  nodes[0].frames = 0;
+  nodes[0].reward = 0;
   for (Number number = to + 1; number < nodes_.size(); ++number) {
     const Number parent = nodes_[number].parent;
     if (parent != to && number_of[parent] == 0) continue;
-    number_of[number] = static_cast<Number>(kept.size());
-    Node& node = kept.emplace_back(std::move(nodes_[number]));
+    number_of[number] = static_cast<Number>(nodes.size());
+    Node& node = nodes.emplace_back(std::move(nodes_[number]));
     node.parent = number_of[parent];
     node.twin = number_of[node.twin];
-    Number& first_child = kept[node.parent].first_child;
+    Number& first_child = nodes[node.parent].first_child;
     if (first_child == number) first_child = number_of[number];
   }
-  nodes_ = std::move(kept);
+  nodes_ = std::move(nodes);
 }
 
 }  // namespace racebeam

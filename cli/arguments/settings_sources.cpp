@@ -74,9 +74,9 @@ Values values_of(const toml::node& node, const std::string& where) {
                              const std::vector<CLI::Option*>& options) {
   std::vector<std::string> keys;
   for (const CLI::Option* option : options) keys.push_back(key_of(*option));
-  const std::vector<std::string_view> known(keys.begin(), keys.end());
+  const std::vector<std::string_view> names(keys.begin(), keys.end());
   throw UsageError(path + ": unknown setting '" + key + "';" +
-                   advice(key, known, "accepted: " + CLI::detail::join(keys, ", ")));
+                   advice(key, names, "accepted: " + CLI::detail::join(keys, ", ")));
 }
 
 FromFile read_file(const std::string& path, const std::vector<CLI::Option*>& options) {
@@ -138,8 +138,8 @@ Setting complete(CLI::Option& option, const FromFile& file) {
     if (!found->second.empty()) give(option, found->second, file.name + ": " + found->first);
     return setting(Source::kFile, found->second);
   }
-  const std::string usual = is_flag(option) ? "false" : option.get_default_str();
-  return setting(Source::kDefault, usual.empty() ? Values{} : Values{usual});
+  const std::string default_text = is_flag(option) ? "false" : option.get_default_str();
+  return setting(Source::kDefault, default_text.empty() ? Values{} : Values{default_text});
 }
 
 // The value of the option --config, or of its environment variable.

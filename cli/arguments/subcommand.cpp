@@ -33,9 +33,9 @@ std::optional<std::uint64_t> size_of(std::string_view text) {
   const auto number = parse_number<std::uint64_t>(text.substr(0, digits));
   const std::size_t place = unit.empty() ? std::string_view::npos : kUnits.find(unit.front());
   const std::string_view rest = std::string_view(unit).substr(place == std::string_view::npos ? 0 : 1);
-  const bool known = rest.empty() || rest == "b" || (rest == "ib" && rest.size() < unit.size());
+  const bool is_known = rest.empty() || rest == "b" || (rest == "ib" && rest.size() < unit.size());
   const std::size_t shift = place == std::string_view::npos ? 0 : 10 * (place + 1);
-  if (!number || !known || *number > kMostBytes >> shift) return std::nullopt;
+  if (!number || !is_known || *number > kMostBytes >> shift) return std::nullopt;
   return *number << shift;
 }
 
@@ -67,8 +67,8 @@ Check number(double least, double most, const std::string& accepted) {
 
 Check one_of(const std::vector<std::string>& words) {
   const auto refusal = [words](const std::string& text) {
-    const bool known = std::ranges::find(words, text) != words.end();
-    return known ? std::string{} : "unknown value '" + text + "'; accepted: " + joined(words);
+    const bool is_known = std::ranges::find(words, text) != words.end();
+    return is_known ? std::string{} : "unknown value '" + text + "'; accepted: " + joined(words);
   };
   return {refusal, ""};
 }

@@ -79,7 +79,7 @@ class BenchSession {
   // must not be inlined.
   [[gnu::noinline]] void measured_act(int action) {
     reward_ += environment_.act(action);
-    seen_ += look_ ? environment_.screen()[0] : environment_.ram()[0];
+    digest_ += look_ ? environment_.screen()[0] : environment_.ram()[0];
   }
 
   void begin() {
@@ -128,7 +128,7 @@ class BenchSession {
   Environment environment_;
   int frames_ = 0, reward_ = 0, resets_ = 0, first_frame_ = 0;
   double reset_seconds_ = 0;
-  unsigned seen_ = 0;
+  unsigned digest_ = 0;
 };
 
 [[noreturn]] void refuse(const std::string& line) {

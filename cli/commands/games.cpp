@@ -70,9 +70,10 @@ void print_table() {
 
 std::string correction(const Game& game) {
   if (!game.fixed) return "-";
-  const Correction& made = game.correction;
-  std::string text = made.wraps ? "The score may wrap at " + std::to_string(*made.wraps) + "." : "";
-  return text + (text.empty() || made.correction.empty() ? "" : " ") + made.correction;
+  const Correction& correction = game.correction;
+  std::string text =
+      correction.wraps ? "The score may wrap at " + std::to_string(*correction.wraps) + "." : "";
+  return text + (text.empty() || correction.correction.empty() ? "" : " ") + correction.correction;
 }
 
 const char* rule_name(const Game& game) {
@@ -106,11 +107,11 @@ nlohmann::ordered_json images(const Game& game) {
 
 nlohmann::ordered_json fixed_rule(const Game& game) {
   if (!game.fixed) return nullptr;
-  const Correction& made = game.correction;
-  return {{"wraps", made.wraps ? nlohmann::ordered_json(*made.wraps) : nullptr},
-          {"reference", made.reference},
-          {"correction", made.correction},
-          {"evidence", made.evidence},
+  const Correction& correction = game.correction;
+  return {{"wraps", correction.wraps ? nlohmann::ordered_json(*correction.wraps) : nullptr},
+          {"reference", correction.reference},
+          {"correction", correction.correction},
+          {"evidence", correction.evidence},
           {"minimal_actions", names(game.fixed->minimal_actions)}};
 }
 
@@ -145,9 +146,9 @@ void print_json(const std::string& name) {
 const CatalogueEntry& entry_named(const std::string& name) {
   const auto found = std::ranges::find(catalogue(), name, &CatalogueEntry::name);
   if (found != catalogue().end()) return *found;
-  const std::string meant = did_you_mean(name, game_names());
+  const std::string suggestion = did_you_mean(name, game_names());
   throw std::invalid_argument("unknown game '" + name + "';" +
-                              (meant.empty() ? " racebeam games lists them" : meant));
+                              (suggestion.empty() ? " racebeam games lists them" : suggestion));
 }
 
 void print_fact(std::string_view name, const std::string& fact) {

@@ -53,8 +53,8 @@ std::string other_dump_of(const std::string& md5) {
 RomFinding judge(const Image& image) {
   const Recognition recognition = recognise(image);
   const std::string& name = recognition.game->name;
-  const std::string_view given = recognition.game->properties_for(image.md5).scheme;
-  const std::string scheme(scheme_of(*image.bytes, given).name);
+  const std::string_view game_scheme = recognition.game->properties_for(image.md5).scheme;
+  const std::string scheme(scheme_of(*image.bytes, game_scheme).name);
   if (recognition.how == RecognisedBy::kMd5) return {"", "known", name, image.md5, scheme, ""};
   if (recognition.how == RecognisedBy::kFileName)
     return {"", "by-name", name, image.md5, scheme, "not the image that its rule was written for"};

@@ -140,8 +140,8 @@ void add_operation(Subcommand& command, ServeOptions& options) {
   command
       .option(
           "--busy-poll",
-          [&server](const std::string& given) {
-            server.busy_poll = std::chrono::microseconds(std::stoll(given));
+          [&server](const std::string& text) {
+            server.busy_poll = std::chrono::microseconds(std::stoll(text));
           },
           "Microseconds that a thread polls for a client whose requests follow at once; 0: never")
       .check(whole_number(0, 1'000'000))

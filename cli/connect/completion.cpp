@@ -98,20 +98,20 @@ std::vector<std::string> Completion::words(std::string_view before, std::string_
 
 // help begins with "commands: hello help ...;".
 std::vector<std::string> Completion::commands() const {
-  const std::string told = ask_("help");
+  const std::string text = ask_("help");
   Texts names;
-  for (const std::string_view word : split(std::string_view(told).substr(0, told.find(';')), ' '))
+  for (const std::string_view word : split(std::string_view(text).substr(0, text.find(';')), ' '))
     if (!word.empty() && !word.ends_with(':')) names.emplace_back(word);
   return names;
 }
 
 // From the usage, with which `help COMMAND` begins: "save NAME [generator=1] [machine=N]: ...".
 std::vector<std::string> Completion::arguments(std::string_view command, std::string_view word) const {
-  const Texts known = commands();
-  if (std::ranges::find(known, command) == known.end()) return {};
-  const std::string told = ask_("help " + std::string(command));
+  const Texts names = commands();
+  if (std::ranges::find(names, command) == names.end()) return {};
+  const std::string text = ask_("help " + std::string(command));
   Texts found;
-  auto tokens = split(std::string_view(told).substr(0, told.find(": ")), ' ');
+  auto tokens = split(std::string_view(text).substr(0, text.find(": ")), ' ');
   if (!tokens.empty()) tokens.erase(tokens.begin());
   for (const std::string_view token : tokens) add_alternatives(command, plain(token), word, found);
   return found;
@@ -168,11 +168,11 @@ std::vector<std::string> Completion::named(std::string_view command, std::string
 std::vector<std::string> Completion::values_of(std::string_view key) const {
   if (key.empty()) return {};
   if (key == "preset") return listed("hello", "presets");
-  const std::string told = ask_("help " + std::string(key)), head = std::string(key) + " (";
-  const std::size_t begin = told.find(head);
-  if (begin == told.npos) return {};
+  const std::string text = ask_("help " + std::string(key)), head = std::string(key) + " (";
+  const std::size_t begin = text.find(head);
+  if (begin == text.npos) return {};
   return words_of_list(
-      std::string_view(told).substr(begin + head.size(), told.find(')', begin) - begin - head.size()));
+      std::string_view(text).substr(begin + head.size(), text.find(')', begin) - begin - head.size()));
 }
 
 // The words of a value that are separated by commas.

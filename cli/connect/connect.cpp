@@ -103,7 +103,7 @@ class Conversation {
 
  private:
   // For completion.
-  std::string told(const std::string& request) {
+  std::string text_of(const std::string& request) {
     try {
       constexpr std::string_view kOk = "ok ";
       const std::string line = session_.request(request).line();
@@ -140,8 +140,8 @@ class Conversation {
   }
 
   void show_screen() {
-    const auto shown = session_.look("screen:zlib", "palette");
-    const TerminalPicture picture{shown.bytes("screen"), shown.bytes("palette")};
+    const auto look = session_.look("screen:zlib", "palette");
+    const TerminalPicture picture{look.bytes("screen"), look.bytes("palette")};
     Room room;
     if (editor_.interactive()) ask_terminal(room);
     room.rows = Room::kNoLimit;
@@ -158,7 +158,7 @@ class Conversation {
   client::Session session_;
   bool strict_;
   Graphics graphics_;
-  Completion completion_{[this](const std::string& request) { return told(request); },
+  Completion completion_{[this](const std::string& request) { return text_of(request); },
                          {":screen", ":help", ":quit"}};
   LineEditor editor_;
 };

@@ -14,10 +14,10 @@ std::string page_address(const std::string& address) {
       {"http://", "http://"},
       {"https://", "https://"},
   }};
-  for (const auto& [given, shown] : kSchemes) {
-    if (!address.starts_with(given)) continue;
-    const std::string place = address.substr(given.size());
-    return std::string(shown).append(place.substr(0, place.find('/')));
+  for (const auto& [from, to] : kSchemes) {
+    if (!address.starts_with(from)) continue;
+    const std::string place = address.substr(from.size());
+    return std::string(to).append(place.substr(0, place.find('/')));
   }
   return {};
 }

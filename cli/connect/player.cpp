@@ -62,10 +62,10 @@ class TerminalPlayer {
     const auto now = Clock::now();
     next_act_ = now > next_act_ + kMostLate ? now + period_ : next_act_ + period_;
     if (is_paused_ || is_over_) return;
-    const client::Group seen = session_.act(joysticks_.action(now));
-    score_ += seen.reward();
-    lives_ = seen.lives();
-    is_over_ = seen.over();
+    const client::Group result = session_.act(joysticks_.action(now));
+    score_ += result.reward();
+    lives_ = result.lives();
+    is_over_ = result.over();
     is_stale_ = true;
   }
 

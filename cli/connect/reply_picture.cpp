@@ -96,7 +96,7 @@ class Replies {
     follow(reply.first());
     read_raw(reply, input);
     std::size_t behind = 0;  // bytes of raw_ before the value
-    bool seen = false;
+    bool has_picture = false;
     for (std::size_t group = 0; group < reply.groups().size(); ++group) {
       for (const Group::Value& value : reply.groups()[group].values()) {
         const std::size_t count = raw_size(value);
@@ -104,8 +104,8 @@ class Replies {
         behind += count;
         if (value.key == "palette")
           palette_ = bytes_of(value, raw, [](auto size) { return size == kPalette; });
-        if (seen || !is_wanted(value, group)) continue;
-        seen = true;
+        if (has_picture || !is_wanted(value, group)) continue;
+        has_picture = true;
         see(value, raw, group);
       }
     }

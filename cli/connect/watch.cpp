@@ -117,14 +117,14 @@ class Watcher {
   }
 
   bool take(const client::Reply& reply) {
-    const client::Group& seen = reply.first();
-    frame_ = seen.text("frame");
+    const client::Group& group = reply.first();
+    frame_ = group.text("frame");
     line_ = printable(name_);
     for (const std::string key : {"game", "score", "lives", "episode", "action"})
-      line_.append("  ").append(key).append(" ").append(printable(seen.text(key)));
-    if (!seen.has("screen")) return false;
-    picture_.pixels = client::decode(client::Encoding::kZlib, seen.text("screen"));
-    picture_.colours = client::decode(client::Encoding::kHex, seen.text("palette"));
+      line_.append("  ").append(key).append(" ").append(printable(group.text(key)));
+    if (!group.has("screen")) return false;
+    picture_.pixels = client::decode(client::Encoding::kZlib, group.text("screen"));
+    picture_.colours = client::decode(client::Encoding::kHex, group.text("palette"));
     return true;
   }
 

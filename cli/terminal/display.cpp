@@ -53,17 +53,17 @@ TerminalAbilities ask_abilities(Tty& tty) {
   return abilities;
 }
 
-Graphics choose_graphics(Graphics wanted, const TerminalAbilities& abilities) {
-  if (wanted != Graphics::kAuto) return wanted;
+Graphics choose_graphics(Graphics preference, const TerminalAbilities& abilities) {
+  if (preference != Graphics::kAuto) return preference;
   if (abilities.kitty) return Graphics::kKitty;
   return abilities.sixel ? Graphics::kSixel : Graphics::kBlocks;
 }
 
-Display::Display(Graphics wanted)
-    : abilities_(ask_abilities(tty_)), painter_(choose_graphics(wanted, abilities_)) {
+Display::Display(Graphics preference)
+    : abilities_(ask_abilities(tty_)), painter_(choose_graphics(preference, abilities_)) {
   tty_.change(kEnter, kLeave);
   if (abilities_.keyboard) tty_.change(kReleases, kNoReleases);
-  if (choose_graphics(wanted, abilities_) == Graphics::kKitty) tty_.change({}, kDeletePictures);
+  if (choose_graphics(preference, abilities_) == Graphics::kKitty) tty_.change({}, kDeletePictures);
   tty_.change({}, kEndOfAny);
 }
 

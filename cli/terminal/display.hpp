@@ -21,8 +21,8 @@ struct TerminalAbilities {
 // Asks the terminal, and waits for half a second at most.
 TerminalAbilities ask_abilities(Tty& tty);
 
-// The form that `wanted` leads to.
-Graphics choose_graphics(Graphics wanted, const TerminalAbilities& abilities);
+// The form that `preference` leads to.
+Graphics choose_graphics(Graphics preference, const TerminalAbilities& abilities);
 
 // Takes the whole terminal for its lifetime. Pictures that the line does not carry in time are to be left
 // out: the terminal says which have arrived, and at most two are under way.
@@ -30,7 +30,7 @@ class Display {
  public:
   using Time = Tty::Time;
 
-  explicit Display(Graphics wanted);
+  explicit Display(Graphics preference);
   ~Display();  // the terminal is as before
   Display(const Display&) = delete;
   Display& operator=(const Display&) = delete;

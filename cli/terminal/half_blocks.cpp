@@ -65,11 +65,11 @@ Cells cells_of(const TerminalPicture& picture, const Room& room) {
     return mean(picture, left, std::max(left + 1, (column + 1) * kPixelsARow / columns), top,
                 std::max(top + 1, (row + 1) * height / rows));
   };
-  Cells made{.columns = columns, .cells = {}};
+  Cells cells{.columns = columns, .cells = {}};
   for (std::size_t row = 0; row < rows; row += 2)
     for (std::size_t column = 0; column < columns; ++column)
-      made.cells.push_back({block(column, row), block(column, row + 1)});
-  return made;
+      cells.cells.push_back({block(column, row), block(column, row + 1)});
+  return cells;
 }
 
 std::string as_lines(const Cells& cells) {

@@ -101,11 +101,11 @@ std::vector<TerminalEvent> InputParser::parse(std::string_view bytes) {
   std::vector<TerminalEvent> events;
   std::size_t at = 0;
   while (at < rest_.size()) {
-    Taken taken = take(std::string_view(rest_).substr(at));
-    if (taken.size == 0 && rest_.size() - at > kLongest) taken.size = 1;
-    if (taken.size == 0) break;
-    if (taken.event) events.push_back(*std::move(taken.event));
-    at += taken.size;
+    Taken part = take(std::string_view(rest_).substr(at));
+    if (part.size == 0 && rest_.size() - at > kLongest) part.size = 1;
+    if (part.size == 0) break;
+    if (part.event) events.push_back(*std::move(part.event));
+    at += part.size;
   }
   rest_.erase(0, at);
   return events;

@@ -71,8 +71,8 @@ class Runner {
       }
       const std::size_t end = std::min(line.find_first_not_of(kNameLetters, at + 1), line.size());
       const std::string name = line.substr(at + 1, end - at - 1);
-      const auto kept = variables_.find(name);
-      text += kept != variables_.end() ? kept->second : std::getenv(name.c_str());
+      const auto variable = variables_.find(name);
+      text += variable != variables_.end() ? variable->second : std::getenv(name.c_str());
       at = end;
     }
     return text;
@@ -195,11 +195,11 @@ class Runner {
     last_ = reply.first();
     std::string text = "ok";
     for (const client::Group& group : reply.groups())
-      text += (text == "ok" ? "" : " |") + shown(command, group);
+      text += (text == "ok" ? "" : " |") + text_of(command, group);
     return text;
   }
 
-  std::string shown(const std::string& command, const client::Group& group) {
+  std::string text_of(const std::string& command, const client::Group& group) {
     if (stack_ && (command == "reset" || command == "load" || command == "observe")) stack_->screens.clear();
     std::map<std::string, std::string> pairs;
     for (const auto& [key, text, is_bytes, bytes] : group.values()) {

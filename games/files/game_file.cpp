@@ -38,20 +38,20 @@ Properties properties_of(const Section& section) {
                                                             {"PAL60", Format::kPal60},
                                                             {"SECAM", Format::kSecam}}};
   const std::vector<std::string> difficulties = {"B", "A"};
-  Properties made;
-  made.left = choice_of_section(section, "left", kControllers).value_or(made.left);
-  made.right = choice_of_section(section, "right", kControllers).value_or(made.right);
-  made.swap_ports = section.flag("swap_ports").value_or(made.swap_ports);
-  made.swap_paddles = section.flag("swap_paddles").value_or(made.swap_paddles);
-  made.left_difficulty_a = section.choice("left_difficulty", difficulties) == 1;
-  made.right_difficulty_a = section.choice("right_difficulty", difficulties) == 1;
-  made.hmove_blanks = section.flag("hmove_blanks").value_or(made.hmove_blanks);
-  made.format = choice_of_section(section, "format", kFileFormats).value_or(made.format);
+  Properties properties;
+  properties.left = choice_of_section(section, "left", kControllers).value_or(properties.left);
+  properties.right = choice_of_section(section, "right", kControllers).value_or(properties.right);
+  properties.swap_ports = section.flag("swap_ports").value_or(properties.swap_ports);
+  properties.swap_paddles = section.flag("swap_paddles").value_or(properties.swap_paddles);
+  properties.left_difficulty_a = section.choice("left_difficulty", difficulties) == 1;
+  properties.right_difficulty_a = section.choice("right_difficulty", difficulties) == 1;
+  properties.hmove_blanks = section.flag("hmove_blanks").value_or(properties.hmove_blanks);
+  properties.format = choice_of_section(section, "format", kFileFormats).value_or(properties.format);
   if (const auto scheme = section.text("scheme"))
-    section.guard(*section.node("scheme"), "scheme", [&] { made.scheme = scheme_named(*scheme).name; });
-  made.ystart = section.number("ystart").value_or(made.ystart);
-  made.height = section.number("height").value_or(made.height);
-  return made;
+    section.guard(*section.node("scheme"), "scheme", [&] { properties.scheme = scheme_named(*scheme).name; });
+  properties.ystart = section.number("ystart").value_or(properties.ystart);
+  properties.height = section.number("height").value_or(properties.height);
+  return properties;
 }
 
 GameImage read_image(const TomlSource& source, const toml::table& table) {

@@ -59,10 +59,10 @@ void Section::refuse_missing(std::string_view key, const std::string& sentence) 
 }
 
 template <class T>
-std::optional<T> Section::value(std::string_view key, const char* wanted) const {
+std::optional<T> Section::value(std::string_view key, const char* expected) const {
   const toml::node* const found = node(key);
   if (!found) return std::nullopt;
-  if (!found->is<T>()) refuse(*found, key, std::string("must be ") + wanted);
+  if (!found->is<T>()) refuse(*found, key, std::string("must be ") + expected);
   return found->value_exact<T>();
 }
 

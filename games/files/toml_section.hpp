@@ -60,7 +60,7 @@ class Section {
 
  private:
   template <class T>
-  std::optional<T> value(std::string_view key, const char* wanted) const;
+  std::optional<T> value(std::string_view key, const char* expected) const;
   std::string field(std::string_view key) const;
   int first_line(const toml::node& text) const;
 

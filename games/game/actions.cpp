@@ -16,8 +16,8 @@ constexpr std::array<std::string_view, kActions> kNames = {
 
 std::string_view action_name(int action) {
   if (action == kResetAction) return "RESET";
-  const bool known = action >= 0 && action < 2 * kActions;
-  return known ? kNames[static_cast<std::size_t>(action % kActions)] : std::string_view{};
+  const bool is_known = action >= 0 && action < 2 * kActions;
+  return is_known ? kNames[static_cast<std::size_t>(action % kActions)] : std::string_view{};
 }
 
 std::optional<int> action_number(std::string_view name) {

@@ -13,9 +13,9 @@ constexpr std::string_view kSwappedImages[] = {"bc24440b59092559a1ec26055fd1270e
 
 // An entry with the image's own MD5 is preferred to one that fits any image.
 Properties entry_for(const Game& game, const std::string& md5) {
-  for (const std::string& wanted : {md5, std::string{}})
+  for (const std::string& key : {md5, std::string{}})
     for (const GameImage& image : game.images)
-      if (image.md5 == wanted) return image.properties;
+      if (image.md5 == key) return image.properties;
   return {};
 }
 

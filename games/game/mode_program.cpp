@@ -36,8 +36,8 @@ class Runner {
   // The value, as a number of frames or acts that the program asks for.
   int frames(const Statement& statement) {
     const std::int32_t count = value(statement);
-    asked_ += std::max(count, 0);
-    if (asked_ > kModeFrames)
+    requests_ += std::max(count, 0);
+    if (requests_ > kModeFrames)
       give_up("it asks for more than " + std::to_string(kModeFrames) + " frames and acts");
     return count;
   }
@@ -77,7 +77,7 @@ class Runner {
   ModeHost& host_;
   std::array<std::int32_t, kMaxModeVariables> variables_{};
   int turns_ = 0;
-  std::int64_t asked_ = 0;  // frames of `select` and acts
+  std::int64_t requests_ = 0;  // frames of `select` and acts
 };
 
 }  // namespace

@@ -57,16 +57,16 @@ class Compiler {
 
   Register expression(int level = kLoosest) {
     const Nesting nesting(*this);
-    Register left = unary();
+    Register sum = unary();
     bool compared = false;
     while (const Binary* binary = operator_ahead(level)) {
       if (binary->level == kComparison && compared)
         in_.refuse("comparisons cannot be chained: put the first one in parentheses");
       compared = binary->level == kComparison;
       in_.next();
-      left = emit({.op = binary->op, .a = left, .b = expression(binary->level + 1)});
+      sum = emit({.op = binary->op, .a = sum, .b = expression(binary->level + 1)});
     }
-    return left;
+    return sum;
   }
 
  private:
@@ -201,9 +201,9 @@ class Compiler {
   Register previous() {
     if (scope_.purpose != Purpose::kStep) in_.refuse("prev() is only accepted in 'step'");
     enter_call();
-    const std::string_view wanted = variable_name();
+    const std::string_view name = variable_name();
     leave_call("prev");
-    return before_step(wanted);
+    return before_step(name);
   }
 
   Register random() {
@@ -278,9 +278,9 @@ class Compiler {
     return before_step(variable_name());
   }
 
-  Register before_step(std::string_view wanted) {
+  Register before_step(std::string_view name) {
     try {
-      return emit({.op = Op::kVariable, .value = scope_.names.slot(wanted)});
+      return emit({.op = Op::kVariable, .value = scope_.names.slot(name)});
     } catch (const SourceError&) {
       throw;
     } catch (const InvalidInput& error) {

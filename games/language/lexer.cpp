@@ -105,8 +105,8 @@ class Lexer {
 std::vector<Token> tokens_of(std::string_view source) { return Lexer(source).run(); }
 
 std::string quoted(std::string_view text) {
-  std::string made(1, '\'');
-  return made.append(text).append(1, '\'');
+  std::string quoted(1, '\'');
+  return quoted.append(text).append(1, '\'');
 }
 
 std::string described(const Token& token) {

@@ -50,21 +50,21 @@ class StatementCompiler {
   }
 
   Statement with_expression(Kind kind) {
-    Statement made{.kind = kind};
+    Statement statement{.kind = kind};
     ProgramBuilder builder;
     scope_.draws = false;
     const Register value = compile_expression(in_, scope_, builder);
-    made.expression = builder.finish(value);
-    made.draws = scope_.draws;
-    return made;
+    statement.expression = builder.finish(value);
+    statement.draws = scope_.draws;
+    return statement;
   }
 
   Statement assignment() {
     const Token name = in_.next();
     in_.next();
-    Statement made = with_expression(Kind::kAssign);
-    made.target = target(name);
-    return made;
+    Statement statement = with_expression(Kind::kAssign);
+    statement.target = target(name);
+    return statement;
   }
 
   int target(const Token& name) {
@@ -87,10 +87,10 @@ class StatementCompiler {
     const std::optional<int> action = action_number(name.text);
     if (!action || *action >= kActions) throw SourceError(name.line, described(name) + " is not an action");
     const bool has_count = in_.peek().kind != Token::Kind::kLineEnd && !in_.is(";") && !in_.is("}");
-    Statement made =
+    Statement statement =
         has_count ? with_expression(Kind::kAct) : Statement{.kind = Kind::kAct, .expression = one()};
-    made.target = *action;
-    return made;
+    statement.target = *action;
+    return statement;
   }
 
   static Program one() {
@@ -99,16 +99,16 @@ class StatementCompiler {
   }
 
   Statement loop() {
-    Statement made = with_expression(Kind::kWhile);
-    made.body = block();
-    return made;
+    Statement statement = with_expression(Kind::kWhile);
+    statement.body = block();
+    return statement;
   }
 
   Statement branch() {
-    Statement made = with_expression(Kind::kIf);
-    made.body = block();
-    if (in_.accept("else")) made.otherwise = block();
-    return made;
+    Statement statement = with_expression(Kind::kIf);
+    statement.body = block();
+    if (in_.accept("else")) statement.otherwise = block();
+    return statement;
   }
 
   std::vector<Statement> block() {

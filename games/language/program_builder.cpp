@@ -62,16 +62,16 @@ Program ProgramBuilder::finish(Register result) {
 void ProgramBuilder::drop_unused() {
   const std::vector<bool> used = used_code();
   std::vector<Register> moved(used.size());
-  std::vector<Instruction> kept;
+  std::vector<Instruction> instructions;
   for (std::size_t i = 0; i < used.size(); ++i) {
-    moved[i] = static_cast<Register>(kept.size());
-    if (used[i]) kept.push_back(program_.code[i]);
+    moved[i] = static_cast<Register>(instructions.size());
+    if (used[i]) instructions.push_back(program_.code[i]);
   }
-  for (Instruction& instruction : kept)
+  for (Instruction& instruction : instructions)
     for (Register* operand : operands(instruction)) *operand = moved[*operand];
   for (Output& output : program_.outputs) output.from = moved[output.from];
   program_.result = moved[program_.result];
-  program_.code = std::move(kept);
+  program_.code = std::move(instructions);
 }
 
 // Operands have lower numbers than the instructions that use them.

@@ -14,15 +14,15 @@ std::span<char> LineBuffer::space() {
 void LineBuffer::added(std::size_t count) { end_ += count; }
 
 std::optional<std::string_view> LineBuffer::line(std::size_t longest) {
-  const std::string_view seen = rest().substr(0, longest);
-  const std::size_t feed = seen.find('\n');
+  const std::string_view text = rest().substr(0, longest);
+  const std::size_t feed = text.find('\n');
   if (feed != std::string_view::npos) {
     begin_ += feed + 1;
-    return seen.substr(0, feed);
+    return text.substr(0, feed);
   }
-  if (seen.size() < longest) return std::nullopt;
+  if (text.size() < longest) return std::nullopt;
   begin_ += longest;
-  return seen;
+  return text;
 }
 
 }  // namespace racebeam

@@ -114,8 +114,8 @@ std::string RlGlueEnvironment::start() {
 // The end is the game's own: an episode that reaches its limit of frames stands still.
 std::string RlGlueEnvironment::step(std::string_view payload) {
   const std::int32_t index = first_int(payload);
-  const bool known = index >= 0 && index < static_cast<std::int32_t>(actions_.size());
-  const int action = actions_[known ? static_cast<std::size_t>(index) : 0];
+  const bool is_known = index >= 0 && index < static_cast<std::int32_t>(actions_.size());
+  const int action = actions_[is_known ? static_cast<std::size_t>(index) : 0];
   const int reward = environment_.act(action, kPlayerBNoop, kPaddleStrength, kPaddleStrength);
   std::string bytes;
   append_int(bytes, environment_.terminal() ? 1 : 0);

@@ -145,17 +145,17 @@ std::size_t text_size(Encoding encoding, std::size_t bytes) {
 }
 
 void append_delta(std::string& out, Bytes bytes, std::span<std::uint8_t> before, const BetweenPieces& pause) {
-  std::size_t told = 0;              // the reader knows the bytes before it
+  std::size_t position = 0;          // the reader knows the bytes before it
   std::size_t written = out.size();  // at the last pause
   for (;;) {
-    std::size_t begin = next_difference(bytes, before, told);
+    std::size_t begin = next_difference(bytes, before, position);
     if (begin == bytes.size()) break;
     const std::size_t end = end_of_change(bytes, before, begin);
-    for (; begin - told > kMostSkipped; told += kMostSkipped) append_header(out, kMostSkipped, 0);
+    for (; begin - position > kMostSkipped; position += kMostSkipped) append_header(out, kMostSkipped, 0);
     while (begin < end) {
-      const std::size_t stop = append_runs(out, begin - told, bytes, begin, end);
+      const std::size_t stop = append_runs(out, begin - position, bytes, begin, end);
       std::copy_n(bytes.data() + begin, stop - begin, before.data() + begin);
-      told = begin = stop;
+      position = begin = stop;
       if (!pause || out.size() - written < kPiece) continue;
       pause();
       written = out.size();

@@ -61,8 +61,8 @@ Action parse_action(std::string_view word, const AllowedActions& actions) {
   const bool has_b = a.size() < players;
   const auto player = [&actions](std::string_view text, float& strength) {
     const std::size_t whole = text.size();
-    const std::string_view given = cut_behind(text, '@');
-    strength = text.size() < whole ? strength_of(given) : 1;
+    const std::string_view part = cut_behind(text, '@');
+    strength = text.size() < whole ? strength_of(part) : 1;
     return number_of(text, actions);
   };
   action.act.a = player(a, action.act.strength_a);

@@ -146,9 +146,9 @@ Field parse_field(std::string_view word) {
   const auto stack = parse_stack(name);
   const auto row = std::ranges::find(kFields, name, &FieldRow::name);
   if (row == kFields.end() || (!stack && (name == kGreyStack || name == kRgbStack))) {
-    auto known = names_of(kFields);
-    known.emplace_back("none");
-    refuse_name("field", name, known);
+    auto names = names_of(kFields);
+    names.emplace_back("none");
+    refuse_name("field", name, names);
   }
   if (!encoded) return {&*row, row->usual, stack, std::move(written)};
   if (row->number)

@@ -24,7 +24,7 @@ void SessionRecording::watch() {
 
 std::optional<Recording::Cut> SessionRecording::new_cut() {
   const auto cut = recording_->cut();
-  return cut && !std::exchange(told_, true) ? cut : std::nullopt;
+  return cut && !std::exchange(has_reported_, true) ? cut : std::nullopt;
 }
 
 void add_cut(Context& context, Reply& reply) {

@@ -35,7 +35,7 @@ class SessionRecording {
   std::shared_ptr<Recording> recording_;
   Slot& slot_;
   Pacer& pacer_;
-  bool told_ = false;
+  bool has_reported_ = false;
 };
 
 // Notes in the reply, once, that the session's recording was cut off.

@@ -17,8 +17,8 @@ std::shared_ptr<const Snapshot> Share::newest() {
 }
 
 std::unique_ptr<Share::Place> Share::place(const std::shared_ptr<Share>& share) {
-  auto taken = std::make_unique<Place>(share);  // its end gives back what the next line takes
-  if (share->watchers_++ < share->most_watchers_) return taken;
+  auto place = std::make_unique<Place>(share);  // its end gives back what the next line takes
+  if (share->watchers_++ < share->most_watchers_) return place;
   return nullptr;
 }
 

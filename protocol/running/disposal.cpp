@@ -36,13 +36,13 @@ void Disposal::take(std::shared_ptr<void> object) {
 }
 
 void Disposal::run() {
-  std::vector<std::shared_ptr<void>> taken;
+  std::vector<std::shared_ptr<void>> objects;
   for (std::unique_lock lock(mutex_);;) {
     changed_.wait(lock, [this] { return ends_ || !objects_.empty(); });
     if (objects_.empty()) return;
-    taken.swap(objects_);
+    objects.swap(objects_);
     lock.unlock();
-    taken.clear();
+    objects.clear();
     lock.lock();
   }
 }

@@ -30,10 +30,10 @@ bool MemoryBudget::take(std::uint64_t bytes, std::uint64_t spare) {
     return true;
   }
   const std::uint64_t most = most_ - spare;
-  std::uint64_t taken = taken_;
+  std::uint64_t before = taken_;
   do {
-    if (taken > most || bytes > most - taken) return false;
-  } while (!taken_.compare_exchange_weak(taken, taken + bytes));
+    if (before > most || bytes > most - before) return false;
+  } while (!taken_.compare_exchange_weak(before, before + bytes));
   return true;
 }
 

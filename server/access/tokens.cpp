@@ -63,10 +63,10 @@ std::size_t Tokens::count() const {
 bool Tokens::admits(std::string_view token) const {
   const Digest candidate = digest_of(token);
   const std::lock_guard lock(mutex_);
-  bool known = false;
+  bool is_known = false;
   for (const Digest& digest : digests_)
-    known |= CRYPTO_memcmp(digest.data(), candidate.data(), digest.size()) == 0;
-  return known;
+    is_known |= CRYPTO_memcmp(digest.data(), candidate.data(), digest.size()) == 0;
+  return is_known;
 }
 
 Tokens::Digest Tokens::digest_of(std::string_view token) {

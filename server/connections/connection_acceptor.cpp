@@ -78,8 +78,8 @@ std::string refusal(const Endpoint& endpoint, const Client& client) {
 
 // The address of a client that has disconnected already is unknown.
 std::string source_of(const Socket& socket) {
-  error_code gone;
-  const Protocol::endpoint peer = socket.remote_endpoint(gone);
+  error_code ignored;
+  const Protocol::endpoint peer = socket.remote_endpoint(ignored);
   net::ip::tcp::endpoint address;
   std::memcpy(address.data(), peer.data(), std::min(peer.size(), address.capacity()));
   return WrongTokens::source_of(address.address());

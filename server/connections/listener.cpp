@@ -93,10 +93,10 @@ std::string Listener::described() const {
 }
 
 std::string Listener::announced(const std::string& host) const {
-  Endpoint shown = bound_;
-  auto* address = std::get_if<TcpAddress>(&shown.address);
+  Endpoint endpoint = bound_;
+  auto* address = std::get_if<TcpAddress>(&endpoint.address);
   if (address != nullptr && net::ip::make_address(host_).is_unspecified()) address->host = host;
-  return to_string(shown);
+  return to_string(endpoint);
 }
 
 void Listener::close() {
@@ -133,7 +133,7 @@ void Listener::bind(const Protocol::endpoint& endpoint) {
 void Listener::describe() {
   const Protocol::endpoint here = acceptor_.local_endpoint();
   local_ = here.protocol().family() == AF_UNIX;
-  const auto* given = std::get_if<TcpAddress>(&endpoint_.address);
+  const auto* tcp_address = std::get_if<TcpAddress>(&endpoint_.address);
   bound_ = endpoint_;
   bound_.classic = false;
   if (local_) {
@@ -143,8 +143,8 @@ void Listener::describe() {
     tcp::endpoint bound;
     std::memcpy(bound.data(), here.data(), std::min(here.size(), bound.capacity()));
     host_ = bound.address().to_string();
-    const bool is_named = given != nullptr && !is_ip_address(given->host);
-    bound_.address = TcpAddress{is_named ? given->host : host_, bound.port()};
+    const bool is_named = tcp_address != nullptr && !is_ip_address(tcp_address->host);
+    bound_.address = TcpAddress{is_named ? tcp_address->host : host_, bound.port()};
   }
   name_ = to_string(bound_);
 }

@@ -28,9 +28,9 @@ std::string user_of(int) { return "a user"; }
 }  // namespace
 
 std::string owner_of(const net::generic::stream_protocol::socket& socket) {
-  boost::system::error_code gone;
-  const auto peer = socket.remote_endpoint(gone);
-  if (gone) return {};
+  boost::system::error_code ignored;
+  const auto peer = socket.remote_endpoint(ignored);
+  if (ignored) return {};
   const int family = peer.protocol().family();
   if (family != AF_INET && family != AF_INET6)
     return user_of(const_cast<net::generic::stream_protocol::socket&>(socket).native_handle());

@@ -49,20 +49,20 @@ struct Question {
 
 // About the socket from `from` to `to`.
 Question question(const Place& from, const Place& to) {
-  Question asked;
-  asked.header.nlmsg_len = sizeof asked;
-  asked.header.nlmsg_type = SOCK_DIAG_BY_FAMILY;
-  asked.header.nlmsg_flags = NLM_F_REQUEST;
-  asked.socket.sdiag_family = static_cast<__u8>(from.family);
-  asked.socket.sdiag_protocol = IPPROTO_TCP;
-  asked.socket.idiag_states = ~0U;
-  inet_diag_sockid& id = asked.socket.id;
+  Question question;
+  question.header.nlmsg_len = sizeof question;
+  question.header.nlmsg_type = SOCK_DIAG_BY_FAMILY;
+  question.header.nlmsg_flags = NLM_F_REQUEST;
+  question.socket.sdiag_family = static_cast<__u8>(from.family);
+  question.socket.sdiag_protocol = IPPROTO_TCP;
+  question.socket.idiag_states = ~0U;
+  inet_diag_sockid& id = question.socket.id;
   id.idiag_sport = from.port;
   id.idiag_dport = to.port;
   std::memcpy(id.idiag_src, from.address.data(), sizeof id.idiag_src);
   std::memcpy(id.idiag_dst, to.address.data(), sizeof id.idiag_dst);
   for (__u32& part : id.idiag_cookie) part = INET_DIAG_NOCOOKIE;
-  return asked;
+  return question;
 }
 
 struct Answer {
@@ -72,13 +72,14 @@ struct Answer {
 };
 
 // The inode of the socket: 0 if no process has it. Nothing: there is no such socket.
-std::optional<std::uint32_t> inode(const Question& asked) {
+std::optional<std::uint32_t> inode(const Question& question) {
   const int link = ::socket(AF_NETLINK, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_SOCK_DIAG);
   if (link < 0) return std::nullopt;
   Answer found;
-  const bool answered = ::send(link, &asked, sizeof asked, 0) == static_cast<ssize_t>(sizeof asked) &&
-                        ::recv(link, &found, sizeof found, 0) >=
-                            static_cast<ssize_t>(sizeof found.header + sizeof found.socket);
+  const bool answered =
+      ::send(link, &question, sizeof question, 0) == static_cast<ssize_t>(sizeof question) &&
+      ::recv(link, &found, sizeof found, 0) >=
+          static_cast<ssize_t>(sizeof found.header + sizeof found.socket);
   ::close(link);
   if (!answered || found.header.nlmsg_type != SOCK_DIAG_BY_FAMILY) return std::nullopt;
   return found.socket.idiag_inode;

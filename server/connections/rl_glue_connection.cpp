@@ -23,8 +23,8 @@ constexpr std::chrono::milliseconds kBetweenTries{200};
 
 void connect_to(tcp::socket& socket, const tcp::endpoint& core) {
   error_code error;
-  for (bool told = false; socket.connect(core, error); told = true) {
-    if (!told) log("waiting for an RL-Glue core at 127.0.0.1:" + std::to_string(core.port()));
+  for (bool has_logged = false; socket.connect(core, error); has_logged = true) {
+    if (!has_logged) log("waiting for an RL-Glue core at 127.0.0.1:" + std::to_string(core.port()));
     socket.close();
     std::this_thread::sleep_for(kBetweenTries);
   }

@@ -58,19 +58,19 @@ const std::shared_ptr<LogSink>& sink() {
     const std::shared_ptr<LogSink> sink;
     ~Closing() { sink->close(); }
   };
-  static const Closing made{LogSink::start(STDERR_FILENO, LogSink::kind_of(STDERR_FILENO), tell_of_lost)};
-  return made.sink;
+  static const Closing closing{LogSink::start(STDERR_FILENO, LogSink::kind_of(STDERR_FILENO), tell_of_lost)};
+  return closing.sink;
 }
 
 spdlog::logger& logger() {
-  static spdlog::logger made = [] {
+  static spdlog::logger logger = [] {
     spdlog::logger standard_error("racebeam", sink());
     standard_error.set_pattern("racebeam: %v");
     standard_error.flush_on(spdlog::level::trace);
     standard_error.set_error_handler([](const std::string&) { ++without_memory; });
     return standard_error;
   }();
-  return made;
+  return logger;
 }
 
 }  // namespace

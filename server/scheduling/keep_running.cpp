@@ -26,14 +26,14 @@ void tell(const std::string& what, const std::exception& failure) noexcept {
 
 // Without memory for a pause, the thread sleeps.
 Task<> repeat(boost::asio::io_context& loop, std::string what, std::function<Task<>()> body) {
-  Clock::time_point told{};
+  Clock::time_point last_line{};
   for (bool failed = false;; failed = true) {
     try {
       if (failed) co_await pause(loop, kAfterFailure);
       co_await body();
       co_return;
     } catch (const std::exception& failure) {
-      if (Clock::now() - std::exchange(told, Clock::now()) > kBetweenLines) tell(what, failure);
+      if (Clock::now() - std::exchange(last_line, Clock::now()) > kBetweenLines) tell(what, failure);
     }
     if (failed) std::this_thread::sleep_for(kShortSleep);
   }

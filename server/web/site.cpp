@@ -45,17 +45,17 @@ bool takes_gzip(const HttpRequest& request) {
 
 // A browser asks again each time, and is told if nothing has changed.
 HttpResponse respond(const HttpRequest& request, const PageFile& file) {
-  const bool known = field(request, http::field::if_none_match) == file.tag;
+  const bool is_current = field(request, http::field::if_none_match) == file.tag;
   const bool compressed = takes_gzip(request);
-  std::string text = known ? std::string() : compressed ? file.compressed : std::string(file.bytes);
-  HttpResponse response = respond(request, known ? status::not_modified : status::ok, std::move(text));
+  std::string text = is_current ? std::string() : compressed ? file.compressed : std::string(file.bytes);
+  HttpResponse response = respond(request, is_current ? status::not_modified : status::ok, std::move(text));
   response.set(http::field::content_type, std::string(file.type));
   response.set(http::field::etag, file.tag);
   response.set(http::field::cache_control, "no-cache");
   response.set(http::field::vary, "Accept-Encoding");
   response.set("Content-Security-Policy", kPolicy);
   response.set("Referrer-Policy", "no-referrer");
-  if (compressed && !known) response.set(http::field::content_encoding, "gzip");
+  if (compressed && !is_current) response.set(http::field::content_encoding, "gzip");
   return response;
 }
 

@@ -71,9 +71,9 @@ Task<> WebSocket::accept(const HttpRequest& request) {
 
 void WebSocket::limit_message(std::size_t bytes) { impl_->stream.read_message_max(bytes); }
 
-void WebSocket::on_control(std::function<void()> heard) {
+void WebSocket::on_control(std::function<void()> callback) {
   impl_->stream.control_callback(
-      [heard = std::move(heard)](websocket::frame_type, beast::string_view) { heard(); });
+      [callback = std::move(callback)](websocket::frame_type, beast::string_view) { callback(); });
 }
 
 Task<std::size_t> WebSocket::read(std::span<char> space) {

@@ -38,7 +38,7 @@ class WebSocket {
   void limit_message(std::size_t bytes);  // a longer one ends the connection
 
   // Calls `heard` for each ping, pong and close.
-  void on_control(std::function<void()> heard);
+  void on_control(std::function<void()> callback);
 
   // Receives bytes of request lines; a message that does not end with LF gets one. Returns their number; 0:
   // the client has closed, or what waits was cancelled. Throws std::runtime_error if the client violates the

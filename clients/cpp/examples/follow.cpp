@@ -45,13 +45,13 @@ int main() {
   auto game = racebeam::client::connect();
   game.load("beamfall", "seed=1", "frame_skip=4");
   game.observe("reward", "terminated", "truncated", "ram");
-  auto shown = game.open(kMachines, "autoreset=same-step");
+  auto reply = game.open(kMachines, "autoreset=same-step");
   std::vector<std::int64_t> scores(kMachines);
   for (int step = 0; step < kSteps; ++step) {
     std::vector<const char*> actions;
-    for (const auto& machine : shown) actions.push_back(action(machine.bytes("ram")));
-    shown = game.step(actions);
-    for (int machine = 0; machine < kMachines; ++machine) scores[machine] += shown[machine].reward();
+    for (const auto& machine : reply) actions.push_back(action(machine.bytes("ram")));
+    reply = game.step(actions);
+    for (int machine = 0; machine < kMachines; ++machine) scores[machine] += reply[machine].reward();
   }
   std::cout << "scores";
   for (const std::int64_t score : scores) std::cout << ' ' << score;

@@ -23,9 +23,9 @@ int main(int count, char** words) {
     std::size_t best = 0;
     for (std::size_t each = 1; each < branches.size(); ++each)
       if (branches[each].group.reward() > branches[best].group.reward()) best = each;
-    const auto shown = game.act(names[best]);
-    score += shown.reward();
-    over = shown.over();
+    const auto result = game.act(names[best]);
+    score += result.reward();
+    over = result.over();
   }
   std::cout << "score " << score << '\n';
 }

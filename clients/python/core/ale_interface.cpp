@@ -51,8 +51,8 @@ StepResult AleInterface::step(const Action& action, int times, View view) {
   machine.set_drawing(drawing_for(view, machine.settings().color_averaging));
   StepResult result;
   const int most = acts_can_be_joined() ? kFramesWithoutSignals : 1;
-  for (int left = times, since_signals = 0; left > 0;) {
-    const int acts = std::min(left, most);
+  for (int remaining = times, since_signals = 0; remaining > 0;) {
+    const int acts = std::min(remaining, most);
     if (most > 1) {
       machine.act_for(acts, action.a, action.b, action.strength_a, action.strength_b);
     } else {
@@ -60,9 +60,9 @@ StepResult AleInterface::step(const Action& action, int times, View view) {
     }
     result.reward += machine.rewards().a;
     result.reward_b += machine.rewards().b;
-    left -= acts;
+    remaining -= acts;
     since_signals += acts;
-    if (left > 0 && since_signals >= kFramesWithoutSignals) {
+    if (remaining > 0 && since_signals >= kFramesWithoutSignals) {
       since_signals = 0;
       look_for_signals();
     }

@@ -156,10 +156,10 @@ void play_receive(Batch& batch, Reader&, Reader& results) { batch.receive(receiv
 template <class Ask>
 void answer(const xla::CallFrame& frame, const Ask& ask) {
   Reader arguments(frame.arguments), results(frame.results);
-  const auto given = arguments.next<const std::uint8_t>(sizeof(std::uint64_t));
+  const auto bytes = arguments.next<const std::uint8_t>(sizeof(std::uint64_t));
   std::uint64_t handle = 0;
-  std::memcpy(&handle, given.data(), sizeof handle);
-  std::ranges::copy(given, results.next<std::uint8_t>(sizeof handle).begin());
+  std::memcpy(&handle, bytes.data(), sizeof handle);
+  std::ranges::copy(bytes, results.next<std::uint8_t>(sizeof handle).begin());
   const auto shared = named_by(handle);
   const std::scoped_lock hold(shared->lock());
   Batch& batch = shared->batch(nullptr);  // signals are for calls of Python

@@ -105,7 +105,7 @@ void add_end(Reply& reply, const BranchEnd& end, const Rewards& rewards, bool fo
 }  // namespace
 
 void play_branches(Context& context, const BranchRequest& request, Reply& reply) {
-  std::vector<std::pair<std::string, Slot::Saved>> kept;
+  std::vector<std::pair<std::string, Slot::Saved>> states;
   reply.add("branches", static_cast<std::int64_t>(request.lists.size()));
   {
     const Loan loan(context);
@@ -122,11 +122,11 @@ void play_branches(Context& context, const BranchRequest& request, Reply& reply)
       const std::string name = request.keep + std::to_string(i);
       reply.add("state", name);
       const bool with_random = request.root.with_random;
-      kept.emplace_back(name, leaf(request.root, branching, machine.save(with_random)));
-      context.memory.check(kept.back().second.footprint(), "a state");
+      states.emplace_back(name, leaf(request.root, branching, machine.save(with_random)));
+      context.memory.check(states.back().second.footprint(), "a state");
     }
   }
-  for (auto& [name, place] : kept) context.game.states.put(name, std::move(place));
+  for (auto& [name, place] : states) context.game.states.put(name, std::move(place));
 }
 
 }  // namespace racebeam

@@ -30,11 +30,11 @@ void add_names(Reply& reply, const Names& names) {
                        "the image of " + std::string(name) +
                            " is not here; games lists those that are; load inline takes one");
   }
-  std::string meant = did_you_mean(name, images.names());
-  if (meant.empty()) meant = did_you_mean(name, game_names());
+  std::string similar = did_you_mean(name, images.names());
+  if (similar.empty()) similar = did_you_mean(name, game_names());
   throw RequestError(
       ErrorCode::kUnknownGame,
-      "unknown game " + quote(name) + ';' + (meant.empty() ? " games lists those that are here" : meant));
+      "unknown game " + quote(name) + ';' + (similar.empty() ? " games lists those that are here" : similar));
 }
 
 void add_console(Reply& reply, const Cartridge& cartridge) {
@@ -121,7 +121,7 @@ Cartridge find_cartridge(Context& context, std::string_view name, const LoadWord
   } else if (name == kInline) {
     cartridge.game = recognise(*cartridge.image).game;
   }
-  if (const auto known = context.service.images->same(*cartridge.image)) cartridge.image = known;
+  if (const auto same_image = context.service.images->same(*cartridge.image)) cartridge.image = same_image;
   return cartridge;
 }
 

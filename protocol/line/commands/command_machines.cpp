@@ -71,21 +71,21 @@ const std::vector<OpenRow>& open_rows() {
 
 OpenSettings read_open_settings(const Context& context, Words words) {
   OpenSettings settings{slot_settings(context.game.settings)};
-  std::vector<std::string_view> given;
+  std::vector<std::string_view> keys;
   std::string_view of_frames;
   for (const std::string_view word : words) {
     if (word.find('=') == std::string_view::npos) refuse_word(word);
     const auto [key, value] = key_value(word);
     const auto row = std::ranges::find(open_rows(), key, &OpenRow::name);
     if (row == open_rows().end()) refuse_name("setting", key, names_of(open_rows()));
-    if (std::ranges::find(given, key) != given.end()) refuse_twice(key);
-    given.push_back(key);
+    if (std::ranges::find(keys, key) != keys.end()) refuse_twice(key);
+    keys.push_back(key);
     if (row->of_frames) of_frames = key;
     row->read(settings, value);
   }
   if (settings.slot.steps == Steps::kActs && !of_frames.empty())
     throw RequestError(ErrorCode::kBadArguments, std::string(of_frames) + "= goes with steps=frames");
-  if (std::ranges::find(given, "start") == given.end())
+  if (std::ranges::find(keys, "start") == keys.end())
     settings.slot.fire_at_reset = settings.slot.steps == Steps::kFrames;
   return settings;
 }
@@ -98,9 +98,9 @@ std::size_t read_machines(const Context& context, std::string_view word) {
                      "N is " + quote(word) + "; there may be " + std::to_string(most) + " machines");
 }
 
-[[noreturn]] void refuse_count(const Context& context, std::size_t given, const std::string& what) {
+[[noreturn]] void refuse_count(const Context& context, std::size_t count, const std::string& what) {
   throw RequestError(ErrorCode::kBadArguments, "there are " + std::to_string(context.machines.size()) +
-                                                   " machines, but " + std::to_string(given) + " " + what);
+                                                   " machines, but " + std::to_string(count) + " " + what);
 }
 
 std::vector<std::uint8_t> read_mask(const Context& context, std::string_view mask) {

@@ -44,9 +44,9 @@ std::vector<MediaKind> parse_kinds(std::string_view words) {
     const std::string_view rest = cut_behind(words, ',');
     const auto kind = media_kind(words);
     if (!kind) {
-      const std::string meant = did_you_mean(words, kWords);
+      const std::string similar = did_you_mean(words, kWords);
       throw RequestError(ErrorCode::kBadArguments,
-                         std::string(kTaken) + (meant.empty() ? meant : ';' + meant));
+                         std::string(kTaken) + (similar.empty() ? similar : ';' + similar));
     }
     if (std::ranges::find(kinds, *kind) != kinds.end()) refuse_twice(words);
     kinds.push_back(*kind);

@@ -58,7 +58,7 @@ void make_room(Watching& watching) {
 
 // A name that is shared anew keeps what its last reply showed, since the watcher keeps it, too.
 Watched& watched(Context& context, std::string_view name) {
-  for (auto& [known, subject] : context.watching)
+  for (auto& [share_name, subject] : context.watching)
     if (subject.ended()) subject.leave();
   const auto found = context.watching.find(name);
   const bool is_known = found != context.watching.end();
@@ -110,12 +110,12 @@ void run_unshare(Context& context, Words, Reply&) {
 }
 
 void run_shared(Context& context, Words, Reply& reply) {
-  std::vector<std::pair<std::string, std::shared_ptr<const Snapshot>>> shown;
+  std::vector<std::pair<std::string, std::shared_ptr<const Snapshot>>> snapshots;
   for (const auto& share : context.service.shares->all())
     if (auto snapshot = share->newest())
-      shown.emplace_back(share->name(), std::move(snapshot));  // else in a moment
-  reply.add("count", static_cast<std::int64_t>(shown.size()));
-  for (const auto& [name, snapshot] : shown) {
+      snapshots.emplace_back(share->name(), std::move(snapshot));  // else in a moment
+  reply.add("count", static_cast<std::int64_t>(snapshots.size()));
+  for (const auto& [name, snapshot] : snapshots) {
     reply.add_group();
     reply.add("name", name);
     add_scores(reply, *snapshot);

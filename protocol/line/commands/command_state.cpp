@@ -22,16 +22,16 @@ constexpr std::size_t kBetweenLooks = 256;  // names, or actions, between two lo
 const Slot::Saved& find_state(const Context& context, std::string_view name) {
   if (const Slot::Saved* const found = context.game.states.find(name)) return *found;
   std::vector<std::string_view> names;
-  for (const auto& [known, place] : context.game.states) names.push_back(known);
+  for (const auto& [key, place] : context.game.states) names.push_back(key);
   std::string sentence = "unknown state " + quote(name) + ';';
-  if (const std::string meant = did_you_mean(name, names); !meant.empty()) {
-    (sentence += meant) += " Accepted:";
+  if (const std::string similar = did_you_mean(name, names); !similar.empty()) {
+    (sentence += similar) += " Accepted:";
   } else {
     sentence += " accepted:";
   }
   constexpr std::size_t kShown = 20;
-  for (const std::string_view known : Words(names).first(std::min(kShown, names.size())))
-    (sentence += ' ') += known;
+  for (const std::string_view key : Words(names).first(std::min(kShown, names.size())))
+    (sentence += ' ') += key;
   throw RequestError(ErrorCode::kNoState, sentence + (context.game.states.empty() ? " none"
                                                       : names.size() > kShown     ? " and more"
                                                                                   : ""));

@@ -68,12 +68,12 @@ HelpText on_fields() {
 
 HelpText on_encodings() {
   HelpText text = table("encodings of fields that are bytes, as in observe screen:delta:", encodings());
-  std::string usual = "without one:";
+  std::string default_text = "without one:";
   for (const FieldRow& row : field_rows()) {
     if (!row.number)
-      usual += joined({" ", row.name, ":", encodings()[static_cast<std::size_t>(row.usual)].name});
+      default_text += joined({" ", row.name, ":", encodings()[static_cast<std::size_t>(row.usual)].name});
   }
-  text.entries.push_back(std::move(usual));
+  text.entries.push_back(std::move(default_text));
   return text;
 }
 
@@ -147,12 +147,14 @@ bool add_old(std::string_view name, HelpText& text) {
 
 template <typename... Rows>
 [[noreturn]] void refuse(std::string_view name, const Rows&... rows) {
-  std::vector<std::string_view> known;
-  const auto add = [&known](const auto& names) { known.insert(known.end(), names.begin(), names.end()); };
+  std::vector<std::string_view> all_names;
+  const auto add = [&all_names](const auto& names) {
+    all_names.insert(all_names.end(), names.begin(), names.end());
+  };
   (add(names_of(rows)), ...);
   throw RequestError(
       ErrorCode::kBadArguments,
-      "unknown word " + quote(name) + ';' + did_you_mean(name, known) + " help without a word lists all");
+      "unknown word " + quote(name) + ';' + did_you_mean(name, all_names) + " help without a word lists all");
 }
 
 constexpr int kNarrowest = 20;
@@ -171,8 +173,8 @@ HelpText help() {
 HelpText help_on(std::string_view name) {
   const auto topic = std::ranges::find(kTopics, name, &HelpTopic::name);
   if (topic != kTopics.end()) return topic->text();
-  const auto known = [name](const auto& row) { return row.name == name; };
-  if (std::ranges::any_of(commands(), known) || std::ranges::any_of(aliases(), known))
+  const auto has_name = [name](const auto& row) { return row.name == name; };
+  if (std::ranges::any_of(commands(), has_name) || std::ranges::any_of(aliases(), has_name))
     return on(find_command(name));
   HelpText text{"a word of:", {}};
   const bool found =
@@ -181,10 +183,10 @@ HelpText help_on(std::string_view name) {
       find_in(preset_rows(), name, "a preset of load, as preset=NAME:", text) ||
       find_in(encodings(), name, "an encoding of fields that are bytes, as FIELD:ENCODING:", text) ||
       find_in(codes(), name, "the code of an error:", text);
-  const bool taken = add_commands(name, text);
+  const bool is_command = add_commands(name, text);
   add_choices(name, text);
   if (text.entries.empty()) text.head = "an old word:";
-  if (add_old(name, text) || taken || found) return text;
+  if (add_old(name, text) || is_command || found) return text;
   refuse(name, kTopics, commands(), setting_rows(), field_rows(), preset_rows(), encodings(), codes());
 }
 

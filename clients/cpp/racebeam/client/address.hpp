@@ -28,11 +28,11 @@ struct Address {
 };
 
 [[noreturn]] inline void refuse_address(std::string_view text) {
-  const std::string given = text.empty()
-                                ? "no address was given, and the variable RACEBEAM_ADDRESS is not set"
-                                : std::string("the address is '").append(text).append("'");
+  const std::string problem = text.empty()
+                                  ? "no address was given, and the variable RACEBEAM_ADDRESS is not set"
+                                  : std::string("the address is '").append(text).append("'");
   throw std::invalid_argument(
-      given +
+      problem +
       "; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio or "
       "file:PATH, also in RACEBEAM_ADDRESS");
 }

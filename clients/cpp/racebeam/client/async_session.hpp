@@ -220,12 +220,12 @@ inline asio::awaitable<AsyncSession> connected_once(std::string text, Options op
 /// Tries again while the time of `?wait=SECONDS` lasts.
 inline asio::awaitable<AsyncSession> connected(std::string text, Options options) {
   const auto [address, seconds] = without_wait(text);
-  const std::string known(address);
+  const std::string name(address);
   asio::steady_timer pause(co_await asio::this_coro::executor);
   const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   while (true) {
     try {
-      auto session = connected_once(known, options);
+      auto session = connected_once(name, options);
       co_return co_await std::move(session);
     } catch (const Lost&) {
       if (std::chrono::steady_clock::now() >= until) throw;

@@ -48,16 +48,16 @@ namespace detail {
 /// ASCII become \xNN.
 inline std::string printable(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string shown;
+  std::string escaped;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte >= 0x20 && byte < 0x7F) {
-      shown += c;
+      escaped += c;
     } else {
-      ((shown += "\\x") += kDigits[byte >> 4U]) += kDigits[byte & 15U];
+      ((escaped += "\\x") += kDigits[byte >> 4U]) += kDigits[byte & 15U];
     }
   }
-  return shown;
+  return escaped;
 }
 
 }  // namespace detail

@@ -98,11 +98,11 @@ class Fields {
   /// A watched session. It begins anew with other fields, and with another height.
   Source& watched_session(std::string_view name, const std::vector<std::string_view>& fields,
                           std::string_view line) {
-    Source& known = watched_[std::string(name)];
+    Source& source = watched_[std::string(name)];
     const std::size_t height = height_of(line).value_or(height_);
-    if (known.height != height || !std::ranges::equal(known.fields, fields))
-      known = Source{{fields.begin(), fields.end()}, height, {}};
-    return known;
+    if (source.height != height || !std::ranges::equal(source.fields, fields))
+      source = Source{{fields.begin(), fields.end()}, height, {}};
+    return source;
   }
 
   void decode_value(Group::Value& value, Source& source, const Encodings& chosen) {

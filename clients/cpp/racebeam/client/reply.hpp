@@ -101,9 +101,9 @@ class Group {
 
   const Value& value(std::string_view key) const {
     if (const Value* found = find(key)) return *found;
-    std::string known;
-    for (const Value& each : values_) known.append(" ").append(each.key);
-    throw std::out_of_range(std::string("the reply has no ").append(key).append("; it has").append(known));
+    std::string keys;
+    for (const Value& each : values_) keys.append(" ").append(each.key);
+    throw std::out_of_range(std::string("the reply has no ").append(key).append("; it has").append(keys));
   }
 
   std::vector<Value> values_;
