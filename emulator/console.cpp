@@ -74,8 +74,8 @@ void Console::Impl::blank(std::shared_ptr<FrameBuffer>& picture) {
 // are shared.
 void Console::Impl::take(const FrameBuffers& others) {
   const auto displace = [](std::shared_ptr<FrameBuffer>& own, const std::shared_ptr<FrameBuffer>& other,
-                           std::shared_ptr<FrameBuffer>& kept) {
-    if (own != other && own.use_count() == 1) kept = std::move(own);
+                           std::shared_ptr<FrameBuffer>& spare_buffer) {
+    if (own != other && own.use_count() == 1) spare_buffer = std::move(own);
     own = other;
   };
   displace(pictures.current, others.current, spare.current);

@@ -161,10 +161,10 @@ const FrameBuffer* Console::Impl::other_than(const FrameBuffer& picture) const {
 }
 
 std::shared_ptr<FrameBuffer> Console::Impl::own_copy(const FrameBuffer& picture) {
-  for (std::shared_ptr<FrameBuffer>* const kept : {&spare.current, &spare.previous}) {
-    if (!is_own(*kept)) continue;
-    **kept = picture;
-    return std::move(*kept);
+  for (std::shared_ptr<FrameBuffer>* const buffer : {&spare.current, &spare.previous}) {
+    if (!is_own(*buffer)) continue;
+    **buffer = picture;
+    return std::move(*buffer);
   }
   return std::make_shared<FrameBuffer>(picture);
 }

@@ -7,15 +7,15 @@
 namespace racebeam {
 
 int Environment::act(int a, int b, float strength_a, float strength_b) {
-  const Presses asked{{a, strength_a}, {b, strength_b}};
-  impl_->legal.check(asked);
-  return impl_->act(asked);
+  const Presses presses{{a, strength_a}, {b, strength_b}};
+  impl_->legal.check(presses);
+  return impl_->act(presses);
 }
 
 int Environment::act_for(int frames, int a, int b, float strength_a, float strength_b) {
-  const Presses asked{{a, strength_a}, {b, strength_b}};
-  impl_->legal.check(asked);
-  return impl_->act(asked, frames);
+  const Presses presses{{a, strength_a}, {b, strength_b}};
+  impl_->legal.check(presses);
+  return impl_->act(presses, frames);
 }
 
 int Environment::Impl::frames_of_act() {
@@ -25,13 +25,13 @@ int Environment::Impl::frames_of_act() {
   return least + static_cast<int>(std::uint64_t{random()} * choices >> 32);
 }
 
-int Environment::Impl::act(const Presses& asked, int frames) {
-  const int drawn = frames_drawn(drawing, frames);
+int Environment::Impl::act(const Presses& presses, int frames) {
+  const int frames_to_draw = frames_drawn(drawing, frames);
   std::int64_t reward_a = 0, reward_b = 0;
   for (int n = frames; n > 0; --n) {
-    sticky.draw(random, asked, play.held);
+    sticky.draw(random, presses, play.held);
     if (over()) continue;
-    run_frame(legal.replace(play.held), n <= drawn || each_frame);
+    run_frame(legal.replace(play.held), n <= frames_to_draw || each_frame);
     count_frame();
     observe_ram();
     reward_a += rule.reward();
@@ -53,8 +53,8 @@ void Environment::Impl::run_frame(const Presses& presses, bool draw) {
 void Environment::Impl::step_console(bool draw) {
   went_on = console.frame_is_open();
   if (went_on) {
-    const auto shown = console.picture();
-    open_picture.assign(shown.begin(), shown.end());
+    const auto picture = console.picture();
+    open_picture.assign(picture.begin(), picture.end());
   }
   console.step(draw);
   play.ram_is_stale = 0;

@@ -114,10 +114,10 @@ void Environment::Impl::set_up_mode() {
     }
 
     void act(int action, int count) override {
-      Presses asked;
-      asked.a.action = action;
+      Presses presses;
+      presses.a.action = action;
       impl.drew_at_reset = true;  // for sticky actions
-      for (int n = 0; n < count; ++n) impl.act(asked);
+      for (int n = 0; n < count; ++n) impl.act(presses);
     }
 
     Impl& impl;

@@ -8,8 +8,8 @@ namespace racebeam {
 namespace {
 
 Simd limit() {
-  const char* const given = std::getenv("RACEBEAM_SIMD");
-  const std::string_view name = given != nullptr ? given : "";
+  const char* const value = std::getenv("RACEBEAM_SIMD");
+  const std::string_view name = value != nullptr ? value : "";
   return name == "plain" ? Simd::kPlain : name == "avx2" ? Simd::kAvx2 : Simd::kAvx512;
 }
 

@@ -252,8 +252,8 @@ template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, std::uint8_t old_enabled,
                                                           std::uint8_t vdel, std::int32_t clock) {
   BallState& ball = tia_.ball;
-  const bool shown = vdel ? old_enabled != 0 : enabled != 0;
-  if (!painter_.looks() || shown != ball_enabled(ball)) {
+  const bool is_visible = vdel ? old_enabled != 0 : enabled != 0;
+  if (!painter_.looks() || is_visible != ball_enabled(ball)) {
     painter_.draw_to(clock, kBallBit);
     painter_.changed(kBallBit);
   } else {

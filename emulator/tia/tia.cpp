@@ -19,9 +19,11 @@ constexpr std::array<std::uint32_t, 8> kFirstOfFour = {~0U, ~0U, ~0U, ~0U, 0, 0,
 RACEBEAM_INLINE bool meets_the_same(const std::uint32_t* entry, std::uint32_t origin,
                                     const LineRecord& record) {
   FourWords difference{};
-  int left = record.count;
-  for (const std::uint32_t* event = record.event.data(); left > 0; event += 4, entry += 4, left -= 4) {
-    const auto counted = load<FourWords>(&kFirstOfFour[static_cast<unsigned>(left < 4 ? 4 - left : 0)]);
+  int remaining = record.count;
+  for (const std::uint32_t* event = record.event.data(); remaining > 0;
+       event += 4, entry += 4, remaining -= 4) {
+    const auto counted =
+        load<FourWords>(&kFirstOfFour[static_cast<unsigned>(remaining < 4 ? 4 - remaining : 0)]);
     difference |= ((load<FourWords>(entry) - origin) ^ load<FourWords>(event)) & counted;
   }
   return is_zero(load<TwoWords>(&difference));
@@ -208,14 +210,14 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   if (recorded_ != nullptr || !beam_.has_record()) return false;
   RegisterVectors registers(tia_);
   std::int32_t cursor = tia_.cursor;
-  const LineNumber* shown = beam_.shown();
+  const LineNumber* lines = beam_.shown();
   LineRecord* const first = &beam_.record();
   LineRecord* const last = first + std::min(beam_.lines_to_end(), beam_.rows_to_end_of_records());
   LineRecord* record = first;
   bool enough = false;
-  for (; record != last; ++record, ++shown, origin += kLineOfWrites, cursor += kLineClocks) {
+  for (; record != last; ++record, ++lines, origin += kLineOfWrites, cursor += kLineClocks) {
     const Likeness likeness = compare(registers, played_, origin, *record);
-    if (likeness < Likeness::kLooks || (*shown != record->number && !beam_.can_copy(shown, record->number))) {
+    if (likeness < Likeness::kLooks || (*lines != record->number && !beam_.can_copy(lines, record->number))) {
       enough =
           likeness == Likeness::kBegins && asked != kWholePicture && keeps_latches(*record, origin, asked);
       break;

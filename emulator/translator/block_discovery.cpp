@@ -19,8 +19,8 @@ bool is_wsync(const Instruction& instruction) {
 
 class Discovery {
  public:
-  Discovery(const CodeWindow& window, const std::vector<bool>& known)
-      : window_(window), known_(known), seen_(window.span) {}
+  Discovery(const CodeWindow& window, const std::vector<bool>& starts)
+      : window_(window), known_(starts), seen_(window.span) {}
 
   std::vector<Block> run(std::uint16_t entry) {
     add_leader(entry, kLeader);

@@ -231,10 +231,10 @@ void BlockEmitter::emit_jump(const Instruction& instruction) {
   if (instruction.operation == Operation::jsr) return jsr(instruction);
   if (instruction.operation == Operation::rts) return rts(instruction);
   if (instruction.mode == Mode::indirect) return jmp_indirect(instruction);
-  const bool known = can_jump_to(instruction.target());
-  if (known) elapsed_ += instruction.cycles;
+  const bool is_known = can_jump_to(instruction.target());
+  if (is_known) elapsed_ += instruction.cycles;
   settle(exit_state());
-  if (known)
+  if (is_known)
     jump_to(instruction.target());
   else
     exit_before(instruction);

@@ -37,12 +37,12 @@ class StepTrial {
 
  private:
   void end_round() {
-    std::int64_t usual = 0, other = 0;
+    std::int64_t present = 0, other = 0;
     for (const Trial& trial : least_) {
-      usual += trial[0] + trial[2];
+      present += trial[0] + trial[2];
       other += 2 * trial[kOther];
     }
-    const bool other_wins = other + other / tuning::kTrialMargin < usual;
+    const bool other_wins = other + other / tuning::kTrialMargin < present;
     lost_ = other_wins ? lost_ + 1 : 0;
     const int longest = interprets_ ? tuning::kLongestTried : tuning::kLongestPause;
     pause_ = other_wins ? tuning::kShortestPause : std::min(2 * pause_, longest);

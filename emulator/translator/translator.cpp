@@ -151,8 +151,8 @@ bool Translator::Impl::has_code(Board& board) {
   if (is_useful || !budget.covers_batch()) return code != nullptr;
   const translator::TranslationBudget::Charge charge(budget);
   try {
-    if (auto made = code_of(board, true)) {
-      code = std::move(made);
+    if (auto image_code = code_of(board, true)) {
+      code = std::move(image_code);
       views = {};
     }
   } catch (const std::system_error&) {
@@ -176,8 +176,8 @@ translator::View* Translator::Impl::current_view(Board& board) {
 
 // Makes the view if the budget allows that.
 translator::View* Translator::Impl::find_view(const CodeWindow& window, const Rom& rom) {
-  translator::View* const known = code->view(window, rom, false);
-  if (known != nullptr || !budget.covers_batch()) return known;
+  translator::View* const view = code->view(window, rom, false);
+  if (view != nullptr || !budget.covers_batch()) return view;
   const translator::TranslationBudget::Charge charge(budget);
   return code->view(window, rom, true);
 }
@@ -190,7 +190,7 @@ Translator::Impl::Entry Translator::Impl::find_entry(Board& board) {
   if (!translator::contains(view->code, pc)) return {};
   translator::Profitability* const profitability =
       &view->profitability[static_cast<std::uint16_t>(pc - view->code.first)];
-  if (const void* known = view->entry(pc)) return {known, profitability};
+  if (const void* block = view->entry(pc)) return {block, profitability};
   if (code->is_full() || !budget.covers_batch()) return {nullptr, profitability};
   const translator::TranslationBudget::Charge charge(budget);
   return {code->translate(*view, pc, layout), profitability};
@@ -200,10 +200,10 @@ Translator::Impl::Entry Translator::Impl::find_entry(Board& board) {
 bool Translator::Impl::enter(Board& board, const void* start) {
   translator::Context& context = board.translated;
   unpack_status(context, board.state.cpu.P);
-  const std::uint32_t left = code->enter()(start, &board, board.log);
-  board.state.cpu.PC = static_cast<std::uint16_t>(left);
+  const std::uint32_t exit = code->enter()(start, &board, board.log);
+  board.state.cpu.PC = static_cast<std::uint16_t>(exit);
   board.state.cpu.P = pack_status(context);
-  return (left & translator::kInterpretNext) != 0;
+  return (exit & translator::kInterpretNext) != 0;
 }
 
 // Runs translated code from `entry` on. Returns how many instructions the interpreter must execute next.
@@ -260,9 +260,9 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
   const std::int32_t limit = board.translated.limit = board.overlong_cycle() - kMargin;
   board.translated.first_line = board.state.tia.origin / 3;
   while (!board.stop && !board.state.cpu.jammed) {
-    const std::int32_t left = instructions - (board.state.cycle - first_cycle) / kFewestCycles;
-    if (board.state.cycle >= limit || left <= 0) {
-      interpret_some(board, left, left);
+    const std::int32_t remaining = instructions - (board.state.cycle - first_cycle) / kFewestCycles;
+    if (board.state.cycle >= limit || remaining <= 0) {
+      interpret_some(board, remaining, remaining);
       return board.stop || board.state.cpu.jammed || first_cycle >= limit;
     }
     const Impl::Entry entry = impl_->find_entry(board);
@@ -271,8 +271,8 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
             ? impl_->run_block(board, entry)
             : impl_->interpreted_run.next(entry.profitability != nullptr ? 1 : tuning::kOutsideImage);
     if (run == 0 || board.stop) continue;
-    const bool ends_exactly = run < tuning::kShortRun || left < run + tuning::kRunSlack;
-    const std::int32_t enough = std::min(run, left);
+    const bool ends_exactly = run < tuning::kShortRun || remaining < run + tuning::kRunSlack;
+    const std::int32_t enough = std::min(run, remaining);
     interpret_some(board, ends_exactly ? enough : run + tuning::kRunSlack, enough);
   }
   return true;

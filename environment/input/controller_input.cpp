@@ -28,8 +28,8 @@ constexpr std::array<std::uint8_t, kActions> kSticks = {
 
 // The bits of a joystick. first: the number of the player's NOOP.
 std::uint8_t stick(std::int32_t action, std::int32_t first) {
-  const bool known = action >= first && action < first + kActions;
-  return known ? kSticks[static_cast<std::size_t>(action - first)] : std::uint8_t{0};
+  const bool is_known = action >= first && action < first + kActions;
+  return is_known ? kSticks[static_cast<std::size_t>(action - first)] : std::uint8_t{0};
 }
 
 int direction(std::uint8_t pressed) {

@@ -121,27 +121,26 @@ void AreaResize::reduce_plain(const std::uint8_t* row, float* to) const {
 // Each source row is reduced to the targets' width, then rows are added. Repeated rows are common.
 template <typename Reduce>
 [[gnu::always_inline]] inline void AreaResize::run(const std::uint8_t* in, std::uint8_t* out,
-                                                   std::span<const std::uint8_t> wanted,
-                                                   Reduce reduce) const {
+                                                   std::span<const std::uint8_t> rows, Reduce reduce) const {
   alignas(32) std::array<std::array<float, kWidest>, kSlots> slots;
   alignas(32) std::array<float, kWidest> sum;
   std::array<const float*, kSlots> reduced{};  // source row y: reduced[y % kSlots]
-  std::size_t made = 0, begun = 0, slot = 0;   // the rows from `begun` to `made` are reduced
+  std::size_t end = 0, begin = 0, slot = 0;    // the rows from `begin` to `end` are reduced
   const std::size_t targets = columns_.first.size();
   for (std::size_t y = 0; y < rows_.first.size(); ++y, out += targets) {
-    if (!wanted.empty() && wanted[y] == 0) continue;
+    if (!rows.empty() && rows[y] == 0) continue;
     const std::size_t first = rows_.first[y];
-    if (made < first) made = begun = first;
+    if (end < first) end = begin = first;
     std::fill_n(sum.data(), targets, 0.0F);
     for (std::size_t tap = 0; tap < rows_.taps; ++tap) {
       const float weight = rows_.weights[y * rows_.taps + tap];
       if (weight == 0) continue;
-      for (; made <= first + tap; ++made) {
-        const std::uint8_t* row = in + made * width_;
-        if (made > begun && same(row, row - width_, width_)) {
-          reduced[made % kSlots] = reduced[(made - 1) % kSlots];
+      for (; end <= first + tap; ++end) {
+        const std::uint8_t* row = in + end * width_;
+        if (end > begin && same(row, row - width_, width_)) {
+          reduced[end % kSlots] = reduced[(end - 1) % kSlots];
         } else {
-          reduced[made % kSlots] = slots[slot].data();
+          reduced[end % kSlots] = slots[slot].data();
           reduce(row, slots[slot].data());
           slot = (slot + 1) % kSlots;
         }
@@ -153,16 +152,16 @@ template <typename Reduce>
   }
 }
 
-void AreaResize::depending(std::span<const std::uint8_t> changed, std::span<std::uint8_t> wanted) const {
+void AreaResize::depending(std::span<const std::uint8_t> changed, std::span<std::uint8_t> rows) const {
   for (std::size_t y = 0; y < rows_.first.size(); ++y) {
     const auto sources = changed.subspan(rows_.first[y], rows_.taps);
-    wanted[y] = std::ranges::any_of(sources, [](std::uint8_t flag) { return flag != 0; }) ? 1 : 0;
+    rows[y] = std::ranges::any_of(sources, [](std::uint8_t flag) { return flag != 0; }) ? 1 : 0;
   }
 }
 
 void AreaResize::run_plain(const std::uint8_t* in, std::uint8_t* out,
-                           std::span<const std::uint8_t> wanted) const {
-  run(in, out, wanted, [this](const std::uint8_t* row, float* to) { reduce_plain(row, to); });
+                           std::span<const std::uint8_t> rows) const {
+  run(in, out, rows, [this](const std::uint8_t* row, float* to) { reduce_plain(row, to); });
 }
 
 #if RACEBEAM_HAS_AVX
@@ -182,17 +181,17 @@ void AreaResize::run_plain(const std::uint8_t* in, std::uint8_t* out,
 }
 
 [[gnu::target("avx2")]] void AreaResize::run_avx2(const std::uint8_t* in, std::uint8_t* out,
-                                                  std::span<const std::uint8_t> wanted) const {
-  run(in, out, wanted, [this](const std::uint8_t* row, float* to) { reduce_avx2(row, to); });
+                                                  std::span<const std::uint8_t> rows) const {
+  run(in, out, rows, [this](const std::uint8_t* row, float* to) { reduce_avx2(row, to); });
 }
 #endif
 
 void AreaResize::operator()(std::span<const std::uint8_t> in, std::span<std::uint8_t> out,
-                            std::span<const std::uint8_t> wanted) const {
+                            std::span<const std::uint8_t> rows) const {
 #if RACEBEAM_HAS_AVX
-  if (!octets_.empty()) return run_avx2(in.data(), out.data(), wanted);
+  if (!octets_.empty()) return run_avx2(in.data(), out.data(), rows);
 #endif
-  run_plain(in.data(), out.data(), wanted);
+  run_plain(in.data(), out.data(), rows);
 }
 
 }  // namespace racebeam

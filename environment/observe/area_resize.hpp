@@ -31,13 +31,13 @@ class AreaResize {
   AreaResize(int width, int height, int to_width, int to_height, Simd form = simd());
 
   // in: height x width bytes; out: to_height x to_width bytes. Allocates nothing.
-  // wanted: one flag for each row of `out`. Rows with 0 stay as they are. Empty: all are made.
+  // rows: one flag for each row of `out`. Rows with 0 stay as they are. Empty: all are made.
   void operator()(std::span<const std::uint8_t> in, std::span<std::uint8_t> out,
-                  std::span<const std::uint8_t> wanted = {}) const;
+                  std::span<const std::uint8_t> rows = {}) const;
 
   // Sets the flags of the rows of `out` that depend on a row of `in` whose flag is not 0, and clears the
   // others.
-  void depending(std::span<const std::uint8_t> changed, std::span<std::uint8_t> wanted) const;
+  void depending(std::span<const std::uint8_t> changed, std::span<std::uint8_t> rows) const;
 
  private:
   // Eight target columns for AVX2. The source bytes of the first four, and those of the others, are within 16
@@ -52,10 +52,10 @@ class AreaResize {
   bool fits_octets() const;
   void make_octets();
   template <typename Reduce>
-  void run(const std::uint8_t* in, std::uint8_t* out, std::span<const std::uint8_t> wanted,
+  void run(const std::uint8_t* in, std::uint8_t* out, std::span<const std::uint8_t> rows,
            Reduce reduce) const;
-  void run_plain(const std::uint8_t* in, std::uint8_t* out, std::span<const std::uint8_t> wanted) const;
-  void run_avx2(const std::uint8_t* in, std::uint8_t* out, std::span<const std::uint8_t> wanted) const;
+  void run_plain(const std::uint8_t* in, std::uint8_t* out, std::span<const std::uint8_t> rows) const;
+  void run_avx2(const std::uint8_t* in, std::uint8_t* out, std::span<const std::uint8_t> rows) const;
   void reduce_plain(const std::uint8_t* row, float* to) const;
   void reduce_avx2(const std::uint8_t* row, float* to) const;
 

@@ -46,11 +46,11 @@ struct Brightness::Forms {
   // Of even indices: half of each is 16 * n + i. Entry i of the first n + 1 steps makes the byte, since a
   // shuffle gives 0 once what is left of the index is negative.
   RACEBEAM_AVX2 static __m256i look_up_even(const Brightness& own, __m256i pixels) {
-    __m256i left = _mm256_srli_epi16(pixels, 1), bytes = _mm256_setzero_si256();
+    __m256i rest = _mm256_srli_epi16(pixels, 1), bytes = _mm256_setzero_si256();
     for (const auto& step : own.steps_) {
       const __m128i entries = _mm_load_si128(reinterpret_cast<const __m128i*>(step.data()));
-      bytes = _mm256_xor_si256(bytes, _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(entries), left));
-      left = _mm256_sub_epi8(left, _mm256_set1_epi8(16));
+      bytes = _mm256_xor_si256(bytes, _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(entries), rest));
+      rest = _mm256_sub_epi8(rest, _mm256_set1_epi8(16));
     }
     return bytes;
   }

@@ -65,9 +65,9 @@ ScreenStack::Source ScreenStack::source(std::uint64_t line, std::uint64_t other)
 void ScreenStack::find_stale(const Environment& environment, bool pooled) {
   const auto lines = environment.screen_lines();
   const auto others = pooled ? environment.previous_screen_lines() : lines;
-  const bool known = !lines.empty() && !others.empty();
+  const bool has_both = !lines.empty() && !others.empty();
   for (std::size_t row = 0; row < sources_.size(); ++row) {
-    const Source now = known ? source(lines[row], others[row]) : Source{};
+    const Source now = has_both ? source(lines[row], others[row]) : Source{};
     stale_[row] = now == Source{} || now != sources_[row] ? 1 : 0;
     changed_[row] |= stale_[row];
     sources_[row] = now;
@@ -92,9 +92,9 @@ void ScreenStack::look_at_previous(const Environment& environment) {
   std::ranges::fill(sources_, Source{});
   all_changed();
   for (std::size_t channel = 0; channel < brightness_.size(); ++channel) {
-    const auto seen = plane(channel);
-    for (std::size_t i = 0; i < seen.size(); ++i)
-      seen[i] = std::max(seen[i], brightness_[channel].of(before[i]));
+    const auto pixels = plane(channel);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      pixels[i] = std::max(pixels[i], brightness_[channel].of(before[i]));
   }
 }
 

@@ -231,9 +231,9 @@ Rank rank_of(std::string_view key) {
 const SettingRow& setting_row(std::string_view name, Words other_keys) {
   const auto found = std::ranges::find(kSettings, name, &SettingRow::name);
   if (found != kSettings.end()) return *found;
-  auto known = names_of(kSettings);
-  known.insert(known.end(), other_keys.begin(), other_keys.end());
-  refuse_name("setting", name, known);
+  auto names = names_of(kSettings);
+  names.insert(names.end(), other_keys.begin(), other_keys.end());
+  refuse_name("setting", name, names);
 }
 
 }  // namespace
@@ -245,15 +245,15 @@ std::span<const SettingRow> setting_rows() { return kSettings; }
 std::span<const PresetRow> preset_rows() { return kPresets; }
 
 void read_settings(Words words, PlaySettings& settings, Words other_keys) {
-  std::bitset<kSettings.size()> given;
+  std::bitset<kSettings.size()> present;
   for (const Rank rank : {Rank::kPreset, Rank::kOld, Rank::kOther}) {
     for (const std::string_view word : words) {
       const auto [key, value] = key_value(word);
       if (rank_of(key) != rank) continue;
       const SettingRow& row = setting_row(key, other_keys);
       const auto place = static_cast<std::size_t>(&row - kSettings.data());
-      if (given[place]) refuse_twice(key);
-      given.set(place);
+      if (present[place]) refuse_twice(key);
+      present.set(place);
       row.set(settings, value);
     }
   }

@@ -27,9 +27,9 @@ std::string count_of(std::size_t count, const std::string& what) {
   return std::to_string(count) + ' ' + what;
 }
 
-void check_count(std::size_t given, const std::string& what, std::size_t machines) {
-  refuse_unless(given == machines, [&] {
-    return "there are " + count_of(given, what) + " for " + count_of(machines, "machines");
+void check_count(std::size_t count, const std::string& what, std::size_t machines) {
+  refuse_unless(count == machines, [&] {
+    return "there are " + count_of(count, what) + " for " + count_of(machines, "machines");
   });
 }
 
@@ -48,9 +48,9 @@ void check_act(const Act& act) {
 constexpr std::size_t kMachine = std::size_t{240} << 10;
 
 // More threads than machines would have nothing to do.
-unsigned useful_threads(unsigned asked, std::size_t machines) {
-  const std::uint64_t wanted = asked != 0 ? asked : usable_processors().amount;
-  return static_cast<unsigned>(std::min({wanted, std::uint64_t{machines}, std::uint64_t{kMostWorkers}}));
+unsigned useful_threads(unsigned requested, std::size_t machines) {
+  const std::uint64_t threads = requested != 0 ? requested : usable_processors().amount;
+  return static_cast<unsigned>(std::min({threads, std::uint64_t{machines}, std::uint64_t{kMostWorkers}}));
 }
 
 // Returns the batch size.
@@ -189,14 +189,14 @@ void Batch::Impl::check_free(std::size_t machine) const {
 }
 
 void Batch::Impl::check_machines(std::span<const std::int32_t> machines) const {
-  std::vector<std::uint8_t> taken = playing;
+  std::vector<std::uint8_t> taken_machines = playing;
   for (const std::int32_t machine : machines) {
-    const bool is_there = machine >= 0 && static_cast<std::size_t>(machine) < taken.size();
+    const bool is_there = machine >= 0 && static_cast<std::size_t>(machine) < taken_machines.size();
     refuse_unless(is_there, [&] {
       return "machine " + std::to_string(machine) + " is out of range; accepted: 0 to " +
-             std::to_string(taken.size() - 1);
+             std::to_string(taken_machines.size() - 1);
     });
-    refuse_unless(std::exchange(taken[static_cast<std::size_t>(machine)], std::uint8_t{1}) == 0,
+    refuse_unless(std::exchange(taken_machines[static_cast<std::size_t>(machine)], std::uint8_t{1}) == 0,
                   [&] { return "machine " + std::to_string(machine) + " plays already; receive it first"; });
   }
 }

@@ -24,10 +24,10 @@ void Branching::enter(const Environment::Saved& root) {
 }
 
 void Branching::look_at_ends() {
-  const bool lost = 0 < environment_.lives() && environment_.lives() < end_.lives;
+  const bool lost_life = 0 < environment_.lives() && environment_.lives() < end_.lives;
   const Ends ends = ends_of(environment_, life_loss_);
-  const bool reported = life_loss_ == LifeLoss::kReported && (lost || end_.terminated);
-  life_ended_ |= life_loss_ == LifeLoss::kEnds && lost;
+  const bool reported = life_loss_ == LifeLoss::kReported && (lost_life || end_.terminated);
+  life_ended_ |= life_loss_ == LifeLoss::kEnds && lost_life;
   end_.terminated = ends.terminated || life_ended_ || reported;
   end_.truncated = ends.truncated;
   end_.lives = environment_.lives();

@@ -89,9 +89,10 @@ void Slot::look_at_ends() {
 // The ends of an episode whose steps are acts. A lost life counts once in an act, at its end.
 void Slot::look_at_lives() {
   const Ends ends = ends_of(environment_, settings_.life_loss);
-  const bool lost = outcome_.lives_lost > 0 && environment_.lives() > 0;
-  const bool by_life = settings_.life_loss == LifeLoss::kEnds && (progress_.goes_on || lost);
-  progress_.terminated = ends.terminated || by_life || (settings_.life_loss == LifeLoss::kReported && lost);
+  const bool lost_life = outcome_.lives_lost > 0 && environment_.lives() > 0;
+  const bool by_life = settings_.life_loss == LifeLoss::kEnds && (progress_.goes_on || lost_life);
+  progress_.terminated =
+      ends.terminated || by_life || (settings_.life_loss == LifeLoss::kReported && lost_life);
   progress_.truncated = ends.truncated;
   progress_.goes_on = by_life && !environment_.game_over();
   progress_.finished = by_life || environment_.game_over();
@@ -143,13 +144,13 @@ void Slot::run_frames(const Act& act) {
     return;
   }
   const int frames = settings_.machine.frame_skip, limit = settings_.machine.max_episode_frames;
-  const int drawn = frames_drawn(drawing_, frames);
+  const int frames_to_draw = frames_drawn(drawing_, frames);
   const bool life_stops = stops_at_lost_life(settings_);
   Environment::RawRewards rewards;
   bool over = false, lost = false, too_long = false;
-  int left = frames;
-  for (;; --left) {
-    environment_.set_drawing(left <= drawn ? Drawing::kLast : Drawing::kNone);
+  int remaining = frames;
+  for (;; --remaining) {
+    environment_.set_drawing(remaining <= frames_to_draw ? Drawing::kLast : Drawing::kNone);
     environment_.act(act);
     rewards.a += environment_.raw_rewards().a;
     rewards.b += environment_.raw_rewards().b;
@@ -158,7 +159,7 @@ void Slot::run_frames(const Act& act) {
     lost = 0 < environment_.lives() && environment_.lives() < progress_.lives;
     too_long = limit > 0 && progress_.elapsed >= limit;
     progress_.finished = over || too_long || (life_stops && lost);
-    if (progress_.finished || left == 1) break;
+    if (progress_.finished || remaining == 1) break;
   }
   progress_.finished |= lost && settings_.life_loss == LifeLoss::kEnds;
   outcome_.lives_lost += std::max(0, progress_.lives - environment_.lives());
@@ -166,24 +167,25 @@ void Slot::run_frames(const Act& act) {
   progress_.goes_on = settings_.life_loss == LifeLoss::kEnds && lost && !over && !too_long;
   progress_.terminated = over || (settings_.life_loss != LifeLoss::kIgnored && lost);
   progress_.truncated = too_long && !progress_.terminated;
-  progress_.blends = pools() && (left == 1 || settings_.reset_order == ResetOrder::kFireNoops);
-  add_outcome(rewards, frames - left + 1);
-  if (stack_) look_at_end_of_step(left);
+  progress_.blends = pools() && (remaining == 1 || settings_.reset_order == ResetOrder::kFireNoops);
+  add_outcome(rewards, frames - remaining + 1);
+  if (stack_) look_at_end_of_step(remaining);
 }
 
 // Shows the last frame, pooled with the one before if both are the step's last two. A pooled step that ends
 // before those shows what the step before it showed. left: frames of the step that remain, counting the one
 // just run.
-void Slot::look_at_end_of_step(int left) {
-  if (progress_.finished && settings_.reset_order == ResetOrder::kFireNoops) return look_as_reference(left);
-  if (pools() && left > 2) return stack_->push();
+void Slot::look_at_end_of_step(int remaining) {
+  if (progress_.finished && settings_.reset_order == ResetOrder::kFireNoops)
+    return look_as_reference(remaining);
+  if (pools() && remaining > 2) return stack_->push();
   show(progress_.blends);
 }
 
 // The reference looks at the last frame but one and at the last, and stops looking when the episode is over;
 // what it saw before then stays in their place.
-void Slot::look_as_reference(int left) {
-  if (left == 1 && pools()) stack_->look_at_previous(environment_);
+void Slot::look_as_reference(int remaining) {
+  if (remaining == 1 && pools()) stack_->look_at_previous(environment_);
   stack_->push();
 }
 

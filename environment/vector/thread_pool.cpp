@@ -15,8 +15,8 @@
 namespace racebeam {
 namespace {
 
-unsigned number_of_threads(unsigned asked) {
-  return asked != 0 ? asked : static_cast<unsigned>(usable_processors().amount);
+unsigned number_of_threads(unsigned requested) {
+  return requested != 0 ? requested : static_cast<unsigned>(usable_processors().amount);
 }
 
 void bind_to(std::jthread& thread, unsigned processor) {

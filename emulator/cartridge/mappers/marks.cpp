@@ -62,13 +62,13 @@ constexpr HotSpots kHotSpots[] = {
 };
 constexpr std::size_t kMostHotSpots = 64, kBank = 4096;
 
-bool has(std::string_view image, const Text& wanted) {
-  if (image.size() < wanted.least || image.size() > wanted.most) return false;
+bool has(std::string_view image, const Text& mark) {
+  if (image.size() < mark.least || image.size() > mark.most) return false;
   int hits = 0;
   std::size_t last = 0;
-  for (auto at = image.find(wanted.text); at != image.npos; at = image.find(wanted.text, at + 1)) {
+  for (auto at = image.find(mark.text); at != image.npos; at = image.find(mark.text, at + 1)) {
     hits = at - last < kBank ? hits + 1 : 1;
-    if (hits == wanted.hits) return true;
+    if (hits == mark.hits) return true;
     last = at;
   }
   return false;

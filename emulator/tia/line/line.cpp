@@ -93,20 +93,20 @@ constinit const std::array<Collisions, 64> kPossibleMeetings = make_possible();
 
 std::uint8_t objects_of(Collisions pairs) {
   unsigned objects = 0;
-  for (unsigned left = pairs & kAllPairs; left != 0; left &= left - 1) {
-    const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(left))];
+  for (unsigned rest = pairs & kAllPairs; rest != 0; rest &= rest - 1) {
+    const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(rest))];
     objects |= bit(p.a) | bit(p.b);
   }
   return static_cast<std::uint8_t>(objects);
 }
 
 Collisions meetings(const Line& line, int first, int last, Collisions pairs) {
-  unsigned left = pairs;
-  if (left == 0) return 0;
+  unsigned rest = pairs;
+  if (rest == 0) return 0;
   const PixelMask clip = PixelMask::range(first, last);
   Collisions found = 0;
-  for (; left != 0; left &= left - 1) {
-    const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(left))];
+  for (; rest != 0; rest &= rest - 1) {
+    const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(rest))];
     if ((line.mask[p.a] & clip).meets(line.mask[p.b])) found |= p.latch;
   }
   return found;

@@ -32,9 +32,9 @@ constexpr Collisions kAllPairs = 0xEFFF;  // D6 of CXBLPF is unused
 
 std::uint8_t objects_of(Collisions pairs);
 
-// Whether any pair of these objects (bit n: Object n) may meet that is not `known` to.
-inline bool can_meet(std::uint8_t objects, Collisions known) {
-  return (kPossibleMeetings[objects] & ~known) != 0;
+// Whether any pair of these objects (bit n: Object n) may meet that is not in `found`.
+inline bool can_meet(std::uint8_t objects, Collisions found) {
+  return (kPossibleMeetings[objects] & ~found) != 0;
 }
 
 // The pairs among these that meet in these pixels.

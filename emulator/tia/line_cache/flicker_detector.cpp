@@ -20,13 +20,13 @@ void FlickerDetector::judge() {
   found_ = found;
 }
 
-void FlickerDetector::count(LineRecord& drawn) {
+void FlickerDetector::count(LineRecord& record) {
   if (frame_ > kLast) {
     ++drawn_with_two_;
     return;
   }
-  std::uint8_t& before = drawn.hashes[odd_ ? 1 : 0];
-  const std::uint8_t hash = drawn.hash();
+  std::uint8_t& before = record.hashes[odd_ ? 1 : 0];
+  const std::uint8_t hash = record.hash();
   if (frame_ >= kAgain) {
     ++drawn_with_one_;
     if (hash == before) ++alike_;

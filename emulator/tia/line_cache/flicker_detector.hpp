@@ -19,7 +19,7 @@ class FlickerDetector {
 
   bool counts() const { return counts_; }  // whether all rows of this frame are counted
   bool starts_to_count() const { return frame_ == kFirst; }
-  void count(LineRecord& drawn);
+  void count(LineRecord& record);
 
  private:
   // of the frames with one set: the last two are compared

@@ -55,10 +55,10 @@ constexpr std::uint8_t control_of(unsigned reg) {
 constexpr std::array<LineEffect, 64> make_effects() {
   std::array<LineEffect, 64> table{};
   for (unsigned reg = 0; reg < 64; ++reg) {
-    const std::uint16_t seen = reg == HMOVE ? kMoves : reg == CXCLR ? kClears : 0;
+    const std::uint16_t dependencies = reg == HMOVE ? kMoves : reg == CXCLR ? kClears : 0;
     const std::uint32_t last =
         reg == kNone ? 0 : TiaWrite(kEarliestWrite + last_cycle(reg), 0x3F, 0xFF).packed();
-    table[reg] = {last, first_late(reg), control_of(reg), seen};
+    table[reg] = {last, first_late(reg), control_of(reg), dependencies};
   }
   return table;
 }
@@ -66,23 +66,25 @@ constexpr std::array<LineEffect, 64> make_effects() {
 // The motions count where HMOVE moves an object that is shown. The cosmic counter counts for the end of a
 // line.
 constexpr TiaRegisters make_seen(unsigned seen) {
-  const auto shown = [seen](unsigned bits) { return static_cast<std::uint8_t>(seen & bits ? 0xFF : 0); };
-  const std::uint8_t moves = shown(kMoves), ball = shown(bit(kBall)), playfield = shown(bit(kPlayfield));
+  const auto byte_if = [seen](unsigned bits) { return static_cast<std::uint8_t>(seen & bits ? 0xFF : 0); };
+  const std::uint8_t moves = byte_if(kMoves), ball = byte_if(bit(kBall)),
+                     playfield = byte_if(bit(kPlayfield));
   TiaRegisters mask;
   for (unsigned i = 0; i < 2; ++i) {
-    const std::uint8_t player = shown(bit(kP0 + i)), missile = shown(bit(kM0 + i)), either = player | missile;
+    const std::uint8_t player = byte_if(bit(kP0 + i)), missile = byte_if(bit(kM0 + i)),
+                       either = player | missile;
     const std::uint8_t moved = player & moves;
     mask.player[i] = {player, player, player, player, either, player, moved, player};
     mask.missile[i] = {0, 0, missile, static_cast<std::uint8_t>(missile & moves)};
-    mask.color[i] = either | shown(kScoreSeen);
+    mask.color[i] = either | byte_if(kScoreSeen);
   }
   mask.ball = {0, 0, 0, ball, static_cast<std::uint8_t>(ball & moves)};
   mask.color[2] = mask.ctrlpf = ball | playfield;
   mask.reflect = playfield;
   mask.pf = {playfield, playfield, playfield};
-  mask.cosmic_shape = static_cast<CosmicShape>(shown(bit(kM0)));
+  mask.cosmic_shape = static_cast<CosmicShape>(byte_if(bit(kM0)));
   mask.vblank = 0xFF;
-  mask.color[3] = mask.comb_armed = mask.enabled = shown(kLit);
+  mask.color[3] = mask.comb_armed = mask.enabled = byte_if(kLit);
   return mask;
 }
 

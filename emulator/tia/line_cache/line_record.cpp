@@ -60,18 +60,18 @@ void LineRecord::open(const TiaRegisters& registers) {
 }
 
 const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t origin) {
-  unsigned seen = 0, control = 0, events = count;
+  unsigned dependencies = 0, control = 0, events = count;
   for (; events < kMostEvents; ++entry) {
     const LineWrite write(*entry, origin);
     if (!write.acts_here()) break;
     event[events++] = write.packed();
     const LineEffect& effect = kLineEffects[write.reg()];
-    seen |= effect.seen;
+    dependencies |= effect.seen;
     const bool waits_for_nobody = (write.reg() & ~1U) == RESP0 && entry[1] - *entry > kWaitOfRespx;
     if (!waits_for_nobody) control |= effect.control;
   }
   count = static_cast<std::uint8_t>(events);
-  view.seen = static_cast<std::uint16_t>(view.seen | seen);
+  view.seen = static_cast<std::uint16_t>(view.seen | dependencies);
   view.control = static_cast<std::uint8_t>(view.control | control);
   return entry;
 }
