@@ -121,15 +121,15 @@ TEST_CASE("Closing ends the session, whatever another thread is at") {
   std::vector<client::Session> all;
   for (int session = 1; session <= kSessions; ++session) {
     client::Session& game = all.emplace_back(client::connect(address));
-    std::atomic<bool> begun = false;
+    std::atomic<bool> has_begun = false;
     std::jthread other([&] {
-      begun = true;
+      has_begun = true;
       try {
         game.request("act");
       } catch (const client::Lost&) {
       }
     });
-    while (!begun) std::this_thread::yield();
+    while (!has_begun) std::this_thread::yield();
     for (const auto until = Clock::now() + std::chrono::microseconds(session % 100); Clock::now() < until;)
       continue;
     game.close();

@@ -131,14 +131,14 @@ TEST_CASE("Each command has a method") {
 TEST_CASE("Screens have colours, and a stack of them begins with zeros") {
   auto game = client::launch(RACEBEAM_BINARY);
   game.load("beamfall");
-  const auto shown = game.look("screen:zlib", "rgb");
-  const client::Bytes& rgb = shown.bytes("rgb");
+  const auto look = game.look("screen:zlib", "rgb");
+  const client::Bytes& rgb = look.bytes("rgb");
   std::vector<std::uint32_t> expected;
   for (std::size_t at = 0; at < rgb.size(); at += 3)
     expected.push_back(0xFF000000U | unsigned{rgb[at]} << 16 | unsigned{rgb[at + 1]} << 8 | rgb[at + 2]);
-  CHECK(game.palette().colours(shown.bytes("screen")) == expected);
-  CHECK(shown.has("screen"));
-  CHECK_THROWS_AS(shown.text("ram"), std::out_of_range);
+  CHECK(game.palette().colours(look.bytes("screen")) == expected);
+  CHECK(look.has("screen"));
+  CHECK_THROWS_AS(look.text("ram"), std::out_of_range);
   CHECK_THROWS_AS(game.settings().bytes("seed"), std::invalid_argument);
   client::ScreenStack stack(2);
   CHECK(stack.push(client::Bytes{1, 2}) == client::Bytes{0, 0, 1, 2});
@@ -215,14 +215,14 @@ TEST_CASE("Threads that share a session get their own replies") {
 }
 
 TEST_CASE("Closing a session wakes the thread that waits for it") {
-  std::promise<void> asked;
+  std::promise<void> request;
   const Server server([&](const std::string&) {
-    asked.set_value();
+    request.set_value();
     return "";
   });
   auto game = client::connect(server.address());
   auto waiting = std::async(std::launch::async, [&] { game.act("FIRE"); });
-  asked.get_future().wait();
+  request.get_future().wait();
   game.close();
   CHECK_THROWS_AS(waiting.get(), client::Lost);
   game.close();
@@ -271,13 +271,13 @@ TEST_CASE("Coroutines have the same methods and the same errors") {
     }
     CHECK(code == "bad-action");
     co_await game.quit();
-    bool lost = false;
+    bool is_lost = false;
     try {
       co_await game.act("FIRE");
     } catch (const client::Lost&) {
-      lost = true;
+      is_lost = true;
     }
-    CHECK(lost);
+    CHECK(is_lost);
   }());
 }
 

@@ -104,8 +104,8 @@ TEST_CASE("A frame that jams where collisions are fetched as code shows nothing 
       const State& state = machine.console.state();
       (state.cpu.jammed ? jammed : drew_on) += 1;
       if (!state.cpu.jammed) continue;
-      const std::ptrdiff_t drawn = (3 * state.cycle - state.tia.origin) / 228 + 1;
-      const auto after = machine.console.picture().subspan(160 * drawn);
+      const std::ptrdiff_t rows = (3 * state.cycle - state.tia.origin) / 228 + 1;
+      const auto after = machine.console.picture().subspan(160 * rows);
       REQUIRE(std::ranges::count(after, 0) == std::ssize(after));
     }
   }

@@ -26,13 +26,13 @@ Run run(DeferredRenderPolicy& policy, int frames, int skip, int looks, const Cos
   int drawn_before = 0;
   for (int number = 0; number < frames; ++number) {
     const bool observed = number % skip >= skip - looks;
-    const bool drawn = observed || policy.next_is_drawn();
+    const bool is_drawn = observed || policy.next_is_drawn();
     if (policy.measures()) {
-      policy.record(cost({number, observed, drawn, drawn_before}));
+      policy.record(cost({number, observed, is_drawn, drawn_before}));
       ++counts.measured;
     }
-    if (!observed) ++counts.deferred, counts.drawn += drawn ? 1 : 0;
-    drawn_before = drawn ? drawn_before + 1 : 0;
+    if (!observed) ++counts.deferred, counts.drawn += is_drawn ? 1 : 0;
+    drawn_before = is_drawn ? drawn_before + 1 : 0;
   }
   return counts;
 }

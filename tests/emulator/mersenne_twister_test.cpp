@@ -29,10 +29,10 @@ TEST_CASE("The generator gives what std::mt19937 gives, for any seed and after a
 }
 
 TEST_CASE("A generator continues from its words and position") {
-  for (const int drawn : {0, 1, 623, 624, 625, 5000}) {
+  for (const int draws : {0, 1, 623, 624, 625, 5000}) {
     MersenneTwister first(7);
-    for (int i = 0; i < drawn; ++i) first();
-    CHECK(first.position() == (drawn == 0 ? 624U : (static_cast<std::uint32_t>(drawn) - 1) % 624 + 1));
+    for (int i = 0; i < draws; ++i) first();
+    CHECK(first.position() == (draws == 0 ? 624U : (static_cast<std::uint32_t>(draws) - 1) % 624 + 1));
     MersenneTwister second(first.words(), first.position());
     CHECK(second == first);
     for (int i = 0; i < 1300; ++i) REQUIRE(second() == first());

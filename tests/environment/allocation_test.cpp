@@ -125,7 +125,7 @@ TEST_CASE(
 }
 
 // Memory of so many machines that have played for a while.
-long taken(std::size_t machines) {
+long bytes_taken(std::size_t machines) {
   const long before = bytes_in_use;
   BatchSettings settings;
   settings.threads = 1;
@@ -138,8 +138,8 @@ long taken(std::size_t machines) {
 // which results have once more.
 TEST_CASE("A machine of a batch takes less than 70 KiB beside its pictures") {
   constexpr long kPictures = 3 * 210 * 160 + 2 * 4 * 84 * 84;
-  taken(48);  // resets that all machines share are met for the first time
-  const long of_one = (taken(48) - taken(16)) / 32;
+  bytes_taken(48);  // resets that all machines share are met for the first time
+  const long of_one = (bytes_taken(48) - bytes_taken(16)) / 32;
   INFO(of_one << " bytes");
   CHECK(of_one > kPictures);
   CHECK(of_one - kPictures < 70 * 1024);
@@ -169,12 +169,12 @@ TEST_CASE("A machine that fails takes no results of others with it, whichever al
       succeeds = true;
     } catch (const std::bad_alloc&) {
       until_failure = -1;
-      const std::size_t left = play.batch.playing();
-      INFO("allocation " << failures << ", left " << left);
-      REQUIRE(left >= kMachines - 1);
-      failed_machines += static_cast<int>(kMachines - left);
-      play.batch.receive(play.results.arrays(), left);
-      CHECK(received(play.results, left) == left);
+      const std::size_t playing = play.batch.playing();
+      INFO("allocation " << failures << ", left " << playing);
+      REQUIRE(playing >= kMachines - 1);
+      failed_machines += static_cast<int>(kMachines - playing);
+      play.batch.receive(play.results.arrays(), playing);
+      CHECK(received(play.results, playing) == playing);
       CHECK(play.batch.playing() == 0);
       play.step(2);  // and all of them go on
     }

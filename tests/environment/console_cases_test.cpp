@@ -79,9 +79,9 @@ TEST_CASE("With swapped ports, player A's stick is in the right one") {
 }
 
 TEST_CASE("Paddle buttons are stick directions, and swapping paddles swaps them") {
-  const std::string left = "left = \"paddles\"\n", swapped = left + "swap_paddles = true\n";
-  CHECK(pins_after(left, 1) == Pins{0x7F, true, true});
-  CHECK(pins_after(left, 0, 19) == Pins{0xBF, true, true});
+  const std::string paddles = "left = \"paddles\"\n", swapped = paddles + "swap_paddles = true\n";
+  CHECK(pins_after(paddles, 1) == Pins{0x7F, true, true});
+  CHECK(pins_after(paddles, 0, 19) == Pins{0xBF, true, true});
   CHECK(pins_after(swapped, 1) == Pins{0xBF, true, true});
   CHECK(pins_after(swapped, 0, 19) == Pins{0x7F, true, true});
 }

@@ -33,10 +33,10 @@ void check(const std::shared_ptr<const Image>& image, const std::shared_ptr<cons
     const int action = legal[random() % legal.size()];
     const bool looks = random() % 8 == 0, looks_back = random() % 8 == 0, saves = random() % 50 == 0,
                loads = random() % 50 == 0;
-    std::vector<std::vector<std::uint8_t>> seen, seen_before, states;
+    std::vector<std::vector<std::uint8_t>> screens, seen_before, states;
     for (Environment& machine : machines) {
       machine.act(action);
-      if (looks) seen.push_back(bytes_of(machine.screen()));
+      if (looks) screens.push_back(bytes_of(machine.screen()));
       if (looks_back) seen_before.push_back(bytes_of(machine.previous_screen()));
       if (saves) saved.push_back(machine.save(true));
       if (saves) states.push_back(to_bytes(*saved.back(), machine));
@@ -46,7 +46,7 @@ void check(const std::shared_ptr<const Image>& image, const std::shared_ptr<cons
       for (std::size_t m = 0; m < machines.size(); ++m)
         machines[m].restore(*saved[saved.size() - machines.size() + m]);
     }
-    for (const auto* list : {&seen, &seen_before, &states})
+    for (const auto* list : {&screens, &seen_before, &states})
       for (const auto& one : *list) REQUIRE(one == list->front());
   }
 }
@@ -72,12 +72,12 @@ TEST_CASE("A watcher sees each frame drawn, whatever is drawn otherwise") {
   Environment each(test::counter_image(), test::game(), settings);
   settings.frame_skip = 1;
   Environment single(test::counter_image(), test::game(), settings);
-  std::vector<std::vector<std::uint8_t>> seen;
+  std::vector<std::vector<std::uint8_t>> screens;
   each.set_drawing(Drawing::kNone);
-  each.watch([&] { seen.push_back(bytes_of(each.screen())); });
+  each.watch([&] { screens.push_back(bytes_of(each.screen())); });
   for (int i = 0; i < 10; ++i) each.act(0);
-  REQUIRE(seen.size() == 40);
-  for (const auto& screen : seen) {
+  REQUIRE(screens.size() == 40);
+  for (const auto& screen : screens) {
     single.act(0);
     REQUIRE(bytes_of(single.screen()) == screen);
   }

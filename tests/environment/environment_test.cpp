@@ -71,13 +71,13 @@ TEST_CASE("After the end an act runs no frame, but draws, and returns 0 within t
   CHECK(environment.game_over());
   CHECK_FALSE(environment.truncated());
   CHECK(environment.frame_number() == 1);
-  const std::vector<std::uint8_t> heard(environment.audio().begin(), environment.audio().end());
+  const std::vector<std::uint8_t> sound(environment.audio().begin(), environment.audio().end());
   const int frames = at(environment, 0x80);
   CHECK(environment.act(0) == 2);
   CHECK(environment.frame_number() == 1);
   CHECK(at(environment, 0x80) == frames);
   CHECK(draws(environment) == 16);
-  CHECK(heard != std::vector<std::uint8_t>(environment.audio().begin(), environment.audio().end()));
+  CHECK(sound != std::vector<std::uint8_t>(environment.audio().begin(), environment.audio().end()));
   environment.reset_game();
   CHECK_FALSE(environment.game_over());
 }
@@ -234,14 +234,14 @@ std::shared_ptr<const Image> thinking_image() {
 TEST_CASE("The screen before is what was shown a frame ago, even if the picture is the same") {
   Environment environment(thinking_image(), game(), plain());
   environment.set_drawing(Drawing::kEvery);
-  std::vector<std::vector<std::uint8_t>> seen;
+  std::vector<std::vector<std::uint8_t>> screens;
   for (int frame = 0; frame < 12; ++frame) {
     const auto screen = environment.screen();
-    seen.emplace_back(screen.begin(), screen.end());
+    screens.emplace_back(screen.begin(), screen.end());
     environment.act(0);
-    CHECK(std::ranges::equal(environment.previous_screen(), seen.back()));
+    CHECK(std::ranges::equal(environment.previous_screen(), screens.back()));
   }
-  CHECK(std::ranges::adjacent_find(seen, std::not_equal_to()) != seen.end());
+  CHECK(std::ranges::adjacent_find(screens, std::not_equal_to()) != screens.end());
 }
 
 TEST_CASE("RGB and grey pictures follow the palette") {
@@ -273,10 +273,10 @@ TEST_CASE("Frames repeat the action before, as a model of sticky actions says") 
         exact.reset_game();
         held = {};
       }
-      const Presses asked{{i * 7 % 18, 1.0F}, {18 + i * 5 % 18, 1.0F}};
-      sticky.act(asked.a.action, asked.b.action);
+      const Presses presses{{i * 7 % 18, 1.0F}, {18 + i * 5 % 18, 1.0F}};
+      sticky.act(presses.a.action, presses.b.action);
       for (int frame = 0; frame < skip; ++frame) {
-        Sticky(0.25F).draw(random, asked, held);
+        Sticky(0.25F).draw(random, presses, held);
         exact.act(held.a.action, held.b.action);
       }
       CHECK(test::crc(sticky.ram()) == test::crc(exact.ram()));

@@ -94,22 +94,22 @@ constexpr Seen kSeen[] = {
     {"freeway", "8e0ab801", {0xAB243D95, 0x2A280760}, 0, 0x977D57A2, 0xE373E277},
 };
 
-void check_seen(const Seen& seen) {
-  INFO(seen.name);
-  const auto image = test::needed_rom(seen.name, seen.md5);
+void check_seen(const Seen& expected) {
+  INFO(expected.name);
+  const auto image = test::needed_rom(expected.name, expected.md5);
   if (!image) return;
-  Environment environment = load(image, seen.name, seeded(123, 0.25F));
-  CHECK(play_all_actions(environment, 300) == seen.reward);
-  CHECK(now(environment) == seen.played);
+  Environment environment = load(image, expected.name, seeded(123, 0.25F));
+  CHECK(play_all_actions(environment, 300) == expected.reward);
+  CHECK(now(environment) == expected.played);
   std::vector<std::uint8_t> rgb, grey;
   environment.screen_rgb(rgb);
   environment.screen_grey(grey);
-  CHECK(crc(rgb) == seen.rgb);
-  CHECK(crc(grey) == seen.grey);
+  CHECK(crc(rgb) == expected.rgb);
+  CHECK(crc(grey) == expected.grey);
 }
 
 TEST_CASE("Sticky play gives the colours and greys of the reference") {
-  for (const Seen& seen : kSeen) check_seen(seen);
+  for (const Seen& expected : kSeen) check_seen(expected);
 }
 
 struct Resets {

@@ -102,9 +102,9 @@ TEST_CASE("Klax counts across the wrap of a score in the cartridge's memory") {
     return at >= 0 && at < 3 ? bytes[static_cast<std::size_t>(at)] : std::uint8_t{0};
   };
   Rule before(*reference), after(*reference->fixed);
-  for (const std::array<std::uint8_t, 3> shown :
+  for (const std::array<std::uint8_t, 3> memory :
        {std::array<std::uint8_t, 3>{0, 0, 0x50}, {0x99, 0x99, 0x99}, {4, 0, 0}}) {
-    digits = shown;
+    digits = memory;
     before.step({ram.data(), peek, &digits});
     after.step({ram.data(), peek, &digits});
   }
@@ -231,13 +231,13 @@ bool b_plays(Environment& environment, int right = 21, int left = 22) {
     seen_first.emplace_back(environment.screen().begin(), environment.screen().end());
   }
   environment.restore(*start);
-  bool seen = false;
+  bool is_seen = false;
   for (const auto& screen : seen_first) {
     environment.act(0, left, 1, 1);
-    seen = seen || !std::ranges::equal(screen, environment.screen());
+    is_seen = is_seen || !std::ranges::equal(screen, environment.screen());
   }
   environment.restore(*start);
-  return seen;
+  return is_seen;
 }
 
 TEST_CASE("corrected lives begin with what a loss of life is measured against") {

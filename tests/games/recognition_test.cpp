@@ -110,15 +110,15 @@ TEST_CASE("another dump of a game takes the properties of the game's first image
        {"breakout", "pong", "kaboom", "casino", "backgammon", "blackjack", "warlords", "surround",
         "wizard_of_wor", "maze_craze", "pooyan", "asteroids"}) {
     INFO(name);
-    const Properties wanted = find_game(name)->images.front().properties;
-    REQUIRE_FALSE(wanted == Properties{});
+    const Properties expected = find_game(name)->images.front().properties;
+    REQUIRE_FALSE(expected == Properties{});
     for (const Recognition& found :
          {recognise(image(kNobody, "dump"), name), recognise(image(kNobody, name))}) {
-      CHECK(found.game->properties_for(kNobody) == wanted);
+      CHECK(found.game->properties_for(kNobody) == expected);
       CHECK_FALSE(found.md5_matches);
       CHECK_FALSE(found.game->accepts(kNobody));
-      if (const auto& fixed = found.game->fixed) CHECK(fixed->properties_for(kNobody) == wanted);
-      if (const auto& classic = found.game->classic) CHECK(classic->properties_for(kNobody) == wanted);
+      if (const auto& fixed = found.game->fixed) CHECK(fixed->properties_for(kNobody) == expected);
+      if (const auto& classic = found.game->classic) CHECK(classic->properties_for(kNobody) == expected);
     }
   }
 }

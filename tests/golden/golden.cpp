@@ -42,8 +42,8 @@ void write_file(const std::string& path, const std::string& text) {
 }
 
 // Prints the lines that differ, with their setting. Returns whether all are equal.
-bool same_lines(const std::string& game, const std::string& kept, const std::string& shown) {
-  std::istringstream kept_lines(kept), shown_lines(shown);
+bool same_lines(const std::string& game, const std::string& expected, const std::string& found) {
+  std::istringstream kept_lines(expected), shown_lines(found);
   std::string kept_line, shown_line, setting;
   bool same = true;
   while (true) {
@@ -59,12 +59,12 @@ bool same_lines(const std::string& game, const std::string& kept, const std::str
 }
 
 bool compare(const std::string& game, bool rebaseline) {
-  const std::string shown = golden_text(game);
+  const std::string text = golden_text(game);
   if (rebaseline) {
-    write_file(file_of(game), shown);
+    write_file(file_of(game), text);
     return true;
   }
-  return same_lines(game, read_file(file_of(game)), shown);
+  return same_lines(game, read_file(file_of(game)), text);
 }
 
 struct SignatureOptions {

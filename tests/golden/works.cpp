@@ -22,12 +22,12 @@ struct NamedSettings {
 };
 
 Settings settings(float sticky, int frame_skip) {
-  Settings made;
-  made.random_seed = 7;
-  made.sound = true;
-  made.sticky = sticky;
-  made.frame_skip = frame_skip;
-  return made;
+  Settings settings;
+  settings.random_seed = 7;
+  settings.sound = true;
+  settings.sticky = sticky;
+  settings.frame_skip = frame_skip;
+  return settings;
 }
 
 std::vector<NamedSettings> all_settings() {

@@ -12,7 +12,7 @@ using racebeam::Snapshot;
 
 namespace {
 
-std::vector<std::uint8_t> shown(Environment& environment) {
+std::vector<std::uint8_t> observation(Environment& environment) {
   return {environment.screen().begin(), environment.screen().end()};
 }
 
@@ -22,14 +22,14 @@ TEST_CASE("A restored environment shows the same picture and the same future") {
   auto environment = beamfall::environment();
   beamfall::score_of(environment, 30);
   const Snapshot snapshot = environment.save();
-  const auto screen = shown(environment);
+  const auto screen = observation(environment);
   const int score = beamfall::score_of(environment, 50);
-  const auto later = shown(environment);
+  const auto later = observation(environment);
 
   environment.restore(snapshot);
-  CHECK(shown(environment) == screen);
+  CHECK(observation(environment) == screen);
   CHECK(beamfall::score_of(environment, 50) == score);
-  CHECK(shown(environment) == later);
+  CHECK(observation(environment) == later);
 }
 
 TEST_CASE("The bytes of a snapshot restore it in another environment") {
@@ -42,7 +42,7 @@ TEST_CASE("The bytes of a snapshot restore it in another environment") {
 
   auto other = beamfall::environment();
   other.restore(Snapshot::from_bytes(bytes));
-  CHECK(shown(other) == shown(environment));
+  CHECK(observation(other) == observation(environment));
   CHECK(other.state_hash() == environment.state_hash());
   CHECK(beamfall::score_of(other, 50) == beamfall::score_of(environment, 50));
 }

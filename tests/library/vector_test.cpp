@@ -67,7 +67,7 @@ TEST_CASE("One machine goes back to a snapshot, in memory and as bytes") {
   const std::vector<int> actions(2, fire(vector));
   for (int step = 0; step < 20; ++step) vector.step(actions, results);
   const auto snapshot = vector.save(0, true);
-  const auto seen = results.observations;
+  const auto observations = results.observations;
   const auto play = [&] {
     for (int step = 0; step < 20; ++step) vector.step(actions, results);
     return std::vector(results.observations.begin(), results.observations.begin() + 84 * 84 * 4);
@@ -76,7 +76,7 @@ TEST_CASE("One machine goes back to a snapshot, in memory and as bytes") {
   for (const auto& again : {snapshot, racebeam::Snapshot::from_bytes(snapshot.to_bytes())}) {
     vector.restore(0, again);
     vector.observe(results);
-    CHECK(std::equal(seen.begin(), seen.begin() + 84 * 84 * 4, results.observations.begin()));
+    CHECK(std::equal(observations.begin(), observations.begin() + 84 * 84 * 4, results.observations.begin()));
     CHECK(play() == future);
   }
 }

@@ -124,12 +124,12 @@ bool is_constant(const std::string& values) {
 
 // No two of them say the same, and none says the same always.
 void check_told_apart(const std::vector<std::string>& fields) {
-  std::map<std::string, std::string> seen;
+  std::map<std::string, std::string> effects;
   for (const std::string& field : fields) {
     const std::string values = values_of_field(field);
     INFO(field << " says " << values.substr(0, 200));
     CHECK_FALSE(is_constant(values));
-    const auto [place, is_new] = seen.emplace(values, field);
+    const auto [place, is_new] = effects.emplace(values, field);
     INFO("as does " << place->second);
     CHECK(is_new);
   }
@@ -142,8 +142,8 @@ std::map<std::string, std::string> pairs_of(const std::string& reply) {
   split(reply, words);
   for (const std::string_view word : words) {
     if (word.find('=') != std::string_view::npos) {
-      const auto [key, told] = key_value(word);
-      pairs.emplace(key, told);
+      const auto [key, value] = key_value(word);
+      pairs.emplace(key, value);
     }
   }
   return pairs;
@@ -206,9 +206,9 @@ TEST_CASE("Each key of a reply tells something") {
                            const std::set<std::string>& constant = {}) {
     const auto first = pairs_of(one.ask(request)), second = pairs_of(other.ask(request_of_other));
     CHECK_FALSE(first.empty());
-    for (const auto& [key, told] : first) {
-      INFO(request << ": " << key << "=" << told);
-      CHECK((constant.contains(key) || !second.contains(key) || second.at(key) != told));
+    for (const auto& [key, value] : first) {
+      INFO(request << ": " << key << "=" << value);
+      CHECK((constant.contains(key) || !second.contains(key) || second.at(key) != value));
     }
   };
   compare("hello", "hello", {"protocol", "encodings", "presets"});
@@ -239,7 +239,7 @@ TEST_CASE("Each other name of a command is as good as the command") {
 }
 
 TEST_CASE("Each error code is told") {
-  const std::map<std::string_view, std::string> told = {
+  const std::map<std::string_view, std::string> sentences = {
       {"bad-line", "\n"},
       {"line-too-long", std::string((1 << 20) + 1, 'x') + "\n"},
       {"half-line", "act"},
@@ -261,7 +261,7 @@ TEST_CASE("Each error code is told") {
   // should be.
   const std::set<std::string_view> others = {"busy", "idle", "stopping", "internal"};
   std::set<std::string_view> all = others;
-  for (const auto& [name, conversation] : told) {
+  for (const auto& [name, conversation] : sentences) {
     INFO(name);
     LineService service = duel_service();
     if (name == "unauthorized") service.admission = [](std::string_view) { return false; };

@@ -86,10 +86,10 @@ class LineClient {
 inline std::string value(std::string_view reply, const std::string& key, int group = 0) {
   for (; group > 0; --group) reply.remove_prefix(reply.find(" |") + 2);
   reply = reply.substr(0, reply.find(" |"));
-  const std::string wanted = " " + key + "=";
-  const std::size_t at = reply.find(wanted);
+  const std::string mark = " " + key + "=";
+  const std::size_t at = reply.find(mark);
   if (at == std::string_view::npos) return "(none)";
-  reply.remove_prefix(at + wanted.size());
+  reply.remove_prefix(at + mark.size());
   return std::string(reply.substr(0, reply.find(' ')));
 }
 

@@ -51,12 +51,12 @@ TEST_CASE("A longer line is seen as two") {
 
 TEST_CASE("There is always room when no line is ready") {
   LineBuffer buffer;
-  std::size_t taken = 0;
+  std::size_t size = 0;
   for (int turn = 0; turn < 5000; ++turn) {
     const std::size_t room = buffer.space().size();
     REQUIRE(room > 0);
     put(buffer, std::string(std::min<std::size_t>(room, 1 + turn % 700), 'x'));
-    while (const auto line = buffer.line(2047)) taken += line->size();
+    while (const auto line = buffer.line(2047)) size += line->size();
   }
-  CHECK(taken > 1'000'000);
+  CHECK(size > 1'000'000);
 }

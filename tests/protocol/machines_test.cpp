@@ -257,14 +257,14 @@ TEST_CASE("A whole export has the score and the stack of screens, and the other 
   LineClient one, other;
   ask_all(one, {kStacked, "observe grey20x20x2:hex", "open 1 steps=frames", "step FIRE", "step RIGHT",
                 "save a machine=0 random=1"});
-  const std::string shown = ask_all(one, {"restart 0"});
+  const std::string replies = ask_all(one, {"restart 0"});
   const std::string whole = value(one.ask("export a whole=1"), "data"),
                     plain = value(one.ask("export a"), "data");
   CHECK(whole.size() > plain.size());
   CHECK(plain == value(one.ask("export a whole=0"), "data"));
   ask_all(other, {kStacked, "observe grey20x20x2:hex", "open 1 steps=frames"});
   CHECK(other.ask("import a " + whole) == "ok state=a");
-  CHECK("ok machines=1 |" + other.ask("restore a machine=0").substr(2) == shown);
+  CHECK("ok machines=1 |" + other.ask("restore a machine=0").substr(2) == replies);
   CHECK(other.ask("step RIGHT") == one.ask("step RIGHT"));
   CHECK(value(other.ask("export a whole=1"), "data") == whole);
   CHECK(other.ask("import b " + plain) == "ok state=b");
@@ -279,8 +279,8 @@ TEST_CASE("A state of the machine of load begins the episodes of machines, and t
   LineClient client;
   ask_all(client, {"load beamfall seed=5 sticky=0 frame_skip=4", "observe lives ram", "act FIRE*30", "save a",
                    "open 2 steps=frames lives=end"});
-  const std::string shown = ask_all(client, {"look"});
-  CHECK(ask_all(client, {"restore a machine=1"}) == shown);
+  const std::string replies = ask_all(client, {"look"});
+  CHECK(ask_all(client, {"restore a machine=1"}) == replies);
   const std::string acted = ask_all(client, {"act RIGHT"});
   const std::string stepped = ask_all(client, {"step RIGHT"});
   CHECK(stepped.ends_with(acted.substr(2)));

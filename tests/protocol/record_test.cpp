@@ -22,11 +22,11 @@ struct Studio {
   explicit Studio(std::size_t most_bytes = 1 << 30) : client(service(most_bytes)) { client.ask(kLoad); }
 
   LineService service(std::size_t most_bytes) const {
-    LineService made = test::line_service();
-    made.limits.recording = most_bytes;
-    made.recorder = std::make_shared<Recorder>(folder.path(""));
-    made.memory = std::make_shared<MemoryBudget>(kMemory);
-    return made;
+    LineService service = test::line_service();
+    service.limits.recording = most_bytes;
+    service.recorder = std::make_shared<Recorder>(folder.path(""));
+    service.memory = std::make_shared<MemoryBudget>(kMemory);
+    return service;
   }
 
   std::string ask(const std::string& request) { return client.ask(request); }
@@ -82,10 +82,10 @@ TEST_CASE("A recording that was cut short is reported once, by act or step") {
         "ok recorded=a.y4m frames=4 bytes=806463 complete=0 recording_ended=limit");
   CHECK(studio.file("a.y4m").size() == 806463);
   studio.ask("record y4m b machine=1");
-  std::string told = "(none)";
+  std::string reply = "(none)";
   int steps = 0;
-  for (; told == "(none)" && steps < 100; ++steps) told = value(studio.ask("step FIRE"), "recording_ended");
-  CHECK(told == "limit");
+  for (; reply == "(none)" && steps < 100; ++steps) reply = value(studio.ask("step FIRE"), "recording_ended");
+  CHECK(reply == "limit");
   CHECK(value(studio.ask("step FIRE"), "recording_ended") == "(none)");
   CHECK(value(studio.ask("record stop"), "complete") == "0");
   studio.ask("record y4m c");
@@ -93,7 +93,7 @@ TEST_CASE("A recording that was cut short is reported once, by act or step") {
 }
 
 TEST_CASE("What ends the machine ends its recording, which is kept") {
-  const auto kept = [](const std::string& record, const std::string& end) {
+  const auto is_kept = [](const std::string& record, const std::string& end) {
     Studio studio;
     studio.ask("open 2");
     CHECK_THAT(studio.ask(record), Contains("recording=a.wav"));
@@ -104,12 +104,12 @@ TEST_CASE("What ends the machine ends its recording, which is kept") {
     studio.client.service.recorder->end(std::chrono::seconds(10));
     return ended && studio.file("a.wav").size() == 44 + 2 * 512;
   };
-  CHECK(kept("record wav a", kLoad));
-  CHECK(kept("record wav a machine=1", kLoad));
-  CHECK(kept("record wav a machine=1", "open 2"));
-  CHECK(kept("record wav a machine=0", "close"));
-  CHECK(!kept("record wav a", "close"));
-  CHECK(!kept("record wav a machine=1", "open 2 autoreset=wrong"));
+  CHECK(is_kept("record wav a", kLoad));
+  CHECK(is_kept("record wav a machine=1", kLoad));
+  CHECK(is_kept("record wav a machine=1", "open 2"));
+  CHECK(is_kept("record wav a machine=0", "close"));
+  CHECK(!is_kept("record wav a", "close"));
+  CHECK(!is_kept("record wav a machine=1", "open 2 autoreset=wrong"));
 }
 
 TEST_CASE("A recording that there is no memory for is refused, and leaves nothing") {
@@ -189,14 +189,14 @@ TEST_CASE("A shot is the frame that a recording of PNGs has") {
   Studio studio;
   studio.ask("record png film");
   studio.ask("act FIRE*20");
-  const std::string told = studio.ask("shot now");
-  CHECK_THAT(told, Contains("ok picture=now.png width=320 height=210 bytes="));
+  const std::string reply = studio.ask("shot now");
+  CHECK_THAT(reply, Contains("ok picture=now.png width=320 height=210 bytes="));
   studio.ask("record stop");
   const std::string picture = studio.file("now.png");
   CHECK((picture == studio.file("film/000039.png")));
-  CHECK(value(told, "bytes") == std::to_string(picture.size()));
+  CHECK(value(reply, "bytes") == std::to_string(picture.size()));
   const std::string handed_over = studio.ask("shot");
-  CHECK(value(handed_over, "bytes") == value(told, "bytes"));
+  CHECK(value(handed_over, "bytes") == value(reply, "bytes"));
   const auto bytes = bytes_of_base64(value(handed_over, "data"));
   REQUIRE(bytes);
   CHECK((std::string(bytes->begin(), bytes->end()) == picture));
@@ -205,11 +205,11 @@ TEST_CASE("A shot is the frame that a recording of PNGs has") {
 TEST_CASE("A server that keeps no files hands a shot over, whatever its name") {
   test::LineClient client;
   client.ask(kLoad);
-  const std::string told = client.ask("shot");
-  CHECK(value(told, "data").starts_with("iVBORw0KGgo"));
-  CHECK(client.ask("shot now") == told);
+  const std::string reply = client.ask("shot");
+  CHECK(value(reply, "data").starts_with("iVBORw0KGgo"));
+  CHECK(client.ask("shot now") == reply);
   client.ask("act FIRE*20");
-  CHECK(client.ask("shot") != told);
+  CHECK(client.ask("shot") != reply);
 }
 
 TEST_CASE("A shot of a machine of open shows that machine") {

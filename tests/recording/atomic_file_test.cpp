@@ -281,6 +281,6 @@ TEST_CASE("A folder appears at its commit, with whole files") {
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path("frames")), {}) == 2);
   CHECK(mode_of(folder.path("frames")) == 0755);
   CHECK_THROWS_WITH(AtomicFolder(folder.path("frames"), budget), "frames exists; choose another name");
-  { const AtomicFolder left(folder.path("left"), budget); }
+  { const AtomicFolder folder_of_frames(folder.path("left"), budget); }
   CHECK(files_in(folder) == 1);
 }

@@ -78,22 +78,22 @@ TEST_CASE("A name belongs to one recording at a time") {
 TEST_CASE("At the end all is kept, or nothing of it is there") {
   const Scratch folder;
   Environment machine = test::beamfall();
-  std::size_t begun = 0;
+  std::size_t begins = 0;
   {
     Recorder recorder(folder.path(""));
-    for (; begun < 8; ++begun)
-      add(*recorder.begin({MediaKind::kPng}, std::to_string(begun), kMuch, machine), machine, 16);
+    for (; begins < 8; ++begins)
+      add(*recorder.begin({MediaKind::kPng}, std::to_string(begins), kMuch, machine), machine, 16);
     recorder.end(0ms);
     for (int i = 0; i < 1000 && !recorder.idle(); ++i) std::this_thread::sleep_for(10ms);  // a slow disk
     CHECK(recorder.idle());
   }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < begun; ++i) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < begins; ++i) {
     if (!std::filesystem::exists(folder.path(std::to_string(i)))) continue;
-    ++kept;
+    ++count;
     CHECK(test::files_in(folder.path(std::to_string(i))) == 16);
   }
-  CHECK(test::files_in(folder.path("")) == kept);
+  CHECK(test::files_in(folder.path("")) == count);
 }
 
 TEST_CASE("A recording that is never released does not hold up the end") {

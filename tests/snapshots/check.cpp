@@ -35,9 +35,9 @@ int warm_up(std::uint64_t seed, int number) {
 
 // Digests of the present, and after each of `acts` acts from act `first` on.
 Digests went_on(Environment& environment, std::uint64_t seed, int first, int acts) {
-  Digests seen = {digest(environment, 0)};
-  for (int i = 0; i < acts; ++i) seen.push_back(act(environment, seed, first + i));
-  return seen;
+  Digests digests = {digest(environment, 0)};
+  for (int i = 0; i < acts; ++i) digests.push_back(act(environment, seed, first + i));
+  return digests;
 }
 
 void write_bytes(const fs::path& path, std::span<const std::uint8_t> bytes) {
@@ -133,16 +133,16 @@ class Run {
     return seen;
   }
 
-  std::string compare(int frame, const char* where, const Digests& seen) const {
+  std::string compare(int frame, const char* where, const Digests& digests) const {
     const auto fault = [&](int acts) {
       return "the state of act " + std::to_string(first_ + frame) + ", restored " + where + ", differs " +
              std::to_string(acts) + " acts later (" + manner(number_).name + ", seed " +
              std::to_string(plan_.seed) + ")";
     };
     const auto at = static_cast<std::size_t>(frame);
-    if (seen.empty() || seen[0] != now_[at]) return fault(0);
+    if (digests.empty() || digests[0] != now_[at]) return fault(0);
     for (std::size_t i = 1; i <= static_cast<std::size_t>(plan_.ahead); ++i)
-      if (i >= seen.size() || seen[i] != led_to_[at + i]) return fault(static_cast<int>(i));
+      if (i >= digests.size() || digests[i] != led_to_[at + i]) return fault(static_cast<int>(i));
     return {};
   }
 

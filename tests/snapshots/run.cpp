@@ -62,9 +62,9 @@ std::uint64_t act(Environment& environment, std::uint64_t seed, int n) {
   const auto& legal = environment.game().legal_actions;
   const std::uint64_t draw = mixed(mixed(seed) + static_cast<std::uint64_t>(n / 4));  // held for four acts
   const int reward = environment.act(legal[draw % legal.size()]);
-  const std::uint64_t seen = digest(environment, reward);
+  const std::uint64_t value = digest(environment, reward);
   if (environment.game_over()) environment.reset_game();
-  return seen;
+  return value;
 }
 
 }  // namespace racebeam::test

@@ -44,10 +44,10 @@ struct Collection {
   std::vector<std::string> missing;  // games, and why they can't be run
 };
 
-Collection collect(const std::vector<std::string>& wanted) {
+Collection collect(const std::vector<std::string>& names) {
   Collection all;
   for (const CatalogueEntry& entry : catalogue()) {
-    if (!wanted.empty() && std::ranges::find(wanted, entry.name) == wanted.end()) continue;
+    if (!names.empty() && std::ranges::find(names, entry.name) == names.end()) continue;
     const auto game = find_game(entry.name);
     const auto image = image_of(entry, *game);
     const std::string why = image ? obstacle(image, game) : "no image in RACEBEAM_ROMS or .venv";

@@ -26,9 +26,9 @@ inline Observation observe(const Environment& environment, int reward = 0) {
 
 inline Observation act(Environment& environment, int action, int b = 18) {
   const int reward = environment.act(action, b);
-  Observation seen = observe(environment, reward);
+  Observation observation = observe(environment, reward);
   if (environment.game_over()) environment.reset_game();
-  return seen;
+  return observation;
 }
 
 }  // namespace racebeam::test

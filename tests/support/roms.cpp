@@ -48,8 +48,8 @@ const Roms& roms() {
 }  // namespace
 
 std::string rom_folder() {
-  const char* given = std::getenv("RACEBEAM_ROMS");
-  return given != nullptr && *given != '\0' ? given : folder_of_ale_py();
+  const char* folder = std::getenv("RACEBEAM_ROMS");
+  return folder != nullptr && *folder != '\0' ? folder : folder_of_ale_py();
 }
 
 std::shared_ptr<const Image> find_rom(std::string_view md5) {

@@ -57,15 +57,15 @@ TEST_CASE("lines are visited one by one, however long the file is") {
     for (int number = 0; number < 1000; ++number) file << line << number << '\n';
     file << "end";
   }
-  std::size_t seen = 0;
+  std::size_t count = 0;
   std::string last;
   each_line("table", path, 1004, [&](std::string_view text, bool ends) {
-    if (seen > 0 && ends) CHECK(text == line + std::to_string(seen - 1));
-    CHECK(ends == (seen < 1001));
-    ++seen;
+    if (count > 0 && ends) CHECK(text == line + std::to_string(count - 1));
+    CHECK(ends == (count < 1001));
+    ++count;
     last = text;
   });
-  CHECK(seen == 1002);
+  CHECK(count == 1002);
   CHECK(last == "end");
   CHECK_THROWS_MATCHES(each_line("table", path, 1001, [](std::string_view, bool) {}), InputFileError,
                        Message("table " + path + ": line 12 has more than 1001 bytes"));

@@ -26,8 +26,8 @@ namespace {
 using namespace racebeam::test;
 
 double bound() {
-  const char* const given = std::getenv("RACEBEAM_COST_BOUND");
-  return given != nullptr ? std::atof(given) : 1.5;
+  const char* const value = std::getenv("RACEBEAM_COST_BOUND");
+  return value != nullptr ? std::atof(value) : 1.5;
 }
 
 constexpr double kAllowance = 1500;  // microseconds

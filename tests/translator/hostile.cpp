@@ -19,7 +19,7 @@ class Bank {
   explicit Bank(std::uint8_t filler = 0xEA) : bytes_(kBankSize, filler) { vectors(kStart); }
 
   unsigned pc() const { return kStart + at_; }
-  unsigned left() const { return kCodeEnd - at_; }
+  unsigned room_left() const { return kCodeEnd - at_; }
 
   Bank& put(std::initializer_list<unsigned> bytes) {
     for (const unsigned byte : bytes) bytes_[at_++] = static_cast<std::uint8_t>(byte);
@@ -28,7 +28,7 @@ class Bank {
 
   // Repeats `bytes`, as long as there is room for a jump after them.
   Bank& fill(const Bytes& bytes, unsigned most = kBankSize) {
-    for (; most > 0 && left() > bytes.size() + 3; --most)
+    for (; most > 0 && room_left() > bytes.size() + 3; --most)
       for (const std::uint8_t byte : bytes) bytes_[at_++] = byte;
     return *this;
   }
@@ -212,7 +212,7 @@ void add_bank_storms(Collection& to) {
     for (const unsigned between : {0U, 4U, 16U}) {
       Bank bank;
       bank.skip_to(0x200).vectors(kStart + 0x200);
-      for (unsigned turn = 0; bank.left() > 3 + between + 3; ++turn) {
+      for (unsigned turn = 0; bank.room_left() > 3 + between + 3; ++turn) {
         const unsigned address = scheme.hot_spot + turn % scheme.count;
         bank.put({0xAD, address & 0xFF, address >> 8}).fill({0xE8}, between);
       }
@@ -223,14 +223,14 @@ void add_bank_storms(Collection& to) {
   for (const unsigned between : {0U, 8U}) {
     Bank bank;
     bank.skip_to(0x200).vectors(kStart + 0x200);
-    while (bank.left() > 6 + between + 3) bank.put({0xE8, 0x86, 0x3F}).fill({0xEA}, between);
+    while (bank.room_left() > 6 + between + 3) bank.put({0xE8, 0x86, 0x3F}).fill({0xEA}, between);
     bank.jump(kStart + 0x200);
     to.add_banks("3F switched after " + std::to_string(between) + " NOP", "3F", 4, bank);
   }
   for (const unsigned between : {0U, 8U, 64U}) {
     Bank bank;
     bank.skip_to(0x200).vectors(kStart + 0x200);
-    while (bank.left() > 3 + between + 3) bank.put({0xAD, 0xF0, 0x1F}).fill({0xE8}, between);
+    while (bank.room_left() > 3 + between + 3) bank.put({0xAD, 0xF0, 0x1F}).fill({0xE8}, between);
     bank.jump(kStart + 0x200);
     to.add_banks("64K, the next bank after " + std::to_string(between) + " INX", "MB", 16, bank);
   }
@@ -246,7 +246,7 @@ void add_full_memory(Collection& to) {
     for (unsigned number = 0; number < 16; ++number) {
       Bank bank;
       bank.skip_to(0x100).vectors(kStart + 0x100);
-      while (bank.left() > 40) {
+      while (bank.room_left() > 40) {
         if (seed > 1 && random() % 8 == 0)
           bank.put({0xD0, 2 * static_cast<unsigned>(random() % 10)});
         else
@@ -259,7 +259,7 @@ void add_full_memory(Collection& to) {
     to.add("64K of code in all mirrors " + std::to_string(seed), "MB", std::move(rom));
   }
   Bank mirrors;
-  for (unsigned turn = 0; mirrors.left() > 16; ++turn)
+  for (unsigned turn = 0; mirrors.room_left() > 16; ++turn)
     mirrors.put({0xE6, 0x80, 0xE6, 0x81}).jump(((turn * 3 % 8) << 13 | 0x1000) + (mirrors.pc() + 3 - kStart));
   to.add("mirrors by turns", mirrors.jump(kStart));
 }

@@ -29,12 +29,12 @@ constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
 // Makes views as the banks of a large image are seen, at several mirrors.
 std::size_t views_of(ImageCode& code, const Rom& rom) {
-  std::size_t made = 0;
+  std::size_t count = 0;
   for (const std::uint16_t first : std::initializer_list<std::uint16_t>{0x1000, 0x3000, 0x5000}) {
     for (std::size_t bank = 0; bank + 2048 <= rom.size(); bank += 2048)
-      made += code.view({rom.data() + bank, first, 2048}, rom, true) != nullptr;
+      count += code.view({rom.data() + bank, first, 2048}, rom, true) != nullptr;
   }
-  return made;
+  return count;
 }
 
 }  // namespace
@@ -46,9 +46,9 @@ TEST_CASE("Views of an image count, and those of shared images are bounded in al
   {
     auto code = ImageCode::of(image, wiring, true);
     REQUIRE(code != nullptr);
-    const std::size_t made = views_of(*code, image);
-    CHECK(made > 10);
-    CHECK(made < 100);
+    const std::size_t before = views_of(*code, image);
+    CHECK(before > 10);
+    CHECK(before < 100);
     CHECK(shared_code() <= 2U << 20);
     const auto other = std::make_shared<const Rom>(512U << 10, 0xE8);
     CHECK(ImageCode::of(*other, wiring, true) == nullptr);  // there is no room
@@ -56,7 +56,7 @@ TEST_CASE("Views of an image count, and those of shared images are bounded in al
     CHECK(owner.bytes() == 0);
     const auto own = ImageCode::of(*other, wiring, true);
     REQUIRE(own != nullptr);
-    CHECK(views_of(*own, *other) > made);
+    CHECK(views_of(*own, *other) > before);
     CHECK(owner.bytes() > 4U << 20);
     CHECK(owner.bytes() < 5U << 20);
     CHECK(shared_code() <= 2U << 20);

@@ -57,8 +57,8 @@ TEST_CASE("Translation goes on after a pause that the processor's clock counts a
 }
 
 TEST_CASE("Where the processor's clock stands still, the wall's clock is charged") {
-  TranslationBudget usual(false, kClocks), coarse(false, kClocks);
-  const int batches = run(usual, 1000);
+  TranslationBudget fine(false, kClocks), coarse(false, kClocks);
+  const int batches = run(fine, 1000);
   CHECK(run(coarse, 1000, [](int) { wait(kBatch); }) == batches);
 }
 

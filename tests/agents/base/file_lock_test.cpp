@@ -14,10 +14,10 @@ using namespace std::chrono_literals;
 TEST_CASE("One process at a time holds a lock") {
   const Scratch place;
   const std::string path = place.path("a.lock");
-  auto held = FileLock::attempt(path);
-  REQUIRE(held);
+  auto lock = FileLock::attempt(path);
+  REQUIRE(lock);
   CHECK_FALSE(FileLock::attempt(path));
-  held.reset();
+  lock.reset();
   CHECK(FileLock::attempt(path));
 }
 

@@ -14,10 +14,10 @@ TEST_CASE("The generator gives the published numbers of SplitMix64") {
 
 TEST_CASE("Numbers below a bound are as likely as each other") {
   Random random(1);
-  std::map<std::size_t, int> seen;
-  for (int i = 0; i < 18000; ++i) ++seen[random.below(18)];
-  CHECK(seen.size() == 18);
-  for (const auto& [number, count] : seen) {
+  std::map<std::size_t, int> counts;
+  for (int i = 0; i < 18000; ++i) ++counts[random.below(18)];
+  CHECK(counts.size() == 18);
+  for (const auto& [number, count] : counts) {
     CHECK(number < 18);
     CHECK(count == Approx(1000).margin(150));
   }

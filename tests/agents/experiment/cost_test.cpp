@@ -29,9 +29,9 @@ TEST_CASE("Time and memory follow the settings that change them") {
         Case{"lsh", "vectors = 4000\n", 2, 2}, Case{"lsh", "buckets = 100\n", 1, 1.5},
         Case{"disco", "tilings = 16\ngrid = 16\n", 2, 32}, Case{"ram", "alpha = 0.1\n", 1, 1}}) {
     INFO(each.agent << " " << each.settings);
-    const Cost usual = cost_with(each.agent, ""), cost = cost_with(each.agent, each.settings);
-    CHECK(cost.core_hours / usual.core_hours == Approx(each.time));
-    CHECK(cost.megabytes / usual.megabytes == Approx(each.memory));
+    const Cost default_cost = cost_with(each.agent, ""), cost = cost_with(each.agent, each.settings);
+    CHECK(cost.core_hours / default_cost.core_hours == Approx(each.time));
+    CHECK(cost.megabytes / default_cost.megabytes == Approx(each.memory));
   }
   CHECK(cost_with("uct", "simulations = 1\n").megabytes == 2);  // of the machine
 }

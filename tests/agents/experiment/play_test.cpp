@@ -35,8 +35,8 @@ TEST_CASE("Logs that are played one after the other are played as each without t
     return all;
   }();
   const Cartridge cartridge = beamfall();
-  for (const unsigned kept : {0U, 1U, 4U}) {
-    Replayer replayer(kept, CpuKind::kAuto);
+  for (const unsigned machines : {0U, 1U, 4U}) {
+    Replayer replayer(machines, CpuKind::kAuto);
     for (const EpisodeLog& log : logs) {
       const Replay played = replayer.play(log, cartridge);
       CHECK(played.end == log.end);
@@ -122,13 +122,13 @@ namespace {
 // Counts the episodes that it is told of.
 class Counting final : public Agent {
  public:
-  int begin(const Environment&) override { return ++begun, 0; }
+  int begin(const Environment&) override { return ++begins, 0; }
   int next(double, const Environment&) override { return 0; }
   void end(double) override { ++ended; }
   void write(StateWriter&) const override {}
   void read(StateReader&) override {}
 
-  int begun = 0, ended = 0;
+  int begins = 0, ended = 0;
 };
 
 }  // namespace
@@ -139,13 +139,13 @@ TEST_CASE("A lost life ends an episode for the agent only where it is to") {
   stage.begin(1);
   const int first = stage.machine().lives();
   REQUIRE(first > 1);
-  const Episode usual = play(whole, stage);
-  REQUIRE(usual.end.over == EpisodeOver::kTerminated);
+  const Episode expected = play(whole, stage);
+  REQUIRE(expected.end.over == EpisodeOver::kTerminated);
   stage.begin(1);
   const Episode same = play(lives, stage, {.lives_end = true});
-  CHECK(same.end == usual.end);  // the game goes on
-  CHECK(same.actions == usual.actions);
-  CHECK(whole.begun == 1);
-  CHECK(lives.begun == first - usual.end.lives);
-  CHECK(lives.ended == lives.begun);
+  CHECK(same.end == expected.end);  // the game goes on
+  CHECK(same.actions == expected.actions);
+  CHECK(whole.begins == 1);
+  CHECK(lives.begins == first - expected.end.lives);
+  CHECK(lives.ended == lives.begins);
 }

@@ -68,13 +68,13 @@ const std::vector<Case> kCases = {
 
 TEST_CASE("Every setting of an agent makes a difference") {
   for (const Case& each : kCases) {
-    const std::string usual = tables_of(each.agent, "", each.usual);
+    const std::string tables = tables_of(each.agent, "", each.usual);
     for (const auto& [setting, value] : each.changed) {
       INFO(each.agent << ": " << setting << " = " << value);
       std::string settings = each.usual;
       if (const std::size_t at = settings.find(setting + " ="); at != std::string::npos)
         settings.erase(at, settings.find('\n', at) + 1 - at);
-      CHECK(tables_of(each.agent, "", settings + setting + " = " + value + "\n") != usual);
+      CHECK(tables_of(each.agent, "", settings + setting + " = " + value + "\n") != tables);
     }
   }
 }
@@ -89,7 +89,9 @@ TEST_CASE("Each setting in the table of agents is one that a test changes") {
   for (const Case& each : kCases)
     for (const AgentSetting& setting : find_agent_kind(each.agent)->settings) {
       INFO(each.agent << ": " << setting.name);
-      const auto known = [&](const Case& other) { return other.changed.contains(std::string(setting.name)); };
-      CHECK(std::ranges::any_of(kCases, known));
+      const auto is_covered = [&](const Case& other) {
+        return other.changed.contains(std::string(setting.name));
+      };
+      CHECK(std::ranges::any_of(kCases, is_covered));
     }
 }

@@ -75,12 +75,12 @@ TEST_CASE("A background of another size is refused") {
 }
 
 TEST_CASE("Screens are those of random play, as many as were asked for") {
-  int seen = 0;
+  int count = 0;
   sample_screens(beamfall(), {1, 1, 1, short_episodes(2000)}, 1500, 4, [&](const Environment& machine, bool) {
-    ++seen;
+    ++count;
     REQUIRE(machine.screen().size() == kFeaturePixels);
   });
-  CHECK(seen == 1500);
+  CHECK(count == 1500);
 }
 
 TEST_CASE("Samples depend on nothing that the file of a background does not name") {

@@ -33,13 +33,13 @@ TEST_CASE("LSH has the paper's size, and one feature for each vector") {
 }
 
 TEST_CASE("LSH kept from screen to screen is LSH from scratch, over 10,000 screens") {
-  LocalityHash kept(200, 1000, 50, 1), anew(200, 1000, 50, 1);
+  LocalityHash hash(200, 1000, 50, 1), anew(200, 1000, 50, 1);
   Random random(3);
   Pixels screen{};
   for (int count = 0; count < 10000; ++count) {
     for (std::size_t changes = random.below(200); changes > 0; --changes)
       screen[random.below(screen.size())] = static_cast<std::uint8_t>(random.next());
-    const auto active = features(kept, screen);
+    const auto active = features(hash, screen);
     if (count % 10 != 0) continue;
     anew.forget();
     REQUIRE(active == features(anew, screen));

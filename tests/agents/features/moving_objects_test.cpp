@@ -28,62 +28,63 @@ TEST_CASE("A shape has four mirror images, and differs from others by pixels") {
 }
 
 TEST_CASE("An object has the velocity with which it came from the nearest like it") {
-  MovingObjects seen({}, 8);
-  seen.see(DrawnScreen().draw(50, 60, kBird).pixels);
-  REQUIRE(seen.objects().all().size() == 1);
-  CHECK(!seen.objects().all()[0].velocity);
-  seen.see(DrawnScreen().draw(58, 52, kBird).draw(100, 60, kBird).pixels);
-  REQUIRE(seen.objects().all().size() == 2);
-  CHECK(seen.objects().all()[0].velocity == Velocity{8, -8});
-  CHECK(!seen.objects().all()[1].velocity);  // too far away
-  seen.see(DrawnScreen().draw(67, 52, kBird).draw(100, 60, {"####", "####", "####"}).pixels);
-  CHECK(!seen.objects().all()[0].velocity);  // nine pixels
-  CHECK(!seen.objects().all()[1].velocity);  // another shape
-  seen.forget();
-  seen.see(DrawnScreen().draw(67, 52, kBird).pixels);
-  CHECK(!seen.objects().all()[0].velocity);
+  MovingObjects objects({}, 8);
+  objects.see(DrawnScreen().draw(50, 60, kBird).pixels);
+  REQUIRE(objects.objects().all().size() == 1);
+  CHECK(!objects.objects().all()[0].velocity);
+  objects.see(DrawnScreen().draw(58, 52, kBird).draw(100, 60, kBird).pixels);
+  REQUIRE(objects.objects().all().size() == 2);
+  CHECK(objects.objects().all()[0].velocity == Velocity{8, -8});
+  CHECK(!objects.objects().all()[1].velocity);  // too far away
+  objects.see(DrawnScreen().draw(67, 52, kBird).draw(100, 60, {"####", "####", "####"}).pixels);
+  CHECK(!objects.objects().all()[0].velocity);  // nine pixels
+  CHECK(!objects.objects().all()[1].velocity);  // another shape
+  objects.forget();
+  objects.see(DrawnScreen().draw(67, 52, kBird).pixels);
+  CHECK(!objects.objects().all()[0].velocity);
 }
 
 TEST_CASE("A shape of which a tenth has changed is the same object, of which more has is not") {
-  MovingObjects seen({}, 8);
+  MovingObjects objects({}, 8);
   const Pattern block = {"#####", "#####", "#####", "#####"};
-  seen.see(DrawnScreen().draw(50, 60, block).pixels);
-  seen.see(DrawnScreen().draw(52, 60, {"#### ", "#####", "#####", " ####"}).pixels);
-  CHECK(seen.objects().all()[0].velocity == Velocity{2, 0});
-  seen.see(DrawnScreen().draw(54, 60, block).pixels);
-  seen.see(DrawnScreen().draw(54, 60, {"#### ", "#####", "#####", "  ###"}).pixels);
-  CHECK(!seen.objects().all()[0].velocity);
+  objects.see(DrawnScreen().draw(50, 60, block).pixels);
+  objects.see(DrawnScreen().draw(52, 60, {"#### ", "#####", "#####", " ####"}).pixels);
+  CHECK(objects.objects().all()[0].velocity == Velocity{2, 0});
+  objects.see(DrawnScreen().draw(54, 60, block).pixels);
+  objects.see(DrawnScreen().draw(54, 60, {"#### ", "#####", "#####", "  ###"}).pixels);
+  CHECK(!objects.objects().all()[0].velocity);
 }
 
 TEST_CASE("The same shape is preferred to a nearer one that is similar") {
-  MovingObjects seen({}, 8);
+  MovingObjects objects({}, 8);
   const Pattern block = {"#####", "#####"}, dented = {"#### ", "#####"};
-  seen.see(DrawnScreen().draw(50, 60, dented).draw(50, 66, block).pixels);
-  seen.see(DrawnScreen().draw(50, 61, block).pixels);
-  CHECK(seen.objects().all()[0].velocity == Velocity{0, -5});
+  objects.see(DrawnScreen().draw(50, 60, dented).draw(50, 66, block).pixels);
+  objects.see(DrawnScreen().draw(50, 61, block).pixels);
+  CHECK(objects.objects().all()[0].velocity == Velocity{0, -5});
 }
 
 TEST_CASE("Neighbours that move alike are one object, and others are not") {
   const auto screen = [](int x, int legs) {
     return DrawnScreen().draw(x, 20, {" ## ", "####"}, 3).draw(legs, 22, {"#  #", "#  #"}, 4).pixels;
   };
-  MovingObjects seen({}, 8);
-  seen.see(screen(40, 40));
-  CHECK(seen.objects().all().size() == 3);  // a body and two legs, of which nothing is known yet
-  seen.see(screen(41, 41));
-  REQUIRE(seen.objects().all().size() == 1);
-  const ScreenObject& walker = seen.objects().all()[0];
-  const ShapeView shape = seen.objects().shape(walker);
+  MovingObjects objects({}, 8);
+  objects.see(screen(40, 40));
+  CHECK(objects.objects().all().size() == 3);  // a body and two legs, of which nothing is known yet
+  objects.see(screen(41, 41));
+  REQUIRE(objects.objects().all().size() == 1);
+  const ScreenObject& walker = objects.objects().all()[0];
+  const ShapeView shape = objects.objects().shape(walker);
   CHECK(Shape(shape.begin(), shape.end()) == shape_of({" ## ", "####", "#  #", "#  #"}));
   CHECK((walker.area == 10 && walker.velocity == Velocity{1, 0} && walker.part_count == 3));
-  CHECK(seen.part(walker.first_part).area == 6);
-  seen.see(screen(42, 43));  // the legs are faster
-  CHECK(seen.objects().all().size() == 3);
+  CHECK(objects.part(walker.first_part).area == 6);
+  objects.see(screen(42, 43));  // the legs are faster
+  CHECK(objects.objects().all().size() == 3);
 }
 
 TEST_CASE("Neighbours in a row are joined without a seam") {
-  MovingObjects seen({}, 8);
-  for (const int x : {10, 11}) seen.see(DrawnScreen().draw(x, 5, {"##"}, 3).draw(x + 2, 5, {"##"}, 4).pixels);
-  REQUIRE(seen.objects().all().size() == 1);
-  CHECK(seen.objects().all()[0].key == key_of(shape_of({"####"})));
+  MovingObjects objects({}, 8);
+  for (const int x : {10, 11})
+    objects.see(DrawnScreen().draw(x, 5, {"##"}, 3).draw(x + 2, 5, {"##"}, 4).pixels);
+  REQUIRE(objects.objects().all().size() == 1);
+  CHECK(objects.objects().all()[0].key == key_of(shape_of({"####"})));
 }

@@ -54,8 +54,8 @@ TEST_CASE("What is fast, or looks different at each step, is a class") {
     discovery.add(screen.pixels, step == 0);
   }
   ObjectClasses classes = discovery.classes();
-  const ObjectClasses wanted{{shape_of(kFish)}, {shape_of(kRare)}, {shape_of(kDiver)}, {shape_of(kBow)}};
-  CHECK(classes == wanted);
+  const ObjectClasses expected{{shape_of(kFish)}, {shape_of(kRare)}, {shape_of(kDiver)}, {shape_of(kBow)}};
+  CHECK(classes == expected);
 }
 
 TEST_CASE("Objects that move within a small region do not make a class") {

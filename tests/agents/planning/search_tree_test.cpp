@@ -175,10 +175,10 @@ TEST_CASE("Breadth-first search counts the frames of the tree that it keeps") {
   search.choose(ToyModel::place(0));
   REQUIRE(search.frames() == 300);
   search.keep(1, ToyModel::place(1));
-  const std::size_t kept = search.nodes();
+  const std::size_t nodes = search.nodes();
   search.choose(ToyModel::place(1));
   CHECK(search.nodes() == 61);
-  CHECK(search.frames() == 5 * static_cast<std::int64_t>(61 - kept));
+  CHECK(search.frames() == 5 * static_cast<std::int64_t>(61 - nodes));
 }
 
 TEST_CASE("A kept tree gives the values of one that is built anew") {

@@ -7,6 +7,6 @@ int main() {
   auto game = racebeam::client::launch();
   game.load("beamfall", "seed=7", "frame_skip=4", "sticky=0");
   game.observe("reward", "frame");
-  const auto shown = game.act("FIRE*100");
-  std::cout << RACEBEAM_VERSION_STRING << ' ' << shown.reward() << ' ' << shown.number("frame") << '\n';
+  const auto result = game.act("FIRE*100");
+  std::cout << RACEBEAM_VERSION_STRING << ' ' << result.reward() << ' ' << result.number("frame") << '\n';
 }

@@ -22,9 +22,9 @@ Rom assembled_program() {
 TEST_CASE("The functional program passes all its checks, and runs every documented opcode") {
   const Rom rom = assembled_program();
   Bench bench(rom);
-  std::set<int> seen;
+  std::set<int> opcodes;
   for (int i = 0; i < 20000 && !bench.cpu.jammed && bench.state.riot.ram[kResult] != kPassed; ++i) {
-    seen.insert(rom[bench.cpu.PC & 0xFFF]);
+    opcodes.insert(rom[bench.cpu.PC & 0xFFF]);
     bench.run(1);
   }
   INFO("failed check (from 0): " << int{bench.state.riot.ram[kStep]});
@@ -32,7 +32,7 @@ TEST_CASE("The functional program passes all its checks, and runs every document
   REQUIRE(bench.state.riot.ram[kResult] == kPassed);
   for (int opcode = 0; opcode < 256; ++opcode) {
     INFO("opcode " << opcode);
-    CHECK((seen.count(opcode) == 1 || !is_documented(opcode)));
+    CHECK((opcodes.count(opcode) == 1 || !is_documented(opcode)));
   }
 }
 

@@ -97,9 +97,9 @@ class FlatMachine {
   const char* obstacle(const Vector& vector) const {
     for (const BusAccess& access : vector.cycles)
       if (access.write && !is_ram(access.address)) return "writes outside RAM, which only devices here take";
-    std::map<const std::uint8_t*, std::uint16_t> seen;
+    std::map<const std::uint8_t*, std::uint16_t> addresses;
     const auto clashes = [&](std::uint16_t address) {
-      return seen.emplace(cell(address), address).first->second != address;
+      return addresses.emplace(cell(address), address).first->second != address;
     };
     for (const VectorState* state : {&vector.before, &vector.after})
       for (const auto& [address, value] : state->ram)

@@ -33,18 +33,18 @@ void ReferenceTia::open_frame(int T) {
 }
 
 void ReferenceTia::reset_in_frame() {
-  const int kept = current_;
+  const int current = current_;
   *this = ReferenceTia(window_);
-  current_ = kept;
+  current_ = current;
   S_ = 228 * window_.ystart;
   W_ = S_ + 228 * window_.height;
 }
 
 void ReferenceTia::take_machine_of(const ReferenceTia& other) {
-  const std::array<Buffer, 2> kept = buffer_;
+  const std::array<Buffer, 2> buffers = buffer_;
   const int current = current_;
   *this = other;
-  buffer_ = kept;
+  buffer_ = buffers;
   current_ = current;
 }
 
@@ -139,10 +139,10 @@ const std::vector<int>& ReferenceTia::offsets(int mode) {
 }
 
 int ReferenceTia::graphics(const Player& player) const {
-  int shown = player.vdel ? player.old : player.grp;
-  if (!player.refp) return shown;
+  int graphics = player.vdel ? player.old : player.grp;
+  if (!player.refp) return graphics;
   int reversed = 0;
-  for (int i = 0; i < 8; ++i) reversed |= (shown >> i & 1) << (7 - i);
+  for (int i = 0; i < 8; ++i) reversed |= (graphics >> i & 1) << (7 - i);
   return reversed;
 }
 

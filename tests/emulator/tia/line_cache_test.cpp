@@ -31,8 +31,8 @@ bool ends_with_two_sets(int frames, const std::function<unsigned(int, std::size_
     memory.aim(kRows);
     for (std::size_t row = 0; row < kRows; ++row) {
       if (frame >= frames - 2) last.insert(&memory.row(row));
-      const LineRecord& known = memory.row(row);
-      const bool is_there = known.number != kNoLine && known.start.color[3] == colour(frame, row);
+      const LineRecord& record = memory.row(row);
+      const bool is_there = record.number != kNoLine && record.start.color[3] == colour(frame, row);
       if (!is_there) draw(memory, row, colour(frame, row));
     }
   }

@@ -105,9 +105,9 @@ TEST_CASE("Whole pictures blend pixel by pixel, equal or not") {
 
 TEST_CASE("A blending table is made in a few milliseconds") {
   const std::clock_t start = std::clock();  // processor time: other programs do not count
-  const Blend made(palette(Format::kNtsc));
+  const Blend blend(palette(Format::kNtsc));
   const double took = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  CHECK(made(0x0E, 0x00) == 0x08);
+  CHECK(blend(0x0E, 0x00) == 0x08);
   CHECK(took < 0.25);  // 3 ms in a release build; generous for sanitizers
 }
 

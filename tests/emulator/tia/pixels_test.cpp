@@ -66,9 +66,9 @@ TEST_CASE("All forms of drawing give the same pixels, and touch no others") {
     }
     for (int form = 0; form <= best; ++form) {
       INFO("round " << round << ", form " << form << ", pixels " << first << " to " << last);
-      alignas(64) auto drawn = before;
-      pixel_drawer(static_cast<Simd>(form))(line, tia, drawn.data() + kMargin, first, last);
-      REQUIRE(drawn == expected);
+      alignas(64) auto picture = before;
+      pixel_drawer(static_cast<Simd>(form))(line, tia, picture.data() + kMargin, first, last);
+      REQUIRE(picture == expected);
     }
   }
 }

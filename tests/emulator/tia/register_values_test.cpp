@@ -40,7 +40,7 @@ std::array<std::uint8_t, kTiaValues> values_after(std::uint8_t value) {
 }
 
 // The bits that the TIA keeps, from NUSIZ0 to RESMP1 (docs/spec/tia.md, 4).
-std::uint8_t kept(std::size_t reg) {
+std::uint8_t kept_bits(std::size_t reg) {
   switch (reg) {
     case NUSIZ0:
     case NUSIZ1:
@@ -76,7 +76,7 @@ TEST_CASE("The registers of the TIA have the values that a program has written")
     for (std::size_t reg = NUSIZ0; reg <= RESMP1; ++reg) {
       if (reg >= RESP0 && reg <= RESBL) continue;
       INFO(kTiaValueNames[reg]);
-      CHECK(found[reg] == (value & kept(reg)));
+      CHECK(found[reg] == (value & kept_bits(reg)));
     }
     for (const std::size_t strobe : {WSYNC, RSYNC, HMOVE, HMCLR, CXCLR}) CHECK(found[strobe] == 0);
     CHECK(found[RESBL] != found[RESP0]);

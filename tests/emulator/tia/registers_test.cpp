@@ -207,8 +207,8 @@ TEST_CASE("The delay of a write is the longest that the picture hears of") {
     std::int32_t longest = -1000;
     for (int i = 0; i < kTries; ++i) {
       const TiaWrite write = trial.write(reg);
-      const Heard heard = play(trial.registers(), trial.hmove_clock(write), {write}, i % 2 == 0).heard;
-      longest = std::max(longest, heard.clock - 3 * write.cycle());
+      const Heard events = play(trial.registers(), trial.hmove_clock(write), {write}, i % 2 == 0).heard;
+      longest = std::max(longest, events.clock - 3 * write.cycle());
     }
     INFO(kNames[reg]);
     CHECK(longest == kRegisters[reg].delay);

@@ -28,7 +28,7 @@ Pixels random_pixels(std::mt19937& random) {
 
 // Fills a row between margins, which must stay as they are.
 template <typename Make>
-std::array<std::uint8_t, kRow + 2 * kMargin> made(Make make) {
+std::array<std::uint8_t, kRow + 2 * kMargin> result_of(Make make) {
   std::array<std::uint8_t, kRow + 2 * kMargin> bytes;
   bytes.fill(77);
   make(bytes.data() + kMargin);
@@ -45,17 +45,17 @@ TEST_CASE("All forms of brightness give the bytes of the table, and touch no oth
     const Pixels first = random_pixels(random), second = random() % 8 == 0 ? first : random_pixels(random);
     const std::uint8_t* const one = first.data() + random() % kMargin;
     const std::uint8_t* const other = second.data() + random() % kMargin;
-    const auto expected = made([&](std::uint8_t* to) {
+    const auto expected = result_of([&](std::uint8_t* to) {
       for (std::size_t x = 0; x < kRow; ++x) to[x] = table[one[x]];
     });
-    const auto brighter = made([&](std::uint8_t* to) {
+    const auto brighter = result_of([&](std::uint8_t* to) {
       for (std::size_t x = 0; x < kRow; ++x) to[x] = std::max(table[one[x]], table[other[x]]);
     });
     for (int form = 0; form <= best; ++form) {
       INFO("round " << round << ", form " << form);
       const Brightness brightness(table, static_cast<Simd>(form));
-      REQUIRE(made([&](std::uint8_t* to) { brightness.make_row(one, to); }) == expected);
-      REQUIRE(made([&](std::uint8_t* to) { brightness.make_brighter_row(one, other, to); }) == brighter);
+      REQUIRE(result_of([&](std::uint8_t* to) { brightness.make_row(one, to); }) == expected);
+      REQUIRE(result_of([&](std::uint8_t* to) { brightness.make_brighter_row(one, other, to); }) == brighter);
     }
   }
 }

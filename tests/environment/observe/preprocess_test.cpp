@@ -98,9 +98,9 @@ TEST_CASE("A stack holds the last screens, oldest first, and zeros before") {
     ScreenStack alone({.depth = 1}, environment);
     push(alone, environment, false);
     planes.push_back(alone.bytes());
-    const Bytes shown = stack.bytes();
+    const Bytes bytes = stack.bytes();
     for (std::size_t age = 0; age < 3; ++age) {
-      const auto part = std::span(shown).subspan(age * kSmallSize, kSmallSize);
+      const auto part = std::span(bytes).subspan(age * kSmallSize, kSmallSize);
       CHECK(std::ranges::equal(part, planes[planes.size() - 3 + age]));
     }
   }
@@ -132,9 +132,9 @@ TEST_CASE("A stack in colour has red, green and blue of each pixel, and may be a
   environment.screen_rgb(rgb);
   ScreenStack whole({.depth = 2, .width = 0, .height = 0, .rgb = true}, environment);
   push(whole, environment, false);
-  const Bytes shown = whole.bytes();
+  const Bytes bytes = whole.bytes();
   CHECK(whole.screen_size() == rgb.size());
-  CHECK(std::ranges::equal(std::span(shown).last(rgb.size()), rgb));
+  CHECK(std::ranges::equal(std::span(bytes).last(rgb.size()), rgb));
   ScreenStack small({.depth = 1, .width = 40, .height = 70, .rgb = true}, environment);
   push(small, environment, false);
   const Bytes reduced = small.bytes();
@@ -175,9 +175,9 @@ TEST_CASE("A stack can be filled with its newest screen, and refuses sizes that 
   const Bytes zeros(2 * kSmallSize), before = stack.bytes();
   CHECK(std::ranges::equal(std::span(before).first(zeros.size()), zeros));
   stack.repeat();
-  const Bytes shown = stack.bytes();
+  const Bytes bytes = stack.bytes();
   for (std::size_t age = 0; age < 3; ++age)
-    CHECK(std::ranges::equal(std::span(shown).subspan(age * kSmallSize, kSmallSize),
+    CHECK(std::ranges::equal(std::span(bytes).subspan(age * kSmallSize, kSmallSize),
                              std::span(before).last(kSmallSize)));
   CHECK_THROWS_WITH(ScreenStack({.depth = 1, .width = 321}, environment),
                     "the width of an observation is 321; it takes 1 to 320, or 0 for the screen's own");
@@ -190,17 +190,17 @@ TEST_CASE("An act can draw its frames from a range, and a few can run by themsel
   settings.frame_skip = 2;
   settings.frame_skip_max = 4;
   Environment environment = steered(settings), twin = steered(settings);
-  std::array<int, 5> seen{};
+  std::array<int, 5> counts{};
   for (int act = 0; act < 300; ++act) {
     const int before = environment.frame_number();
     environment.act(0);
     twin.act(0);
     const int frames = environment.frame_number() - before;
     REQUIRE((frames >= 2 && frames <= 4));
-    ++seen[std::size_t(frames)];
+    ++counts[std::size_t(frames)];
   }
   CHECK(twin.frame_number() == environment.frame_number());
-  for (int frames = 2; frames <= 4; ++frames) CHECK(seen[std::size_t(frames)] > 60);
+  for (int frames = 2; frames <= 4; ++frames) CHECK(counts[std::size_t(frames)] > 60);
   const int before = environment.frame_number();
   environment.act_for(7, 0);
   CHECK(environment.frame_number() == before + 7);

@@ -121,11 +121,11 @@ TEST_CASE("Only wanted rows are resized, whichever rows they are") {
       Bytes all(static_cast<std::size_t>(84 * to_height));
       resize(in, all);
       for (int round = 0; round < 20; ++round) {
-        Bytes wanted(static_cast<std::size_t>(to_height)), out(all.size(), 77);
-        std::ranges::generate(wanted, [&] { return static_cast<std::uint8_t>(random() % 3 == 0 ? 1 : 0); });
-        resize(in, out, wanted);
+        Bytes rows(static_cast<std::size_t>(to_height)), out(all.size(), 77);
+        std::ranges::generate(rows, [&] { return static_cast<std::uint8_t>(random() % 3 == 0 ? 1 : 0); });
+        resize(in, out, rows);
         for (std::size_t at = 0; at < out.size(); ++at)
-          if (out[at] != (wanted[at / 84] != 0 ? all[at] : 77)) FAIL("row " << at / 84);
+          if (out[at] != (rows[at / 84] != 0 ? all[at] : 77)) FAIL("row " << at / 84);
       }
     }
   }

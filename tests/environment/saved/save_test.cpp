@@ -39,13 +39,13 @@ void check_identity_of_states(const std::shared_ptr<const Image>& image,
   for (int i = 0; i < frames; ++i) {
     play(running, stride, static_cast<unsigned>(i));
     const auto saved = running.save(true);
-    const auto seen = observe(running);
+    const auto observation = observe(running);
     const Future future = play(running, 4, 1000u + static_cast<unsigned>(i));
     running.restore(*saved);
-    REQUIRE(observe(running) == seen);
+    REQUIRE(observe(running) == observation);
     REQUIRE(play(running, 4, 1000u + static_cast<unsigned>(i)) == future);
     other.restore(*from_bytes(to_bytes(*saved, running), other));
-    REQUIRE(observe(other) == seen);
+    REQUIRE(observe(other) == observation);
     REQUIRE(play(other, 4, 1000u + static_cast<unsigned>(i)) == future);
     running.restore(*saved);
   }
@@ -192,12 +192,12 @@ TEST_CASE("A state saved while old RAM is answered shows that RAM when it is res
   const auto start = environment.save();
   play(environment, 20, 2);
   environment.restore_classic(*start);
-  const auto shown = observe(environment);
+  const auto observation = observe(environment);
   const auto saved = environment.save();
   const Future future = play(environment, 3, 9);
   environment.reset_game();
   environment.restore(*saved);
-  CHECK(observe(environment) == shown);
+  CHECK(observe(environment) == observation);
   environment.set_ram(0x7F, 0xA5);
   CHECK(environment.ram()[0x7F] == 0xA5);
 }

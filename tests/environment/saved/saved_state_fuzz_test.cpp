@@ -23,8 +23,8 @@ constexpr int kFrames = 300;
 constexpr std::size_t kHeaderSize = 24, kChecksumAt = 20;
 
 unsigned number_from(const char* variable, unsigned otherwise) {
-  const char* given = std::getenv(variable);
-  return given != nullptr && *given != '\0' ? static_cast<unsigned>(std::strtoul(given, nullptr, 10))
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0' ? static_cast<unsigned>(std::strtoul(value, nullptr, 10))
                                             : otherwise;
 }
 
@@ -79,11 +79,11 @@ struct Pair {
 
  private:
   static Settings settings(CpuKind cpu) {
-    Settings made;
-    made.sound = true;
-    made.color_averaging = true;
-    made.cpu = cpu;
-    return made;
+    Settings settings;
+    settings.sound = true;
+    settings.color_averaging = true;
+    settings.cpu = cpu;
+    return settings;
   }
 };
 
@@ -121,10 +121,10 @@ void try_bytes(const Bytes& bytes, Pair& pair, const std::mt19937& random, Count
     ++counts.refused;
     return;
   }
-  const Bytes left = play_nonsense(pair.interpreted, *saved, random);
-  const bool same = left == play_nonsense(pair.translated, *saved, random);
+  const Bytes later = play_nonsense(pair.interpreted, *saved, random);
+  const bool same = later == play_nonsense(pair.translated, *saved, random);
   REQUIRE(same);
-  REQUIRE_NOTHROW(from_bytes(left, pair.interpreted));
+  REQUIRE_NOTHROW(from_bytes(later, pair.interpreted));
   ++counts.played;
 }
 

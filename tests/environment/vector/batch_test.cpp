@@ -86,12 +86,12 @@ TEST_CASE("After an episode a machine resets in the next step, in the same one, 
     settings.autoreset = autoreset;
     Batch batch(copies(1), settings);
     BatchResults results = batch.make_results();
-    std::vector<std::array<int, 3>> seen;  // episode frame, truncated, finished
+    std::vector<std::array<int, 3>> events;  // episode frame, truncated, finished
     for (int step = 0; step < 5; ++step) {
       batch.step(noop, results.arrays());
-      seen.push_back({results.episode_frames[0], results.truncated[0], results.finished[0]});
+      events.push_back({results.episode_frames[0], results.truncated[0], results.finished[0]});
     }
-    return seen;
+    return events;
   };
   using Seen = std::vector<std::array<int, 3>>;
   CHECK(counters(Autoreset::kNextStep) == Seen{{10, 0, 0}, {20, 0, 0}, {30, 1, 1}, {0, 0, 0}, {10, 0, 0}});
@@ -291,8 +291,8 @@ TEST_CASE("More machines than the memory has room for are refused") {
 
 TEST_CASE("A batch has no more threads than machines, however many are asked for") {
   auto settings = short_episodes();
-  for (const auto& [asked, first_processor] : {std::pair(4'000'000'000U, 2'000'000'000), {3U, -7}}) {
-    settings.threads = asked;
+  for (const auto& [threads, first_processor] : {std::pair(4'000'000'000U, 2'000'000'000), {3U, -7}}) {
+    settings.threads = threads;
     settings.first_processor = first_processor;
     CHECK(Batch(copies(2), settings).threads() == 2);
   }

@@ -33,10 +33,10 @@ std::string pressed_at_reset(Slot& slot) {
   return pressed;
 }
 
-void lose_life(Slot& slot, int left) {
+void lose_life(Slot& slot, int remaining) {
   slot.environment().set_ram(test::kLives, 3);
   slot.act({});
-  slot.environment().set_ram(test::kLives, static_cast<std::uint8_t>(left));
+  slot.environment().set_ram(test::kLives, static_cast<std::uint8_t>(remaining));
   slot.begin_request();
   slot.act({});
 }
@@ -232,10 +232,10 @@ difficulties = [3]
 [rule]
 step = "score = 0; terminal = 0"
 )";
-  Slot begun({test::counter_image(), test::game(kHard, "hard")}, no_noops());
-  CHECK(begun.environment().difficulty() == 0);
-  begun.reset(7);
-  CHECK(begun.environment().difficulty() == 0);
+  Slot slot({test::counter_image(), test::game(kHard, "hard")}, no_noops());
+  CHECK(slot.environment().difficulty() == 0);
+  slot.reset(7);
+  CHECK(slot.environment().difficulty() == 0);
   SlotSettings settings = no_noops();
   settings.difficulty = 3;
   Slot chosen({test::counter_image(), test::game(kHard, "hard")}, settings);
@@ -362,15 +362,15 @@ lives = 3 - ram[0x92]
 TEST_CASE("A lost life ends an act's episode as it was chosen, and the game goes on only where it may") {
   for (const LifeLoss life_loss :
        {LifeLoss::kIgnored, LifeLoss::kReported, LifeLoss::kEnds, LifeLoss::kResets}) {
-    for (const int left : {2, 0}) {
+    for (const int lives : {2, 0}) {
       Slot slot({test::counter_image(), test::game(kThreeLives, "three")}, acts(life_loss));
       slot.act({});
-      slot.environment().set_ram(test::kLives, static_cast<std::uint8_t>(3 - left));
+      slot.environment().set_ram(test::kLives, static_cast<std::uint8_t>(3 - lives));
       slot.begin_request();
       slot.act({});
-      INFO(static_cast<int>(life_loss) << ' ' << left);
+      INFO(static_cast<int>(life_loss) << ' ' << lives);
       // To ALE's limit, the last life is like others; the other kinds leave it to the game.
-      const bool counts = left > 0 || life_loss == LifeLoss::kResets;
+      const bool counts = lives > 0 || life_loss == LifeLoss::kResets;
       CHECK(slot.outcome().terminated == (counts && life_loss != LifeLoss::kIgnored));
       CHECK_FALSE(slot.outcome().truncated);
       CHECK(slot.finished() == (counts && life_loss >= LifeLoss::kEnds));
@@ -381,7 +381,7 @@ TEST_CASE("A lost life ends an act's episode as it was chosen, and the game goes
       slot.reset();
       CHECK_FALSE(slot.finished());
       CHECK_FALSE(slot.outcome().terminated);
-      CHECK((slot.environment().lives() == left) == (life_loss == LifeLoss::kEnds));
+      CHECK((slot.environment().lives() == lives) == (life_loss == LifeLoss::kEnds));
     }
   }
 }
@@ -453,10 +453,10 @@ TEST_CASE("A seed that an episode was ended with holds until a reset, and a rest
   slot.end_episode(std::nullopt);  // forgets nothing
   slot.reset();
   CHECK(seed_of(slot) == 9);
-  const std::uint64_t drawn = test::draws(slot.environment());
+  const std::uint64_t draws = test::draws(slot.environment());
   slot.reset();
   CHECK(seed_of(slot) == 9);
-  CHECK(test::draws(slot.environment()) > drawn);  // the second reset did not power on anew
+  CHECK(test::draws(slot.environment()) > draws);  // the second reset did not power on anew
   slot.end_episode(8U);
   slot.reset(7U);
   CHECK(seed_of(slot) == 7);
@@ -474,16 +474,16 @@ TEST_CASE("A state brings back how far its episode was, and how it ended") {
   settings.life_loss = LifeLoss::kEnds;
   Slot slot(cartridge(), settings);
   slot.act({});
-  const Slot::Saved begun = slot.save(true);
+  const Slot::Saved start = slot.save(true);
   lose_life(slot, 2);
-  const Slot::Saved lost = slot.save(true);
+  const Slot::Saved end = slot.save(true);
   const int elapsed = slot.elapsed();
-  slot.restore(begun);
+  slot.restore(start);
   CHECK_FALSE(slot.finished());
   CHECK_FALSE(slot.outcome().terminated);
   CHECK(slot.outcome().lives_lost == 0);
   CHECK(slot.elapsed() == 3);
-  slot.restore(lost);
+  slot.restore(end);
   CHECK(slot.finished());
   CHECK(slot.outcome().terminated);
   CHECK(slot.elapsed() == elapsed);

@@ -68,18 +68,18 @@ TEST_CASE("A queue runs each task once, on the pool's threads or the caller's") 
 TEST_CASE("A queue that goes drops what was not begun, and awaits what was") {
   constexpr int kTasks = 100'000;  // four minutes of two threads: a busy machine holds up this one for less
   ThreadPool pool(2);
-  std::atomic<int> begun = 0, ended = 0;
+  std::atomic<int> begins = 0, ended = 0;
   {
     ThreadPool::Queue queue(pool, [&](std::size_t) {
-      ++begun;
+      ++begins;
       std::this_thread::sleep_for(5ms);
       ++ended;
     });
     queue.push(std::vector<std::size_t>(kTasks));
-    while (begun == 0) std::this_thread::yield();
+    while (begins == 0) std::this_thread::yield();
   }
-  CHECK(begun == ended);
-  CHECK(begun < kTasks);
+  CHECK(begins == ended);
+  CHECK(begins < kTasks);
 }
 
 TEST_CASE("Threads are bound to the processors that the process may use") {
@@ -91,18 +91,18 @@ TEST_CASE("Threads are bound to the processors that the process may use") {
   REQUIRE(::sched_setaffinity(0, sizeof last, &last) == 0);
   CHECK(allowed_processors() == std::vector{allowed.back()});
   std::mutex mutex;
-  std::set<std::vector<unsigned>> seen;
+  std::set<std::vector<unsigned>> sets;
   {
     ThreadPool pool(3, 0us, GENERATE(0, 1, 5));
     std::atomic<int> inside = 0;
     pool.run(3, [&](std::size_t) {
       for (++inside; inside < 3;) std::this_thread::yield();  // each on its own thread
       const std::lock_guard lock(mutex);
-      seen.insert(allowed_processors());
+      sets.insert(allowed_processors());
     });
   }
   REQUIRE(::sched_setaffinity(0, sizeof before, &before) == 0);
-  CHECK(seen == std::set{std::vector{allowed.back()}});
+  CHECK(sets == std::set{std::vector{allowed.back()}});
 }
 
 TEST_CASE("Threads are bound one after the other, and to the first after the last") {
@@ -110,15 +110,15 @@ TEST_CASE("Threads are bound one after the other, and to the first after the las
   const auto threads = static_cast<unsigned>(2 * allowed.size() + 1);
   ThreadPool pool(threads, 0us, 1);
   std::mutex mutex;
-  std::map<std::vector<unsigned>, int> seen;
+  std::map<std::vector<unsigned>, int> counts;
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<unsigned> inside = 0;
   pool.run(threads, [&](std::size_t) {
     for (++inside; inside < threads;) std::this_thread::yield();
     const std::lock_guard lock(mutex);
-    if (std::this_thread::get_id() != caller) ++seen[allowed_processors()];
+    if (std::this_thread::get_id() != caller) ++counts[allowed_processors()];
   });
-  for (const unsigned processor : allowed) CHECK(seen[{processor}] == 2);
+  for (const unsigned processor : allowed) CHECK(counts[{processor}] == 2);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && \

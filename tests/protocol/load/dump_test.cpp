@@ -33,10 +33,10 @@ std::string as_text(const Bytes& bytes) {
 // What the machine shows while every control is used.
 std::string played(LineClient& client) {
   client.ask("observe reward lives ram screen:rle");
-  std::string shown;
+  std::string text;
   for (const char* action : {"FIRE*40", "RIGHT*40", "LEFT*80", "UP*40", "DOWN*40", "RIGHTFIRE*40"})
-    shown += client.ask("act " + std::string(action)) + '\n';
-  return shown;
+    text += client.ask("act " + std::string(action)) + '\n';
+  return text;
 }
 
 std::string load_inline(const Bytes& bytes, const std::string& game) {
@@ -103,7 +103,7 @@ TEST_CASE("A service warns of each image that the rule of another one scores") {
   const Scratch folder;
   const auto doubts = [&](const Bytes& image) { return paddle_duel_service(folder, image).images->doubts(); };
   CHECK(doubts(*counter_image()->bytes).empty());
-  const auto said = doubts(dump_of(*counter_image()));
-  REQUIRE(said.size() == 1);
-  CHECK_THAT(said.front(), Contains("the rule of 'duel' was written for"));
+  const auto doubts_of_dump = doubts(dump_of(*counter_image()));
+  REQUIRE(doubts_of_dump.size() == 1);
+  CHECK_THAT(doubts_of_dump.front(), Contains("the rule of 'duel' was written for"));
 }

@@ -60,7 +60,7 @@ TEST_CASE("A refusal of a setting names the value that was given") {
 
 TEST_CASE("The console of an image can be told, is shown, and is refused where it does not fit") {
   LineClient client;
-  const auto shown = [&](const std::string& words) {
+  const auto screen_of = [&](const std::string& words) {
     const std::string reply = client.ask("load beamfall " + words);
     CHECK(client.ask("settings") == reply);
     std::string values;
@@ -68,13 +68,13 @@ TEST_CASE("The console of an image can be told, is shown, and is refused where i
       values += (values.empty() ? "" : " ") + value(reply, key);
     return values;
   };
-  CHECK(shown("") == "4K joystick joystick ntsc 34 210");
-  CHECK(shown("scheme=auto left=paddles") == "4K paddles joystick ntsc 34 210");
-  CHECK(shown("scheme=2K right=paddles format=PAL ystart=40") == "2K joystick paddles pal 40 250");
-  CHECK(shown("height=220 scheme=CV_4K") == "CV_4K joystick joystick ntsc 34 220");
-  const std::string known = client.ask("games beamfall");
-  CHECK(value(known, "scheme") == "4K");
-  CHECK(value(known, "left") == "joystick");
+  CHECK(screen_of("") == "4K joystick joystick ntsc 34 210");
+  CHECK(screen_of("scheme=auto left=paddles") == "4K paddles joystick ntsc 34 210");
+  CHECK(screen_of("scheme=2K right=paddles format=PAL ystart=40") == "2K joystick paddles pal 40 250");
+  CHECK(screen_of("height=220 scheme=CV_4K") == "CV_4K joystick joystick ntsc 34 220");
+  const std::string reply = client.ask("games beamfall");
+  CHECK(value(reply, "scheme") == "4K");
+  CHECK(value(reply, "left") == "joystick");
   for (const auto& [words, sentence] :
        {std::pair("scheme=F8", "the cartridge scheme F8 needs an image of at least 8192 bytes"),
         {"scheme=4A50", "unsupported cartridge scheme '4A50'"},

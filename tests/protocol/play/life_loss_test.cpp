@@ -49,12 +49,12 @@ TEST_CASE("The settings that a reply shows have the same effect when they are lo
                                   "life_loss_ends=1", "preset=dqn2015", "preset=dqn2015 life_loss_ends=0"}) {
     INFO(words);
     Life first(words);
-    const std::string shown = first.ask("settings");
-    Life again("life_loss=" + value(shown, "life_loss") +
-               " life_loss_ends=" + value(shown, "life_loss_ends"));
-    const std::string lost = first.lose(), lost_again = again.lose();
+    const std::string reply = first.ask("settings");
+    Life again("life_loss=" + value(reply, "life_loss") +
+               " life_loss_ends=" + value(reply, "life_loss_ends"));
+    const std::string loss = first.lose(), second_loss = again.lose();
     for (const std::string key : {"terminated", "truncated"})
-      CHECK(value(lost, key) == value(lost_again, key));
+      CHECK(value(loss, key) == value(second_loss, key));
   }
 }
 

@@ -97,8 +97,8 @@ TEST_CASE("look shows the small screen that replies show") {
     client.say("observe grey84:hex\nact FIRE*9\nsave here\n");
     for (const std::string request :
          {"act FIRE*9", "act UP", "restore here", "act DOWN", "reset", "act FIRE*2"}) {
-      const std::string shown = client.ask(request);
-      CHECK(client.ask("look grey84:hex") == shown);
+      const std::string reply = client.ask(request);
+      CHECK(client.ask("look grey84:hex") == reply);
     }
   }
 }
@@ -196,9 +196,9 @@ TEST_CASE("The ends of branches can be kept and gone on from") {
   client.say("act FIRE*30\nsave root\n");
   CHECK(value(client.ask("branch root keep=leaf UP*5 DOWN*5"), "state", 2) == "leaf1");
   client.ask("restore leaf1");
-  const std::string kept = client.ask("look ram screen:hex frame");
+  const std::string reply = client.ask("look ram screen:hex frame");
   client.say("restore root\nact DOWN*5\n");
-  CHECK(client.ask("look ram screen:hex frame") == kept);
+  CHECK(client.ask("look ram screen:hex frame") == reply);
 }
 
 TEST_CASE("What a branch keeps has names that save takes, and needs room for new ones only") {
@@ -366,13 +366,13 @@ TEST_CASE("The palette gives a screen its colours, in each television standard")
     client.ask("load " + game + " seed=7");
     const auto colours = bytes_of_hex(value(client.ask("look palette"), "palette"));
     REQUIRE(colours.size() == 768);
-    const std::string shown = client.ask("look screen:hex rgb:hex");
+    const std::string reply = client.ask("look screen:hex rgb:hex");
     std::vector<std::uint8_t> rgb;
-    for (const std::uint8_t pixel : bytes_of_hex(value(shown, "screen"))) {
+    for (const std::uint8_t pixel : bytes_of_hex(value(reply, "screen"))) {
       const auto* const colour = &colours[std::size_t{3} * pixel];
       rgb.insert(rgb.end(), colour, colour + 3);
     }
-    const bool same = rgb == bytes_of_hex(value(shown, "rgb"));
+    const bool same = rgb == bytes_of_hex(value(reply, "rgb"));
     CHECK(same);
   }
 }

@@ -11,20 +11,20 @@ using namespace racebeam;
 
 TEST_CASE("A fiber runs until it is suspended, and goes on from there") {
   Fiber fiber;
-  std::string seen;
+  std::string order;
   CHECK_FALSE(fiber.start([&] {
-    seen += 'a';
+    order += 'a';
     fiber.suspend();
-    seen += 'b';
+    order += 'b';
     fiber.suspend();
-    seen += 'c';
+    order += 'c';
   }));
-  CHECK(seen == "a");
+  CHECK(order == "a");
   CHECK(fiber.in_progress());
   CHECK_FALSE(fiber.resume());
-  CHECK(seen == "ab");
+  CHECK(order == "ab");
   CHECK(fiber.resume());
-  CHECK(seen == "abc");
+  CHECK(order == "abc");
   CHECK_FALSE(fiber.in_progress());
 }
 

@@ -152,12 +152,12 @@ TEST_CASE("A request beyond the memory budget is refused, and the session contin
   CHECK_FALSE(client.ask("states").ends_with("leaf0"));
   CHECK(code(client.ask("act FIRE")) == "");
   CHECK(code(other.ask("load beamfall")) == "");  // it holds little
-  const std::uint64_t left = 8 * kMiB - service.memory->taken();
-  service.memory->take_anyway(left);
+  const std::uint64_t remaining = 8 * kMiB - service.memory->taken();
+  service.memory->take_anyway(remaining);
   CHECK(code(other.ask("load beamfall")) == "limit");
   CHECK(code(client.ask("drop all")) == "");
   CHECK(code(other.ask("load beamfall")) == "");
-  service.memory->give_back(left);
+  service.memory->give_back(remaining);
 }
 
 TEST_CASE("An image that a client sends is charged with the code that it is translated to") {

@@ -45,14 +45,14 @@ TEST_CASE("A watcher sees what the player's machine shows") {
   server.share();
   CHECK(server.watcher.ask("watch room") ==
         "ok game=beamfall frame=0 score=0 episode=1 over=0 lives=4 reward=0 action=NOOP height=210");
-  const std::string seen = server.seen_after("act FIRE*60", " screen:hex ram palette:zlib");
-  CHECK_THAT(seen,
+  const std::string reply = server.seen_after("act FIRE*60", " screen:hex ram palette:zlib");
+  CHECK_THAT(reply,
              StartsWith("ok game=beamfall frame=60 score=21 episode=1 over=0 lives=4 reward=21 action=FIRE "
                         "height=210 screen="));
   const std::string shown = server.player.ask("look screen:hex ram palette:zlib");
   for (const std::string key : {"screen", "ram", "palette"}) {
     CHECK(value(shown, key) != "(none)");
-    CHECK(value(seen, key) == value(shown, key));
+    CHECK(value(reply, key) == value(shown, key));
   }
 }
 
@@ -143,19 +143,19 @@ TEST_CASE("Delta goes on where a name is shared anew, as the watcher's array doe
 TEST_CASE("Delta begins anew where the screen has another height") {
   Watched watched;
   const auto fields = parse_watched_fields(std::array<std::string_view, 1>{"screen:delta"});
-  const auto shown = [&](std::size_t height) {
+  const auto picture_of = [&](std::size_t height) {
     Snapshot snapshot;
     snapshot.screen.assign(height * kScreenWidth, 2);
     std::string out, raw;
     watched.append(out, raw, fields, snapshot);
     return out;
   };
-  const std::string whole = shown(210);
-  CHECK(shown(210) == " screen=");
-  const std::string taller = shown(250);
+  const std::string whole = picture_of(210);
+  CHECK(picture_of(210) == " screen=");
+  const std::string taller = picture_of(250);
   CHECK(taller.size() > whole.size());
-  CHECK(shown(210) == whole);
-  CHECK(shown(250) == taller);
+  CHECK(picture_of(210) == whole);
+  CHECK(picture_of(250) == taller);
 }
 
 TEST_CASE("A copy is made only after a watcher has asked") {
@@ -253,11 +253,11 @@ TEST_CASE("Watchers in other threads see whole pictures of a session that plays"
       LineClient watcher(server.service);
       std::string frame = "0";
       while (!stop) {
-        const std::string seen = watcher.ask("watch room since=" + frame + " screen:hex");
-        if (seen.find(" screen=") == std::string::npos) continue;
-        if (value(seen, "screen").size() != first.size()) break;
-        if (value(seen, "frame") != frame) ++newer;
-        frame = value(seen, "frame");
+        const std::string reply = watcher.ask("watch room since=" + frame + " screen:hex");
+        if (reply.find(" screen=") == std::string::npos) continue;
+        if (value(reply, "screen").size() != first.size()) break;
+        if (value(reply, "frame") != frame) ++newer;
+        frame = value(reply, "frame");
         watcher.ask("shared");
       }
     });

@@ -14,7 +14,7 @@ TEST_CASE("Memory goes back to the system once many sessions have ended, and non
   };
   CHECK(look(100, 250ms) == 0);
   CHECK(look(100, 2s) == 0);
-  for (std::int64_t left = 99; left > 0; --left) CHECK(look(left, 250ms) == 0);
+  for (std::int64_t allocations = 99; allocations > 0; --allocations) CHECK(look(allocations, 250ms) == 0);
   CHECK(look(1, 500ms) == 0);
   CHECK(look(1, 1s) == 1);
   CHECK(look(1, 2s) == 1);

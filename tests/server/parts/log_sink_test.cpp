@@ -38,19 +38,19 @@ TEST_CASE("A file that hangs does not block threads that log, and lost lines are
     sink->log({{}, "test", spdlog::level::info, "line " + std::to_string(line)});
     sink->flush();
   }
-  const std::int64_t lost = sink->lost();
-  CHECK(lost > kLines / 3);
+  const std::int64_t losses = sink->lost();
+  CHECK(losses > kLines / 3);
   std::istringstream text(read_until(pipe[0], "line " + std::to_string(kLines - 1) + "\n"));
-  std::int64_t told = 0, next = 0, number = 0;
+  std::int64_t reported = 0, next = 0, number = 0;
   for (std::string word; text >> word >> number;) {
     if (word == "lost") {
-      told += number;
+      reported += number;
       next += number;
     } else {
       CHECK(number == next++);
     }
   }
-  CHECK(told == lost);
+  CHECK(reported == losses);
   CHECK(next == kLines);
   sink->close();
   ::close(pipe[0]);

@@ -99,16 +99,16 @@ TEST_CASE("Without a file, only the server's own token is admitted") {
 
 TEST_CASE("A random token has 256 bits, and all of them vary") {
   constexpr int kDraws = 200;
-  std::set<std::string> drawn;
+  std::set<std::string> tokens;
   std::array<std::set<char>, 64> digits;
   for (int draw = 0; draw < kDraws; ++draw) {
     const std::string token = random_token();
     REQUIRE(token.size() == digits.size());
     REQUIRE(token.find_first_not_of("0123456789abcdef") == std::string::npos);
     for (std::size_t place = 0; place < digits.size(); ++place) digits[place].insert(token[place]);
-    drawn.insert(token);
+    tokens.insert(token);
   }
-  CHECK(drawn.size() == kDraws);
+  CHECK(tokens.size() == kDraws);
   // That one digit of 16 fails to come in 200 draws has a chance of 4e-5 a place; that nine fail, of less
   // than 1e-25.
   for (const auto& found : digits) CHECK(found.size() >= 8);

@@ -65,11 +65,11 @@ Task<std::size_t> receive(Pair& pair, std::string& text) {
   co_return co_await net::async_read(pair.other, net::buffer(text), use_task);
 }
 
-Task<> converse(Pair& pair, std::string& heard, bool& failed) {
+Task<> converse(Pair& pair, std::string& answer, bool& failed) {
   try {
-    const std::string said(heard.size(), 'x');
-    co_await net::async_write(pair.one, net::buffer(said), use_task);
-    co_await receive(pair, heard);
+    const std::string question(answer.size(), 'x');
+    co_await net::async_write(pair.one, net::buffer(question), use_task);
+    co_await receive(pair, answer);
   } catch (const std::bad_alloc&) {
     failed = true;
   }
@@ -85,13 +85,13 @@ Task<> count_to(int& counter, int end) {
 TEST_CASE("a task that cannot allocate gets an exception, wherever that is, and nothing is left") {
   int failing = 0;
   for (bool reached = true; reached; ++failing) {
-    std::string heard(100, ' ');
+    std::string answer(100, ' ');
     bool failed = false, refused = false;
     Pair pair;
     const int before = alive;
     until_failure = failing + 1;
     try {
-      spawn(pair.context, converse(pair, heard, failed));
+      spawn(pair.context, converse(pair, answer, failed));
     } catch (const std::bad_alloc&) {
       refused = true;
     }
@@ -99,7 +99,7 @@ TEST_CASE("a task that cannot allocate gets an exception, wherever that is, and 
     reached = until_failure == 0;
     until_failure = 0;
     INFO("allocation " << failing + 1);
-    CHECK((refused || failed || heard == std::string(100, 'x')));
+    CHECK((refused || failed || answer == std::string(100, 'x')));
     CHECK((failed || refused) == reached);
     CHECK(alive - before < 8);  // what the loop keeps for the next operations
   }
@@ -109,10 +109,10 @@ TEST_CASE("a task that cannot allocate gets an exception, wherever that is, and 
 TEST_CASE("a task that waits is destroyed with its loop") {
   const int before = alive;
   {
-    std::string heard(100, ' ');
+    std::string answer(100, ' ');
     Pair pair;
     spawn(pair.context,
-          [](Pair& all, std::string& text) -> Task<> { co_await receive(all, text); }(pair, heard));
+          [](Pair& all, std::string& text) -> Task<> { co_await receive(all, text); }(pair, answer));
     pair.context.run_for(20ms);
   }
   CHECK(alive == before);
