@@ -55,7 +55,7 @@ class Environment {
     int a, b;
   };
   Rewards rewards() const;
-  // The same before clamping. It is not part of a state: 0 after a reset and after a restore.
+  // The rewards before clamping. They are not part of a state: 0 after a reset and after a restore.
   struct RawRewards {
     std::int64_t a = 0, b = 0;
   };
@@ -66,8 +66,8 @@ class Environment {
   // of set_drawing() and watch() stay. Returns the environment as it was.
   Environment reload(std::uint32_t random_seed);
 
-  // As act(), but for this number of frames: for no-ops at the start of an episode, or for an agent that
-  // chooses the number at each step.
+  // Acts for this number of frames: for no-ops at the start of an episode, or for an agent that chooses the
+  // number at each step. Otherwise as act().
   int act_for(int frames, int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
 
   // Says which screens the caller will read. It changes only the speed: a screen that was not drawn is drawn
@@ -114,7 +114,7 @@ class Environment {
   void screen_rgb(std::vector<std::uint8_t>& rgb) const;     // height x 160 x 3
   void screen_grey(std::vector<std::uint8_t>& grey) const;   // height x 160
 
-  // The same into the caller's memory, which must have exactly that size.
+  // Write into the caller's memory, which must have exactly that size.
   void screen_rgb(std::span<std::uint8_t> rgb) const;
   void screen_grey(std::span<std::uint8_t> grey) const;
 

@@ -31,8 +31,8 @@ struct Settings {
   int paddle_min = -1;      // -1: the built-in limits, or the game's
   int paddle_max = -1;
   CpuKind cpu = CpuKind::kAuto;  // what executes instructions; affects speed only
-  // As ALE 0.4 to 0.6: one generator for machine and sticky actions, sticky actions persist over a reset, and
-  // so on (docs/spec/classic-protocol.md, 6).
+  // Plays as ALE 0.4 to 0.6: one generator for machine and sticky actions, sticky actions persist over a
+  // reset, and so on (docs/spec/classic-protocol.md, 6).
   bool classic = false;
 };
 

@@ -22,8 +22,8 @@ class Recorder {
   // The caller waits while is_behind(). If the recording has then finished(), the system refused to write.
   // Releasing it is the same as finish(); the Recorder must outlive it. `charge`, if not null, is charged for
   // its memory until all is written.
-  // Never waits for the disk. Throws std::runtime_error if a recording of that name runs already.
-  // Thread-safe.
+  // It never waits for the disk. It throws std::runtime_error if a recording of that name runs already. It is
+  // thread-safe.
   std::shared_ptr<Recording> begin(std::vector<MediaKind> kinds, const std::string& name,
                                    std::size_t most_bytes, const Environment& machine,
                                    const Charge& charge = {});

@@ -113,8 +113,9 @@ void Server::tell_limits() const {
   log("caches: " + settings_.caches, {{"event", "caches"}});
 }
 
-// Of few files, those that are not open yet, except some: a client that is refused takes one, too, and so do
-// --http and the token file. The settings have accounted for many.
+// Returns how many files are left for clients. If the process may open few, these are the ones that are not
+// open yet, except some: a client that is refused takes one, too, and so do --http and the token file. The
+// settings have accounted for many.
 int Server::files_for_clients() const {
   constexpr std::uint64_t kMany = 1024, kOthers = 4;
   const std::uint64_t files = usable_files();

@@ -140,7 +140,7 @@ class PlanReader {
     check_same_agent(*top_.node("training_environment"));
   }
 
-  // Those of a preset are accepted.
+  // The settings of a preset are accepted.
   void read_settings_of(std::string_view key, const std::string& text, PlaySettings& settings) const {
     const toml::node& node = *top_.node(key);
     top_.guard(node, key, [&] {

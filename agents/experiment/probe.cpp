@@ -21,7 +21,7 @@ constexpr std::size_t kMostProbes = 60, kMostActions = 4;
 constexpr Seconds kLongestProbe{0.5};
 constexpr double kMostWaiting = 5;  // on a busy machine, a probe ends after so many times its share
 constexpr double kWarmUp = 0.3;     // of the time of a probe
-// Of the screens that facts are discovered from, one in so many is sampled, but for those of a trajectory.
+// The probe samples one in so many of the screens that facts are discovered from, but each of a trajectory.
 constexpr int kMostShare = 60, kLeastScreens = 600;
 
 struct Enough {};  // ends an episode
@@ -146,7 +146,7 @@ PlayRate rate_of(const Plan& plan, const PlanAgent& agent, const Sums& sums) {
           .discovery_seconds = sums.discovery_seconds};
 }
 
-// So many of the games that have an image, evenly spaced.
+// Returns `most` of the games that have an image, evenly spaced.
 std::vector<const PlanGame*> some_games(const Plan& plan, const Images& images, std::size_t most) {
   std::vector<const PlanGame*> all, some;
   for (const PlanGame& game : plan.games)

@@ -10,7 +10,7 @@ namespace racebeam {
 
 class LocalityHash final : public FeatureSet {
  public:
-  // So many random vectors with so many ones; each has a table of `buckets` features.
+  // Draws random vectors, each with this number of ones. Each has a table of `buckets` features.
   LocalityHash(int vectors, int ones, int buckets, std::uint64_t seed);
 
   std::size_t size() const override { return sums_.size() * buckets_; }

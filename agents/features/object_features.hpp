@@ -54,8 +54,9 @@ class ObjectFeatures final : public FeatureSet {
     extract(screen_.of(machine), active);
   }
 
-  // Of C classes: that a class is absent; the tiles of its instances; for each pair of classes, tiles of
-  // where the second one's instances are and how they move, as seen from the first.
+  // The features say of each class that it is absent, or the tiles of its instances. For each pair of
+  // classes, they say in tiles where the second one's instances are and how they move, as seen from the
+  // first.
   void extract(Screen screen, ActiveFeatures& active);
 
  private:

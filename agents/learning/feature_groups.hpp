@@ -12,7 +12,7 @@
 
 namespace racebeam {
 
-// So many features of the group `from` are the new group `to` now.
+// `features` features have left the group `from` for the new group `to`.
 struct FeatureSplit {
   std::uint32_t from, to, features;
   bool operator==(const FeatureSplit&) const = default;

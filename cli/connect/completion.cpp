@@ -164,7 +164,8 @@ std::vector<std::string> Completion::named(std::string_view command, std::string
   return names;
 }
 
-// Those of a setting. help has them in brackets: "life_loss (ignored, reported, end or restart): ...".
+// Returns the values of a setting. help has them in brackets: "life_loss (ignored, reported, end or restart):
+// ...".
 std::vector<std::string> Completion::values_of(std::string_view key) const {
   if (key.empty()) return {};
   if (key == "preset") return listed("hello", "presets");

@@ -40,7 +40,8 @@ class Display {
   // Whether the terminal takes another picture now.
   bool is_ready();
 
-  // Only when it is_ready(). `line` stands below the picture. Without a picture, only the line is drawn.
+  // May only be called when it is_ready(). `line` stands below the picture. Without a picture, only the line
+  // is drawn.
   void show(const TerminalPicture* picture, const std::string& line);
 
   // Waits until keys come, the terminal becomes ready, or the time has come. Returns keys. Ends the process

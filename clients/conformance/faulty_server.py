@@ -141,7 +141,7 @@ TAKEN = []  # sockets that are bound but do not listen: no other program gets th
 
 
 def closed_address():
-    """Where nothing listens, as long as this process runs."""
+    """An address where nothing listens, as long as this process runs."""
     TAKEN.append(socket.socket())
     TAKEN[-1].bind(("127.0.0.1", 0))
     return f"tcp://127.0.0.1:{TAKEN[-1].getsockname()[1]}"

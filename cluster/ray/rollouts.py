@@ -54,7 +54,7 @@ class Player:
 
 
 def result_of(reference: ray.ObjectRef) -> Any:
-    """None if its node was lost. Raises what the actor raised."""
+    """Returns the result of a call, or None if its node was lost. Raises what the actor raised."""
     try:
         return ray.get(reference)
     except (RayActorError, ObjectLostError) as error:

@@ -18,7 +18,7 @@ class PowerOn {
   virtual void fill_cartridge(std::span<std::uint8_t> ram, std::uint32_t& drawn) = 0;
 };
 
-// As ALE 0.12: a separate MT19937, and one draw for each byte of cartridge RAM.
+// Draws as ALE 0.12 does: from a separate MT19937, once for each byte of cartridge RAM.
 class SystemGenerator : public PowerOn {
  public:
   explicit SystemGenerator(std::uint32_t seed) : seed_(seed), engine_(seed) {}

@@ -51,7 +51,7 @@ class Beam {
     if (clock > tia_.cursor && !pass_blank(clock)) draw_beyond(clock);
   }
 
-  // The same before a change of `part` only: nothing is drawn if the beam has passed none of its pixels.
+  // Draws before a change of `part` only: nothing if the beam has not passed a pixel of it.
   RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart& part) {
     if (clock > tia_.cursor && !pass_blank(clock) && !passes_none(clock, part)) draw_beyond(clock);
   }

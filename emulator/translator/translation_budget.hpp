@@ -66,8 +66,8 @@ class TranslationBudget {
   // What a machine has when it starts. Most games have then translated the code that they begin with before
   // they have run for a few frames.
   static constexpr std::int64_t kCredit = 800'000;
-  // Of it, what the system does for the memory of the code, which is not charged: pages of short-lived
-  // machines.
+  // The part of the credit that pays for what the system does for the memory of the code, which is not
+  // charged: pages of short-lived machines.
   static constexpr std::int64_t kStartCost = 200'000;
   static constexpr std::int64_t kBatchCost = 25'000;  // usual; a batch that costs more leaves a debt
 

@@ -12,8 +12,8 @@
 namespace racebeam::translator::tuning {
 
 // What is translated at once (block_discovery.cpp).
-// Of a batch, where an instruction counts 1: some 50 microseconds. Less translates less code that seldom
-// runs.
+// The most work of a batch, where an instruction counts 1: some 50 microseconds. With less, less code is
+// translated that seldom runs.
 constexpr int kMostWork = 100;
 constexpr int kWorkOfBlock = 3;        // of a batch: what a block costs beside its instructions
 constexpr int kMostBlockCycles = 300;  // of a block, without the waiting of WSYNC

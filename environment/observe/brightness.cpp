@@ -43,8 +43,8 @@ struct Brightness::Forms {
 #define RACEBEAM_AVX2 [[gnu::target("avx2")]]
 #define RACEBEAM_VBMI [[gnu::target("avx512f,avx512bw,avx512vl,avx512vbmi")]]
 
-  // Of even indices: half of each is 16 * n + i. Entry i of the first n + 1 steps makes the byte, since a
-  // shuffle gives 0 once what is left of the index is negative.
+  // Looks up even indices: half of each is 16 * n + i. Entry i of the first n + 1 steps makes the byte, since
+  // a shuffle gives 0 once what is left of the index is negative.
   RACEBEAM_AVX2 static __m256i look_up_even(const Brightness& own, __m256i pixels) {
     __m256i rest = _mm256_srli_epi16(pixels, 1), bytes = _mm256_setzero_si256();
     for (const auto& step : own.steps_) {

@@ -36,8 +36,8 @@ constexpr std::array<WordFor<LifeLoss>, 4> kLifeLosses = {{{"ignored", LifeLoss:
                                                            {"restart", LifeLoss::kResets}}};
 constexpr std::array<WordFor<Rules>, 2> kRules = {{{"ale-0.12", Rules::kAle012}, {"fixed", Rules::kFixed}}};
 
-// Never 0. Not of std::random_device, which needs a C library of 2022 when it is linked statically, as in a
-// wheel.
+// Returns a seed that is not 0. std::random_device would need a C library of 2022 when it is linked
+// statically, as in a wheel.
 std::uint32_t fresh_seed() {
   std::uint32_t seed = 0;
   if (getentropy(&seed, sizeof seed) != 0)

@@ -28,7 +28,7 @@ def matrix(scores: Scores, agent: str, games: list[str]) -> Matrix:
 
 
 def normalised_matrix(scores: Scores, ranges: Ranges, agent: str, games: list[str]) -> Matrix:
-    """The same, normalised."""
+    """The matrix of an agent's scores, normalised."""
     return np.asarray((matrix(scores, agent, games) - ranges.low[games].to_numpy()) / ranges.span[games].to_numpy())
 
 

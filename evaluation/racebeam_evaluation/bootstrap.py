@@ -51,7 +51,7 @@ class Bootstrap:
         return Estimate(values[""], bounds[""][0], bounds[""][1])
 
     def _of_ragged(self, function: Callable[..., Matrix], matrices: tuple[Matrix, ...]) -> Estimate:
-        """The same, a percentile bootstrap, of matrices that rliable does not take."""
+        """A percentile bootstrap like rliable's, of matrices that rliable does not take."""
         generator = np.random.default_rng(self.seed)
         estimates = [function(*(_resample(matrix, generator) for matrix in matrices)) for _ in range(self.repetitions)]
         tail = 50 * (1 - self.confidence)

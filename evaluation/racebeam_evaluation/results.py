@@ -108,7 +108,7 @@ def _episodes(folder: pathlib.Path, plan: Plan) -> tuple[pd.DataFrame, Source]:
 
 
 def _curves(folder: pathlib.Path) -> tuple[pd.DataFrame, Source] | None:
-    """None if no agent was trained: `racebeam experiment` then writes a file without rows."""
+    """The training episodes; None if no agent was trained: the file then has no rows."""
     path = folder / "curves.csv"
     if not path.exists():
         return None

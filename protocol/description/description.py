@@ -218,7 +218,7 @@ class Protocol:
 
     @property
     def byte_fields(self):
-        """Those whose names are fixed."""
+        """The fields of bytes whose names are fixed."""
         return [field for field in self.fields if field.shape and not field.is_stack]
 
 

@@ -177,7 +177,7 @@ def takes_fields(command):
 
 
 def command_rows(protocol):
-    """For command_table.cpp: the handlers, and the rows that bind them."""
+    """The declarations of the handlers, and the rows of command_table.cpp that bind them."""
     handlers = "".join(f"void run_{command.name}(Context&, Words, Reply&);\n" for command in protocol.commands)
     old = {word.of for word in protocol.old_words}
     rows = "".join(

@@ -43,7 +43,7 @@ def of_key(key, values):
 
 
 def alternatives(text):
-    """Those in small letters or digits, such as none of FIELD[:ENCODING]...|none."""
+    """The alternatives in small letters or digits, such as none in FIELD[:ENCODING]...|none."""
     return [one for one in re.sub(r"\[[^\]]*\]|\.", "", text).split("|") if re.fullmatch("[a-z0-9-]+", one)]
 
 

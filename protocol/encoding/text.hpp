@@ -11,8 +11,8 @@
 
 namespace racebeam {
 
-// As C's atoi: leading blanks, a sign, digits. The rest is ignored; without digits, the result is 0.
-// Saturates.
+// Parses as C's atoi does: leading blanks, a sign, digits. The rest is ignored; without digits, the result
+// is 0. The result saturates.
 int parse_integer(std::string_view text);
 
 // Splits `line` at commas, skips empty parts, and reads as many of the others as fit into `values`. Returns

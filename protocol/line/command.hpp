@@ -48,7 +48,7 @@ struct CommandTable {
   std::span<const Alias> aliases;
 
   const Command* known(std::string_view name) const;  // by its name or an alias; null: unknown
-  // The same. Throws RequestError, with the names that exist.
+  // Returns the command of this name or alias. Throws RequestError, with the names that exist.
   const Command& find(std::string_view name) const;
   std::size_t row(const Command& command) const {
     return static_cast<std::size_t>(&command - commands.data());

@@ -90,7 +90,7 @@ class Context {
   void stop_recording_machines();  // stops a recording of machines of `open`, which are about to go
   void run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
 
-  // Of the session, not of a request:
+  // These act on the session, not on a request:
   void publish();                 // to watchers
   void leave();                   // ends all that others notice
   void rest();                    // releases what the next request can make again

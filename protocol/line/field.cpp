@@ -130,7 +130,7 @@ std::size_t bytes_of(const StackSettings& stack) {
 
 constexpr std::size_t kTallScreen = 250 * std::size_t{kScreenWidth}, kRgbScreen = 3 * kTallScreen;
 
-// Of a field of bytes, on whatever machine.
+// The most bytes of a field of bytes, on any machine.
 std::size_t most_bytes(const Field& field) {
   constexpr std::size_t kNoScreen = 1024;
   if (field.stack) return bytes_of(*field.stack);

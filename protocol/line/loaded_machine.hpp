@@ -32,7 +32,7 @@ class LoadedMachine {
 
   // Bytes of memory that a machine with these fields may come to hold.
   static std::size_t most_held(const std::vector<Field>& fields);
-  // Those that this one holds. Its view counts with at least so many.
+  // Bytes that this machine holds. Its view counts with at least `least_of_view` of them.
   std::size_t footprint(std::size_t least_of_view = 0) const {
     return memory_.held(slot_) + std::max(view_.footprint(), least_of_view);
   }

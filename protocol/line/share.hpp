@@ -81,7 +81,7 @@ class Share {
   std::atomic<bool> wanted_ = true, ended_ = false;
   std::atomic<int> watchers_ = 0;
 
-  // Of the session:
+  // The session's thread uses these:
   Snapshot::Clock::time_point next_{}, counted_{};  // counted_: when fps was last computed
   std::int64_t counted_frames_ = 0;
   double fps_ = 0;

@@ -41,7 +41,7 @@ class Watched {
 // Fields that a watcher may ask for: screen, ram and palette. Throws RequestError.
 std::vector<Field> parse_watched_fields(Words words);
 
-// By the name of the shared session.
+// What a session watches, by the name of the shared session.
 using Watching = std::map<std::string, Watched, std::less<>>;
 
 }  // namespace racebeam

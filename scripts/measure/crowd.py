@@ -14,8 +14,8 @@ OBSERVE = "observe reward terminated truncated ram screen:rle"
 
 
 class Server:
-    """For TCP on this machine, from `with` to its end. processors: those that it may use; None: all. status, warnings:
-    at its end; the lines of the log."""
+    """A server for TCP on this machine, from `with` to its end. processors: those that it may use; None: all.
+    status, warnings: its status at its end, and the lines of its log."""
 
     def __init__(self, build, *options, processors=None):
         self.processors = processors or os.sched_getaffinity(0)
@@ -60,7 +60,7 @@ class Server:
         self.folder.cleanup()
 
     def resident(self):
-        """In KiB."""
+        """The resident memory, in KiB."""
         with open(f"/proc/{self.process.pid}/status") as status:
             return next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
 

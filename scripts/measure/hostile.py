@@ -200,7 +200,7 @@ def start_server(build, folder):
 
 
 def peak_memory(server):
-    """In MiB."""
+    """The highest resident memory, in MiB."""
     with open(f"/proc/{server.pid}/status") as status:
         return next(int(line.split()[1]) for line in status if line.startswith("VmHWM")) / 1024
 

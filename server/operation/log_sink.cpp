@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kLastMoment = 200ms;
 
-// May block for ever. Bytes that cannot be written, as on a full disk, are dropped.
+// Writes a line, and may block for ever. Bytes that cannot be written, as on a full disk, are dropped.
 void write_whole(int descriptor, std::string_view line) {
   while (!line.empty()) {
     const ssize_t count = ::write(descriptor, line.data(), line.size());

@@ -30,7 +30,7 @@ class Edits(unittest.TestCase):
         for line in ("  return a;", "  const int a = b;", "  using std::min;", "  throw Error(a);"):
             self.assertNotIn("", edits(line), line)
 
-    def test_texts_comments_and_angle_brackets_are_no_code(self):
+    def test_texts_comments_and_angle_brackets_are_not_code(self):
         self.assertEqual(edits('  return "a < b";  // 7 && 8'), set())
         self.assertEqual(edits("  return std::vector<int>(a);"), set())
         self.assertEqual(mutations.mutants("#include <a>\n// a < 1\nstatic_assert(a < 1);\n"), [])

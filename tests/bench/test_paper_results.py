@@ -65,7 +65,7 @@ class PaperResults(unittest.TestCase):
             (figures / f"{plan.parent.name}.json").write_text(json.dumps(plan_figures.Results(plan.parent).figures()))
         return paper_results.Document(figures).text()
 
-    def test_plans_without_whole_results_are_said_to_be_not_run(self):
+    def test_plans_without_whole_results_count_as_not_run(self):
         text = self.text()
         for plan in PLANS:
             self.assertIn(f"| `{plan}` | not run yet |", text)

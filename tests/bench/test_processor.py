@@ -31,7 +31,7 @@ class Processor(unittest.TestCase):
         text = CPUINFO.format(vendor="GenuineIntel", family=6, model=1)
         self.assertEqual(processor.describe(text), "A brand (family 6, model 1)")
 
-    def test_a_machine_without_a_name_has_none(self):
+    def test_a_description_without_a_name(self):
         self.assertIsNone(processor.describe("processor\t: 0\nBogoMIPS\t: 50.00\n"))
 
     def test_this_machine_has_a_name(self):

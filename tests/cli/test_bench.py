@@ -98,7 +98,7 @@ class Bench(unittest.TestCase):
         _, printed, _ = run("bench", "--rom", GAME, "--commands", "--screen", "none", data=b"check 1 3 3 4")
         self.assertNotEqual(json.loads(printed)["digest"], digest("1 3 3 4"))
 
-    def test_commands_that_are_none_are_refused(self):
+    def test_unknown_commands_are_refused(self):
         for line in ("dance 1", "play", "play left", "reset 0", "save 1 2"):
             with self.subTest(line=line):
                 status, _, errors = run("bench", "--rom", GAME, "--commands", data=line.encode())

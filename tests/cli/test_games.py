@@ -141,7 +141,7 @@ class Roms(unittest.TestCase):
         self.assertNotIn("pong", missing)
         self.assertIn("breakout", missing)
 
-    def test_archives_are_looked_into_and_what_is_no_cartridge_is_unusable(self):
+    def test_archives_are_read_and_files_without_a_cartridge_are_unusable(self):
         image = bytes(range(256)) * 16
         for name, files in (
             ("one.zip", {"pong.bin": image, "readme.txt": b"hello"}),

@@ -74,7 +74,7 @@ class Refused(unittest.TestCase):
             file.truncate(1 << 40)  # takes no room on the disk
         self.check(path, "larger than ")
 
-    def test_a_folder_of_images_that_is_none(self):
+    def test_a_path_of_images_that_is_not_a_folder(self):
         for words, expected, sentence in (
             (("roms", self.pipe), 1, "Not a directory"),
             ((*STDIO, "--roms", self.pipe), 4, "is not a folder"),

@@ -17,7 +17,7 @@ from web.web_socket import WebSocket
 
 
 def environment(**more):
-    """Without a desktop, and without settings."""
+    """An environment without a desktop and without settings."""
     left_out = ("DISPLAY", "WAYLAND_DISPLAY")
     return {
         key: value for key, value in os.environ.items() if key not in left_out and not key.startswith("RACEBEAM_")
@@ -142,7 +142,7 @@ class Watch(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("other addresses with --terminal", done.stderr)
 
-    def test_one_picture_is_written_where_there_is_no_terminal(self):
+    def test_without_a_terminal_one_picture_is_written(self):
         self.share("a"), self.share("b", "updraft")
         for words, status in (([], "a  game beamfall"), (["--session", "b"], "b  game updraft")):
             done = self.watch("--terminal", self.address, *words)
@@ -152,7 +152,7 @@ class Watch(unittest.TestCase):
             self.assertIn("score 0", lines[-1])
             self.assertEqual({line.count("\u2580") for line in lines[:-1]}, {80})
 
-    def test_no_picture_is_a_failure_where_there_is_no_terminal(self):
+    def test_without_a_terminal_a_missing_picture_is_a_failure(self):
         for words, reason in (
             ([], "no session is shared"),
             (["--session", "nosuch"], "unknown shared session 'nosuch'"),

@@ -72,7 +72,7 @@ class Lines(unittest.TestCase):
     def test_a_difficulty_costs_one_more_reset_and_changes_the_game(self):
         self.assertNotEqual(play(), play("--difficulty", "1"))
 
-    def test_the_console_of_an_image_can_be_told(self):
+    def test_the_console_of_an_image_can_be_set(self):
         self.assertEqual(play(), play("--scheme", "4K", "--left", "joystick", "--format", "ntsc", "--ystart", "34"))
         for words in (("--left", "paddles"), ("--ystart", "50"), ("--height", "220"), ("--format", "pal")):
             with self.subTest(option=words[0]):
@@ -178,7 +178,7 @@ class Refusals(unittest.TestCase):
         self.assertEqual((status, len(printed), len(errors)), (1, lines, 1), errors)
         self.assertRegex(errors[0], "^racebeam: .*" + complaint)
 
-    def test_a_word_that_is_no_number(self):
+    def test_a_word_that_is_not_a_number(self):
         self.check_refusal("line 2: 'up' is not a number", 0, b"1 2\n3 up\n")
         self.check_refusal("line 1: '3.5' is not a number", 0, b"3.5\n")
         self.check_refusal("line 1: '99999999999' is not a number", 0, b"99999999999\n")
@@ -190,12 +190,12 @@ class Refusals(unittest.TestCase):
         self.check_refusal("line 1: the value of a byte must be 0 to 255, not 256", 0, b"M 1 256\n")
         self.check_refusal("line 1: 'M' requires an index and a value", 0, b"M 1\n")
 
-    def test_a_strength_that_is_none(self):
+    def test_a_strength_that_is_not_a_number(self):
         for word in (b"3@", b"3@x", b"3@nan", b"3@inf", b"3@1001"):
             self.check_refusal("line 1: .* is not a strength from -1000 to 1000", 0, word)
         self.check_refusal("line 1: '' is not a number", 0, b"@1")
 
-    def test_bytes_that_are_no_text(self):
+    def test_bytes_that_are_not_text(self):
         self.check_refusal("line 1: '.*' is not a number", 0, bytes(range(128, 160)))
 
     def test_a_mebibyte_without_a_line_end(self):

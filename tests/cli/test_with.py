@@ -175,7 +175,7 @@ class With(unittest.TestCase):
         process.kill()
         self.nothing_is_left()
 
-    def test_a_server_that_dies_in_the_middle_is_told(self):
+    def test_a_server_that_dies_in_the_middle_is_reported(self):
         script = (
             'kill -9 $(sed -n \'s/^ "process": \\([0-9]*\\),$/\\1/p\' "${RACEBEAM_ADDRESS#file:}"); sleep 0.3; exit 3'
         )

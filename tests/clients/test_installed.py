@@ -57,7 +57,7 @@ class Installed(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.built = pathlib.Path(folder.name, "built")
-        # Not where it was configured for: the tree can be moved.
+        # The prefix is not the one that was configured: the tree can be moved.
         cls.prefix = pathlib.Path(folder.name, "elsewhere/racebeam")
         for component in ("development", "program"):
             run("cmake", "--install", BUILD, "--prefix", cls.prefix, "--component", component)
@@ -121,7 +121,7 @@ class Installed(unittest.TestCase):
         self.assertEqual(public, {name_of(header) for header in HEADERS})
 
     def test_only_the_interface_is_exported(self):
-        """Of the static library too: a shared library that is linked with it exports no more."""
+        """The static library exports only the interface: a shared library that is linked with it exports no more."""
         table = run("readelf", "--syms", "--wide", self.libraries / "libracebeam.a")
         symbols = set(re.findall(r"(?:GLOBAL|WEAK) +DEFAULT +\d+ (\S+)", table))
         ours = {name for name in symbols if OURS.match(name)}

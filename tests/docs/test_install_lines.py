@@ -8,7 +8,7 @@ import unittest
 import tomllib
 import tree
 
-# Not the lines of scripts, which call pip as a module; and no part of a name such as "pip installs".
+# It does not match the lines of scripts, which call pip as a module, nor words such as "pip installs".
 COMMAND = re.compile(r"""(?<!-m )\bpip install((?: +(?:"[^"\n{]+"|[A-Za-z.][\w.,\[\]<>=/-]*))+)""")
 NAME = re.compile(r"[\w-]+")
 OTHERS = {"envpool", "gymnasium", "matplotlib", "moviepy", "optax"}  # packages of examples, which are on PyPI

@@ -12,7 +12,7 @@ from tree import ROOT
 WORKFLOW = ".github/workflows/ci.yml"
 FILES = (WORKFLOW, ".pre-commit-config.yaml", ".ci/run", ".ci/nightly")
 
-# Programs that are no steps of .ci/nightly, and why.
+# Programs that are not steps of .ci/nightly, and why.
 LEFT_OUT = {
     "scripts/bench": "it measures, on a quiet machine",
     "scripts/build": "tests use it",

@@ -96,7 +96,7 @@ struct Bench {
   }
   std::uint8_t read(int line, int x, unsigned address) { return read_at(line * kLineCycles + x, address); }
 
-  // The same by the CPU, with STA and LDA in RAM, so that the CPU's path to the TIA is included.
+  // The CPU accesses it, with STA and LDA in RAM, so that the CPU's path to the TIA is included.
   void store_at(int cycle, unsigned reg, unsigned value) {
     act([=](Bench& bench) {
       bench.cpu.A = static_cast<std::uint8_t>(value);

@@ -111,7 +111,7 @@ TEST_CASE("A probe that another program lengthened is corrected by the next") {
         150);
 }
 
-TEST_CASE("A machine whose frames are all observed from now on measures none") {
+TEST_CASE("A machine whose frames are all observed from now on takes no measurement") {
   DeferredRenderPolicy policy;
   while (!policy.measures()) policy.next_is_drawn();
   CHECK(run(policy, 1000, 1, 1, [](const Frame&) { return 7000; }).measured <= 2);

@@ -96,10 +96,10 @@ TEST_CASE("A batch soon allocates nothing while it runs, episodes that end and b
   }
 }
 
-// As it pays, code is made at moments that depend on the clock. Here all of it is made at once.
+// Code is otherwise made once it pays, at moments that depend on the clock. Here all of it is made at once.
 const CpuKind kCpu = Translator::obstacle()[0] == '\0' ? CpuKind::kTranslator : CpuKind::kInterpreter;
 
-// The same over and over, until five times in a row `most` allocations are enough.
+// Plays the same over and over, until five times in a row `most` allocations are enough.
 bool settles(Console& console, long most) {
   constexpr int kFrames = 50;
   int quiet = 0;

@@ -68,7 +68,7 @@ TEST_CASE("both players' rewards are summed over a skip and clipped alike") {
   CHECK(environment.rewards().b == 0);
 }
 
-TEST_CASE("the rules asked for are in force, ale-0.12 if none are") {
+TEST_CASE("the requested rules are in force; the default is ale-0.12") {
   for (const Rules rules : {Rules::kAle012, Rules::kFixed}) {
     Environment environment = two_players(with(rules));
     environment.set_ram(0x10, 255);

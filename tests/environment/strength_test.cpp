@@ -52,7 +52,7 @@ TEST_CASE("strengths of paddles turn them as the reference does, of either sign 
   }
 }
 
-TEST_CASE("player B turns the second paddle, with B's own strength, and not at all if none is given") {
+TEST_CASE("player B turns the second paddle, with B's own strength, and not at all without one") {
   const auto game = find_game("pong");
   const auto image = test::needed_rom_of("pong");
   if (!image) return;

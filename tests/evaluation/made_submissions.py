@@ -86,5 +86,5 @@ def write_rows(folder, rows):
 
 
 def log_path(folder, row):
-    """Where the log of a row lies."""
+    """The path of the log of a row."""
     return folder / "logs" / row["unit"] / f"{row['episode']}.episode"

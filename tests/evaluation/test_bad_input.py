@@ -63,7 +63,7 @@ class BadInput(unittest.TestCase):
         self.lines(result("pong", "basic", 0, 0, ""))
         self.check_refusal("results.csv, line 2: score is ''; expected a decimal number, or the end diverged")
 
-    def test_a_trial_that_is_no_whole_number(self):
+    def test_a_trial_that_is_not_a_whole_number(self):
         for value in ("1.5", "-1", "one", "1e300", "2147483648"):
             self.lines(result("pong", "basic", value, 0, 1))
             self.check_refusal(f"results.csv, line 2: trial is '{value}'; expected a whole number from 0 to 2147483647")
@@ -80,7 +80,7 @@ class BadInput(unittest.TestCase):
         (self.root / "a/results.csv").write_text("")
         self.check_refusal("results.csv lacks the columns")
 
-    def test_bytes_that_are_no_text(self):
+    def test_bytes_that_are_not_text(self):
         (self.lines() / "results.csv").write_bytes(RESULTS.encode() + b"\n\xff\n")
         self.check_refusal(f"results.csv: byte {len(RESULTS) + 1} is not UTF-8; expected a CSV file in UTF-8")
 

@@ -64,7 +64,7 @@ class Board(Folder):
         copies = {path.read_bytes() for path in site.rglob("*.episode")}
         self.assertEqual(copies, {log_path(folder, row).read_bytes() for row in rows})
 
-    def test_words_are_no_markup(self):
+    def test_words_are_not_markup(self):
         self.board(submission(self.root / "a")[0])
         for name in ("index.html", "agent1.html"):
             self.assertIn("Ours &lt;b&gt;&amp; theirs&lt;/b&gt;", self.page(name))

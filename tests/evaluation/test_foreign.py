@@ -73,7 +73,7 @@ class Files(Folder):
         row = (self.root / "report/tables/machado2018.csv").read_text().splitlines()[2]
         self.assertEqual(row, "pong,dqn,1,10,n/a,1,50,n/a,1,n/a,n/a,0,n/a,n/a,0")
 
-    def test_what_is_wrong_is_said(self):
+    def test_mistakes_are_reported(self):
         for name, content, sentence in (
             ("pong.txt", "", "is neither a folder, nor a file .csv of DQN Zoo, nor .json of Dopamine or rliable"),
             ("pong.json", "{", "pong.json is not JSON: "),

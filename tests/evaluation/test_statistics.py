@@ -154,7 +154,7 @@ class Paired(unittest.TestCase):
         self.assertEqual(self.verdicts(first, second), [])
         self.assertEqual(paired.SIGNIFICANCE, 0.01)
 
-    def test_what_cannot_be_tested_is_said(self):
+    def test_what_cannot_be_tested_is_noted(self):
         self.assertEqual(self.verdicts([1], [2, 3]), ["few"])
         self.assertEqual(self.verdicts([1, 1], [2, 2, 2]), ["constant"])
 

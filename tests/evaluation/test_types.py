@@ -10,7 +10,7 @@ package.require("mypy")
 
 
 class Types(unittest.TestCase):
-    def test_mypy_is_content(self):
+    def test_mypy_reports_no_error(self):
         done = subprocess.run(
             [
                 sys.executable,

@@ -121,7 +121,7 @@ TEST_CASE("The third flag is ignored, but must be there") {
   CHECK_THAT(refusal(other, "0,0,1\n", kMalformedStatus), Contains("3 numbers"));
 }
 
-TEST_CASE("Without any flag there is a line with nothing in it") {
+TEST_CASE("Without any flag, the line is empty") {
   Client client;
   CHECK(client.say("0,0,0,0\n3,18\n") == "160-210\n\n\n");
 }

@@ -238,7 +238,7 @@ TEST_CASE("Each other name of a command is as good as the command") {
   }
 }
 
-TEST_CASE("Each error code is told") {
+TEST_CASE("Each error code is reported") {
   const std::map<std::string_view, std::string> sentences = {
       {"bad-line", "\n"},
       {"line-too-long", std::string((1 << 20) + 1, 'x') + "\n"},

@@ -28,7 +28,7 @@ std::string plain(std::string_view text) {
   return plain;
 }
 
-// Those names are explained as such, where they are also words of arguments.
+// help explains these names as topics or commands, where they are also words of arguments.
 bool is_topic_or_command(std::string_view name) {
   const auto named = [name](const auto& row) { return row.name == name; };
   return std::ranges::any_of(help_topics(), named) || std::ranges::any_of(commands(), named);

@@ -206,7 +206,7 @@ TEST_CASE("A reply is not to be sent before it is whole") {
   CHECK(std::ranges::count(client.listen(), '|') == 3);
 }
 
-TEST_CASE("A client that does not read gets no more replies, and loses none") {
+TEST_CASE("A client that does not read gets no more replies, and loses no reply") {
   LineLimits limits;
   limits.output = 1000;
   LineClient client(line_service(limits));

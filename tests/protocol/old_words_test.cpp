@@ -32,7 +32,7 @@ const std::string kLoaded = "load duel seed=7 sticky=0.5 max_episode_frames=3",
                   kOneMore = "\nact RIGHT*9\nact RIGHT*9\nlook episode_frame",
                   kStep = "\nstep FIRE\nstep FIRE";
 
-// By the command and the old word. `seed` and `life_loss_ends` have their own cases.
+// The key is the command and the old word. `seed` and `life_loss_ends` have their own cases.
 const std::map<std::string, Pair> kPairs = {
     {"load autoreset=0",
      {"", kLoaded + " autoreset=0" + kOneMore, kLoaded + " autoreset=disabled" + kOneMore}},

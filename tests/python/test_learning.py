@@ -35,7 +35,7 @@ class Examples(unittest.TestCase):
         self.assertNotIn("Traceback", done.stderr)
 
     def run_example(self, example, *options):
-        """What it prints. It draws a curve, if it has --curve."""
+        """Returns what the example prints. It draws a curve, if it has --curve."""
         with tempfile.TemporaryDirectory() as folder:
             curve = pathlib.Path(folder, "curve.png")
             options = [str(curve) if option == "CURVE" else str(option) for option in options]

@@ -182,7 +182,7 @@ class Program(unittest.TestCase):
         with racebeam.launch() as session:
             self.assertEqual(session.load("beamfall", seed=1)["game"], "beamfall")
 
-    def test_where_there_is_none_a_sentence_says_so(self):
+    def test_a_missing_program_is_reported(self):
         done = python(
             "import racebeam.program as p\np._installed = lambda: None\n"
             "try: racebeam.launch()\nexcept FileNotFoundError as error: print(error)".replace(

@@ -136,7 +136,7 @@ TEST_CASE("A part of another owner is not taken for one that a kill left behind"
   CHECK(contents(part) == "of another user");
 }
 
-TEST_CASE("A hundred names are tried for a part, and then none is made") {
+TEST_CASE("A hundred names are tried for a part, and then no part is made") {
   const Scratch folder;
   folder.write(".table.csv.part", "precious");
   for (int number = 1; number < 99; ++number)

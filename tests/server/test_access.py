@@ -163,7 +163,7 @@ class Tokens(Folder):
             for wire in (silent, admitted):
                 wire.close()
 
-    def test_a_unix_socket_needs_none(self):
+    def test_a_unix_socket_needs_no_token(self):
         with self.serve() as server:
             server.wait_for("listening on unix:s")
             wire = connect_unix(server.path("s"))

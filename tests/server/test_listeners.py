@@ -100,7 +100,7 @@ class Addresses(unittest.TestCase):
                 heir.wait_for("listening on")
                 self.assertTrue(play(connect_unix(server.path("s"))).endswith(b"DIE\n"))
 
-    def test_a_file_that_is_no_socket_is_left_alone(self):
+    def test_a_file_that_is_not_a_socket_is_left_alone(self):
         with listening("unix:s") as server:
             with open(server.path("notes"), "w") as notes:
                 notes.write("dear diary")

@@ -14,14 +14,14 @@ QUICK = 1 if PATIENCE <= 60 else PATIENCE / 20  # seconds, for a newcomer
 
 
 def connect_from(address, port):
-    """From an address of this machine, which makes a client another owner of memory."""
+    """Connects from an address of this machine, which makes a client another owner of memory."""
     connection = socket.create_connection(("127.0.0.1", port), timeout=PATIENCE, source_address=(address, 0))
     connection.setblocking(True)
     return Wire(connection.fileno(), connection.fileno(), connection)
 
 
 def ask_at_length(wire, line):
-    """As ask(), for replies of a megabyte."""
+    """Asks as ask() does, for replies of a megabyte."""
     wire.send(line + b"\n")
     reply = b""
     while not reply.endswith(b"\n"):
@@ -86,7 +86,7 @@ class Memory(unittest.TestCase):
         return wire
 
     def memory(self, kind):
-        """In MiB."""
+        """The memory, in MiB."""
         with urllib.request.urlopen(f"http://127.0.0.1:{self.http}/metrics") as page:
             text = page.read().decode()
         return int(re.search(rf'^racebeam_memory_bytes{{kind="{kind}"}} (\d+)$', text, re.MULTILINE).group(1)) / (

@@ -91,7 +91,7 @@ class Nonsense(unittest.TestCase):
     def test_loading_what_was_never_saved_ends_the_session(self):
         self.check(b"0,0,0,1\n44,18\n", ["0,0:"], 1, "none that it saved")
 
-    def test_bytes_that_are_no_text_end_the_session(self):
+    def test_bytes_that_are_not_text_end_the_session(self):
         self.check(b"0,0,0,1\n" + bytes(range(128, 256)) + b"\n", ["0,0:"], 1, "1 numbers")
 
     def test_a_line_of_a_mebibyte_without_a_comma_ends_the_session(self):

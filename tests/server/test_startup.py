@@ -70,7 +70,7 @@ class Images(Refusals):
         with open(HOMEBREW, "rb") as image:
             self.check_image(image.read(1000))
 
-    def test_a_folder_is_no_image(self):
+    def test_a_folder_is_not_an_image(self):
         self.check(["serve", "--classic", "--stdio", "--rom", "/"], 1)
 
     def test_an_unknown_built_in_is_refused(self):
@@ -140,7 +140,7 @@ class CommandLine(Refusals):
             with self.subTest(flag=words[0]):
                 self.check(["serve", "--stdio", "--rom", GAME, *words], 2, f"{words[0]}: requires --classic")
 
-    def test_minus_zero_is_no_whole_number(self):
+    def test_minus_zero_is_not_a_whole_number(self):
         self.check([*SERVE, "--seed=-0"], 2, "'-0' is not a whole number from 0 to 4294967295")
         lines = run("serve", "--stdio", data=b"load beamfall seed=-0\nload beamfall seed=0\n")[1].splitlines()
         self.assertTrue(lines[0].startswith(b"error bad-value seed is '-0'; it takes a whole number from 0 to "), lines)

@@ -18,7 +18,7 @@ local function small(field)
   end
 end
 
--- Those of the fields among the words from `first` on.
+-- Returns the encodings of the fields among the words from `first` on.
 local function encodings(words, first)
   local found = {}
   for at = first, #words do
@@ -93,7 +93,7 @@ function Fields:machine(number)
   return self.machines[number]
 end
 
--- The same of a watched session. It begins anew with other fields, and with another height.
+-- Follows a watched session, as follow() follows this one. Other fields and another height begin it anew.
 function Fields:watch(words, line)
   local fields, height = {}, tonumber(line:match(" height=(%d+)")) or self.height
   for at = 3, #words do

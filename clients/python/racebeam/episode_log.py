@@ -163,7 +163,7 @@ def play(start: Start, actions: Sequence[int]) -> Episode:
 
 
 def _is_terminated(ale: ALEInterface, start: Start) -> bool:
-    """With life_loss=restart, a lost life terminates, and only the limit of frames truncates."""
+    """Returns whether the episode terminated. With life_loss=restart, a lost life terminates it."""
     if start.life_loss != "restart" or ale.game_over(with_truncation=False):
         return bool(ale.game_over(with_truncation=False))
     return ale.game_over() and not 0 < start.max_episode_frames <= ale.getEpisodeFrameNumber()

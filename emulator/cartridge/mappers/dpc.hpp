@@ -45,7 +45,7 @@ inline Chip& chip_of(CartridgeSlot& slot) {
   return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data()));
 }
 
-// Only at power-on: a reset does not change the fetchers.
+// Sets the chip up at power-on only: a reset does not change the fetchers.
 inline void power_on(CartridgeSlot& slot) {
   chip_of(slot) = Chip{};
   chip_of(slot).random = 1;

@@ -101,7 +101,7 @@ void LineRecord::summarize(bool pal) {
     if (reg != HMOVE) may_set |= RegisterVectors(kRegisterBytes[reg].may_set);  // or stay as they were
     // clang-format off
     switch (reg) {
-      // May start the Cosmic Ark mode, by an HMOVE on the previous line.
+      // HMM0 may start the Cosmic Ark mode, by an HMOVE on the previous line.
       case HMM0: foreseen &= write.value() >> 4 != 6; [[fallthrough]];
       case HMP0: case HMP1: case HMM1: case HMBL: motion[reg - HMP0] = write.value() >> 4; break;
       case HMCLR: motion = {}; break;

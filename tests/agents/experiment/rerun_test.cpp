@@ -16,7 +16,7 @@ struct Rerun {
   std::string findings;
 };
 
-// Of all units, unless it says fewer.
+// Runs all units again, unless `units` is fewer.
 Rerun rerun_of(const ResultsFolder& folder, int units = 1000, std::uint32_t seed = 1,
                const std::string& version = "0.1.0") {
   Rerun result;

@@ -25,7 +25,7 @@ Grouped group(FeatureGroups& groups, Indices features) {
   return {active.indices, active.counts, {splits.begin(), splits.end()}};
 }
 
-// Of 40 features, clusters of 1 to 8 are active together; some part after a while.
+// Clusters of 1 to 8 of the 40 features are active together; some part after a while.
 Indices draw_state(Random& random, int step) {
   Indices state;
   for (std::uint32_t cluster = 0; cluster < 8; ++cluster) {

@@ -77,7 +77,7 @@ TEST_CASE("Rollout-IW(1) keeps the subtree of its action, which costs nothing") 
   CHECK(forgets.nodes() == 0);
 }
 
-TEST_CASE("Rollout-IW(1) chooses each of equal actions, and none that ends the episode") {
+TEST_CASE("Rollout-IW(1) chooses each of equal actions, and no action that ends the episode") {
   ToyModel model(3, [](int, int action) -> Arrow { return {0, 1, action == 2}; });
   RolloutSearch search(model, settings(), 1);
   std::map<int, int> chosen;

@@ -121,7 +121,7 @@ class Checking(unittest.TestCase):
     def test_less_than_that_is_not(self):
         self.assertEqual(self.scaled(1 / 1.04).returncode, 0)
 
-    def test_five_percent_less_is_told(self):
+    def test_five_percent_less_is_reported(self):
         done = self.scaled(1 / 0.94)
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stdout, r"beamfall .* -6\.0%  cheaper")

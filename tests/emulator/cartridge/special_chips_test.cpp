@@ -122,7 +122,7 @@ TEST_CASE("UA selects at $0220 and $0240, which are the TIA's too") {
   CHECK(color(bench, 3) == 0x2E);
 }
 
-TEST_CASE("3E: writes reach the TIA but those that are stored in RAM; MC: none to its page do") {
+TEST_CASE("3E: writes reach the TIA but those that are stored in RAM; MC: no write to its page does") {
   Bench bench(filled(8192, 2048), asking_for("3E"));
   bench.write_at(3, 0x09, 0x12);
   CHECK(color(bench, 3) == 0x12);
@@ -195,7 +195,7 @@ struct RamScheme {
   std::uint32_t ram;  // draws a reset takes
 };
 
-TEST_CASE("A reset fills a cartridge's RAM, one draw a byte; CV with contents takes none") {
+TEST_CASE("A reset fills a cartridge's RAM, one draw a byte; CV with contents takes no draw") {
   constexpr RamScheme kRamSchemes[] = {{"FASC", 12288, 256},  {"E7", 16384, 2048}, {"3E", 8192, 32768},
                                        {"CV", 2048, 1024},    {"CV 4K", 4096, 0},  {"AR", 8448, 6144},
                                        {"MC", 131072, 32768}, {"DPC", 10240, 0}};

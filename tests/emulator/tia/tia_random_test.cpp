@@ -200,8 +200,8 @@ Script shifted(Script script, int cycles) {
   return script;
 }
 
-// The same frame repeatedly, each time with one or two other registers at the start of lines. The line cache
-// must notice every visible change, and the rows below must be right in any case.
+// Plays the same frame repeatedly, each time with one or two other registers at the start of lines. The line
+// cache must notice every visible change, and the rows below must be right in any case.
 void play_repeats(unsigned seed, int frames) {
   Random random(seed);
   Properties properties = ntsc();

@@ -67,7 +67,7 @@ TEST_CASE("Sticky actions repeat where the reference repeats") {
         std::vector{1, 2, 2, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 13, 15, 16, 16, 16, 2, 3});
 }
 
-TEST_CASE("With probability 0 each action is new, with 1 none ever is") {
+TEST_CASE("With probability 0 each action is new, with 1 no action is") {
   CHECK(performed(0.0F, 123, 3) == std::vector{1, 2, 3});
   CHECK(performed(1.0F, 123, 3) == std::vector{0, 0, 0});
   CHECK(performed(7.5F, 123, 3) == std::vector{0, 0, 0});

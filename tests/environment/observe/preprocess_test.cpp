@@ -206,7 +206,7 @@ TEST_CASE("An act can draw its frames from a range, and a few can run by themsel
   CHECK(environment.frame_number() == before + 7);
 }
 
-TEST_CASE("Who watches sees each frame of an act, and none of a reset") {
+TEST_CASE("A watcher sees each frame of an act, and no frame of a reset") {
   Settings settings = plain();
   settings.frame_skip = 3;
   Environment environment = steered(settings);

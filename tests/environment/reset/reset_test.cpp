@@ -14,7 +14,7 @@ using test::game;
 using test::plain;
 using test::steered;
 
-TEST_CASE("A reset is 60 frames of nothing and twice 4 frames of RESET, none of them counted") {
+TEST_CASE("A reset is 60 frames of NOOP and twice 4 frames of RESET, which are not counted") {
   Environment environment = steered();
   CHECK(at(environment, 0x80) == counted(68));
   CHECK(at(environment, 0x86) == 8);

@@ -126,7 +126,7 @@ TEST_CASE("A reset with a seed leads where a new batch with that seed begins") {
   CHECK(results.frames[2] > begun.frames[2]);
 }
 
-TEST_CASE("Rewards are told clipped and unclipped, and ends of lives beside ends of games") {
+TEST_CASE("Results have clipped and unclipped rewards, and ends of lives beside ends of games") {
   auto settings = short_episodes();
   settings.slot.machine.sticky = 0;
   settings.slot.life_loss = LifeLoss::kReported;

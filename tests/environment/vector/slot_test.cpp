@@ -442,7 +442,8 @@ TEST_CASE("An episode that reaches its limit of frames is over with that frame")
   CHECK(slot.elapsed() == 7);
 }
 
-TEST_CASE("A seed that an episode was ended with holds until a reset, and a restored state knows none") {
+TEST_CASE(
+    "A seed that an episode was ended with holds until a reset, and a restored state has no such seed") {
   SlotSettings settings = no_noops();
   settings.noop_max = 30;
   const auto seed_of = [](const Slot& slot) { return slot.environment().settings().random_seed; };

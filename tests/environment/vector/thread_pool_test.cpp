@@ -123,7 +123,7 @@ TEST_CASE("Threads are bound one after the other, and to the first after the las
 
 #if !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)  // they need much address space themselves
-TEST_CASE("A pool whose threads cannot all be started says so, and leaves none") {
+TEST_CASE("A pool whose threads cannot all be started reports it, and leaves no thread") {
   rlimit before{};
   REQUIRE(::getrlimit(RLIMIT_AS, &before) == 0);
   std::uint64_t pages = 0;

@@ -189,7 +189,7 @@ TEST_CASE("An image that the server has is shared, also when a client sends it")
 TEST_CASE("A line without memory for it is skipped with an error, and the session goes on") {
   const LineService service = service_with(kMiB);
   LineClient client(service);
-  // As a transport does: it reads into the space, and takes zero bytes for the end of the input.
+  // A transport reads into the space, and takes zero bytes for the end of the input.
   std::string text = std::string(900'000, 'x') + "\ngames\n", answers;
   while (!text.empty()) {
     const std::span<char> space = client.session.space();

@@ -72,7 +72,7 @@ class Differences(unittest.TestCase):
             self.assertRaisesRegex(RuntimeError, "ROM not set", method, *words)
         self.assertLess(in_process("import ale_py; ale_py.ALEInterface().getRAM()").returncode, 0)
 
-    def test_03_a_number_that_is_no_action(self):
+    def test_03_a_number_that_is_not_an_action(self):
         ours, theirs = pong()
         for number in (18, 99):
             self.assertRaisesRegex(ValueError, f"action {number} is out of range; accepted: 0 to 17", ours.act, number)
@@ -130,7 +130,7 @@ class Differences(unittest.TestCase):
         self.assertEqual(in_process(script.format("racebeam.ale_py", PONG)).stderr, "")
         self.assertNotEqual(in_process(script.format("ale_py", PONG)).stderr, "")
 
-    def test_10_there_is_no_SDL(self):
+    def test_10_SDL_is_absent(self):
         self.assertEqual((drop_in.SDL_SUPPORT, ale_py.SDL_SUPPORT), (False, True))
         ale = drop_in.ALEInterface()
         ale.setBool("display_screen", True)

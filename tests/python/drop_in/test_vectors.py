@@ -28,7 +28,7 @@ class Vectors(unittest.TestCase):
         return self.assertTrue(np.array_equal(one, other))
 
     def check_step(self, one, other):
-        """Where no episode ended, ale_py's final_obs is not defined."""
+        """Compares a step. ale_py's final_obs is not defined where no episode ended."""
         done = other[2] | other[3]
         for *_, info in (one, other):
             if "final_obs" in info:

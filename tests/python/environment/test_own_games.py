@@ -106,7 +106,7 @@ class Own(unittest.TestCase):
             self.assertEqual(pathlib.Path(caught[0].filename).name, pathlib.Path(__file__).name)
         self.assertEqual(racebeam.AtariEnv(game_file=self.file, rom=self.rom).observation_space.shape[0], 220)
 
-    def test_the_console_is_told_and_what_does_not_fit_is_refused(self):
+    def test_the_console_is_set_and_what_does_not_fit_is_refused(self):
         env = racebeam.AtariEnv("beamfall", height=220, ystart=40, format="pal", left="paddles", scheme="2K")
         self.assertEqual(env.observation_space.shape, (220, 160, 3))
         self.assertEqual(racebeam.AtariEnv("beamfall", format="pal").observation_space.shape, (250, 160, 3))

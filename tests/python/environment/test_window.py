@@ -18,7 +18,7 @@ if "DISPLAY" not in os.environ:
 
 @unittest.skipIf(importlib.util.find_spec("pygame") is None, "pygame is not installed")
 class Window(unittest.TestCase):
-    """By SDL's driver that shows nothing; under a display, set SDL_VIDEODRIVER."""
+    """Windows of SDL's driver that shows nothing. To see them on a display, set SDL_VIDEODRIVER."""
 
     def check(self, script, *said, **variables):
         """What a script says at last."""

@@ -101,7 +101,7 @@ def value():
 
 
 def results(count, size=4 * 84 * 84):
-    """As VectorMachines fills them; one in ten is something else."""
+    """Arrays for VectorMachines to fill; one in ten is something else."""
     parts = [
         array(count * size),
         None,
@@ -233,7 +233,7 @@ def sensible(thing, method):
 
 
 def is_too_long(method, arguments):
-    """Such a step ends when it is interrupted, as test_threads.py has it."""
+    """Returns whether only an interrupt ends such a step, which test_threads.py tests."""
     return (
         method == "step"
         and len(arguments) > 2

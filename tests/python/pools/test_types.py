@@ -160,7 +160,7 @@ class Others(unittest.TestCase):
 class Found(unittest.TestCase):
     """Calls that fuzz.py found."""
 
-    def test_counts_that_are_none(self):
+    def test_invalid_counts(self):
         for config in (
             {"num_envs": np.ones(210, np.uint8)},
             {"num_envs": 0},
@@ -190,7 +190,7 @@ class Found(unittest.TestCase):
         self.assertRaises(InvalidInput, envs.render, np.zeros(0, np.int32))
         self.assertRaises(IndexError, envs.render, [99])
 
-    def test_numbers_of_environments_that_are_none(self):
+    def test_invalid_numbers_of_environments(self):
         envs = make()
         envs.reset()
         for env_id in ([[0], [0, 1, 2]], [99], [-1], [0.5], np.zeros((1, 3), int), "0"):

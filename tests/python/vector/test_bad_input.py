@@ -93,7 +93,7 @@ class BadInput(unittest.TestCase):
                 AtariVectorEnv("beamfall", count)
 
     def test_memory_that_runs_out(self):
-        """Where more than the machines take it: thousands of them fail."""
+        """The memory is enough for two machines, and not for thousands."""
         script = (
             "import pathlib, racebeam, resource\n"
             "few = racebeam.AtariVectorEnv('beamfall', 2, num_threads=2)\n"

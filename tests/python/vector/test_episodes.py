@@ -51,7 +51,7 @@ class Seeds(unittest.TestCase):
             play_once(envs)
             self.assertTrue((envs.reset()[1]["frame_number"] > begin).all())
 
-    def test_some_have_seeds_and_some_have_none(self):
+    def test_some_have_seeds_and_some_do_not(self):
         envs = AtariVectorEnv("beamfall", 3, repeat_action_probability=0.5)
         envs.reset(seed=[5, 5, 5])
         play(envs, 10)

@@ -60,7 +60,7 @@ class Limits(unittest.TestCase):
             self.assertEqual(wire.rest(), b"error idle nothing came or went for 1 seconds\n")
             wire.close()
 
-    def test_a_session_that_is_idle_is_told_so_and_closed(self):
+    def test_an_idle_session_gets_an_error_and_is_closed(self):
         with serve("--idle", "2") as server:
             busy, idle, stuck = (connect_tcp(server.port()) for _ in range(3))
             stuck.send(LOAD + b"observe rgb:hex\n" + b"look\n" * 200)  # never read
@@ -72,7 +72,7 @@ class Limits(unittest.TestCase):
             for wire in (busy, idle, stuck):
                 wire.close()
 
-    def test_each_limit_of_a_session_can_be_set_and_is_told(self):
+    def test_each_limit_of_a_session_can_be_set_and_is_reported(self):
         limits = {
             "--max-line": 300,
             "--max-machines": 2,
@@ -100,7 +100,7 @@ class Limits(unittest.TestCase):
             ].splitlines()
             self.assertIn(b"error recording link.gif exists", lines[1])
 
-    def test_there_is_no_way_to_a_path(self):
+    def test_names_do_not_lead_out_of_the_folder(self):
         with tempfile.TemporaryDirectory() as folder:
             inside = os.path.join(folder, "inside")
             os.mkdir(inside)

@@ -73,7 +73,7 @@ class Files(unittest.TestCase):
         wire.send(b"GET /healthz HTTP/1.0\r\n\r\n")
         self.assertTrue(wire.rest().endswith(b"\r\n\r\nok\n"))
 
-    def test_there_are_no_more_sessions_than_files_and_others_are_told(self):
+    def test_files_limit_the_sessions_and_others_get_an_error(self):
         limit = int(self.server.wait_for(r"sessions: (\d+), limited by the open files \(ulimit -n\)$").group(1))
         self.assertEqual(limit, self.FILES // 2)
         wires = [self.connect(self.port) for _ in range(limit)]
@@ -83,7 +83,7 @@ class Files(unittest.TestCase):
         self.check_health()
         self.assertTrue(ask(wires[0], b"load beamfall").startswith(b"ok "))
 
-    def test_health_is_told_where_no_file_is_left(self):
+    def test_health_is_reported_where_no_file_is_left(self):
         for _ in range(2 * self.FILES):
             self.connect(self.port)
         for _ in range(3):

@@ -5,7 +5,7 @@
 using namespace racebeam;
 using namespace std::chrono_literals;
 
-TEST_CASE("Memory goes back to the system once many sessions have ended, and none ends any more") {
+TEST_CASE("Memory goes back to the system once many sessions have ended, and no session ends any more") {
   HeapKeeper keeper;
   auto now = HeapKeeper::Clock::now();
   const auto look = [&](std::int64_t sessions, std::chrono::milliseconds later) {

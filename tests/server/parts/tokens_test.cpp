@@ -48,7 +48,7 @@ TEST_CASE("The ends of lines and blanks after a token do not belong to it") {
   }
 }
 
-TEST_CASE("Empty lines and comments are no tokens") {
+TEST_CASE("Empty lines and comments are not tokens") {
   const Scratch folder;
   const std::string comment = "#" + kShort;
   const Tokens tokens(folder.write("tokens", comment + "\n\n\r\n  \n" + kShort + "\n"));

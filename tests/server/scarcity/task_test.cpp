@@ -41,7 +41,7 @@ namespace {
 struct Pair {
   Pair() { net::local::connect_pair(one, other); }
 
-  // As a loop of the server. Returns how many exceptions have left a handler.
+  // Runs as a loop of the server does. Returns how many exceptions have left a handler.
   int run() {
     int failures = 0;
     for (bool more = true; more;) {

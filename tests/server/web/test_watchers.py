@@ -100,7 +100,7 @@ class Watchers(unittest.TestCase):
         return agent
 
     def check_not_held_up(self, agent, alone):
-        """For a second. `alone`: how long an act takes that nobody watches."""
+        """Plays for a second. `alone`: how long an act takes that nobody watches."""
         usual, slowest = agent.measure(1)
         self.assertLess(usual, 2 * alone + 0.002)
         self.assertLess(slowest, LONGEST)

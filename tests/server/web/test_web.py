@@ -99,7 +99,7 @@ class Conversation(Case):
         self.assertEqual(wire.end(), (b"error stopping the server stops", 1001))
         self.assertEqual(self.server.wait(), 0)
 
-    def test_idle_sessions_are_told_and_closed(self):
+    def test_idle_sessions_get_an_error_and_are_closed(self):
         self.start("--idle", "1")
         self.assertEqual(self.connect().end(), (b"error idle nothing came or went for 1 seconds", 1008))
 

@@ -29,7 +29,7 @@ using wire::Cost;
 using wire::Job;
 using wire::Lines;
 
-// The same session without a wire.
+// Times the same session without a wire.
 Cost in_process(const Job& job) {
   wire::LocalSession session(job);
   const wire::Meter meter(::getpid());
