@@ -169,7 +169,7 @@ void Console::restore_pictures(const FrameBuffers& pictures) {
   impl_->take(pictures);
 }
 
-std::shared_ptr<const FrameBuffer> Console::drawn(std::shared_ptr<FrameBuffer> picture) const {
+std::shared_ptr<const FrameBuffer> Console::with_pixels(std::shared_ptr<FrameBuffer> picture) const {
   impl_->draw_now(picture);
   return picture;
 }

@@ -78,7 +78,7 @@ class Console {
   void rest();
 
   // A picture of a saved state with its pixels: the same buffer, or a drawn copy.
-  std::shared_ptr<const FrameBuffer> drawn(std::shared_ptr<FrameBuffer> picture) const;
+  std::shared_ptr<const FrameBuffer> with_pixels(std::shared_ptr<FrameBuffer> picture) const;
 
   // Cycles that the translator has left to the interpreter, those of repeated steps included. 0 without it.
   std::int64_t interpreted_cycles() const;

@@ -44,7 +44,7 @@ void Console::Impl::run_frame(bool draw) {
     start = frame_start();
     draw_now(pictures.current);
     run_step(canvas(), start, RenderMode::kDrawn);
-    latches.sought |= board.tia.asked();
+    latches.sought |= board.tia.latches_read();
     note_latches(start, kAllPairs);
   }
   if (!frame.open) {
@@ -124,7 +124,7 @@ void Console::Impl::draw_now(std::shared_ptr<FrameBuffer>& picture) {
 
 // Whether the step read latches that were not computed. It must then be run again, from `start`.
 bool Console::Impl::reads_unknown_latches(FrameStart& start, bool drew) {
-  const Collisions unsought = board.tia.asked() & ~latches.sought;
+  const Collisions unsought = board.tia.latches_read() & ~latches.sought;
   if (unsought == 0) return false;
   latches.sought |= unsought;
   if (drew && (latches.unknown & unsought) == 0) return false;

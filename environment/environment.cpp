@@ -218,8 +218,9 @@ const Game& Environment::game() const { return *impl_->game; }
 const Image& Environment::image() const { return *impl_->image; }
 const Settings& Environment::settings() const { return impl_->settings; }
 
-std::shared_ptr<const FrameBuffer> Environment::drawn(const std::shared_ptr<FrameBuffer>& picture) const {
-  return impl_->console.drawn(picture);
+std::shared_ptr<const FrameBuffer> Environment::with_pixels(
+    const std::shared_ptr<FrameBuffer>& picture) const {
+  return impl_->console.with_pixels(picture);
 }
 
 std::shared_ptr<const Environment::Saved> Environment::save(bool with_random) const {

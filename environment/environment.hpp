@@ -133,7 +133,7 @@ class Environment {
   std::shared_ptr<const Saved> save_without_pictures() const;
 
   // Returns a picture of a state of this image and game, drawn if it was deferred.
-  std::shared_ptr<const FrameBuffer> drawn(const std::shared_ptr<FrameBuffer>& picture) const;
+  std::shared_ptr<const FrameBuffer> with_pixels(const std::shared_ptr<FrameBuffer>& picture) const;
   void restore(const Saved& saved);
 
   // For planners, which reach the same state in different ways. Two environments with the same image, game

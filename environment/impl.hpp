@@ -57,8 +57,8 @@ struct Environment::Impl {
   bool blend_is_due = true;
 
   // act.cpp
-  int act(const Presses& asked) { return act(asked, frames_of_act()); }
-  int act(const Presses& asked, int frames);
+  int act(const Presses& presses) { return act(presses, frames_of_act()); }
+  int act(const Presses& presses, int frames);
   int frames_of_act();
   void run_frame(const Presses& presses, bool draw);  // and the rule after it
   void step_console(bool draw);                       // without the rule

@@ -68,7 +68,7 @@ std::shared_ptr<const Game> with_properties_of(const Image& image, std::shared_p
   return std::make_shared<const Game>(with_image(*game, {image.md5, properties, false}));
 }
 
-Recognition given(const std::shared_ptr<const Game>& game, RecognisedBy how, const Image& image) {
+Recognition recognition_of(const std::shared_ptr<const Game>& game, RecognisedBy how, const Image& image) {
   return {with_properties_of(image, game), how, game->accepts(image.md5)};
 }
 
@@ -145,7 +145,7 @@ Recognition recognise_among(const Image& image, const std::vector<std::shared_pt
   auto found = std::ranges::find_if(own, lists_it);
   if (found == own.end())
     found = std::ranges::find(own, image.stem, [](const auto& game) { return game->name; });
-  return found != own.end() ? given(*found, RecognisedBy::kGivenFile, image) : recognise(image);
+  return found != own.end() ? recognition_of(*found, RecognisedBy::kGivenFile, image) : recognise(image);
 }
 
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name,
@@ -153,25 +153,25 @@ Recognition recognise(const Image& image, const std::optional<std::string>& game
   if (game_name && game_file) throw InvalidInput("give the name of a game or a game file, not both");
   if (game_file && std::filesystem::is_directory(*game_file))
     return recognise_among(image, load_game_folder(*game_file));
-  if (game_file) return given(load_game_file(*game_file), RecognisedBy::kGivenFile, image);
+  if (game_file) return recognition_of(load_game_file(*game_file), RecognisedBy::kGivenFile, image);
   if (game_name) {
     auto game = find_game(*game_name);
     if (!game) refuse_name(*game_name);
     return recognise_as(image, game);
   }
   if (auto game = find_game_by_md5(image.md5)) return {std::move(game), RecognisedBy::kMd5, true};
-  if (auto game = find_game(image.stem)) return given(game, RecognisedBy::kFileName, image);
+  if (auto game = find_game(image.stem)) return recognition_of(game, RecognisedBy::kFileName, image);
   return unknown(image);
 }
 
 Recognition recognise_as(const Image& image, const std::shared_ptr<const Game>& game) {
-  return given(game, RecognisedBy::kGivenName, image);
+  return recognition_of(game, RecognisedBy::kGivenName, image);
 }
 
 std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const Image& image,
-                                       const GivenProperties& given) {
-  if (given.empty()) return game;
-  const Properties properties = given.in(game->properties_for(image.md5));
+                                       const GivenProperties& choices) {
+  if (choices.empty()) return game;
+  const Properties properties = choices.in(game->properties_for(image.md5));
   return std::make_shared<const Game>(with_image(*game, {image.md5, properties, game->accepts(image.md5)}));
 }
 

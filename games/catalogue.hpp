@@ -69,7 +69,7 @@ Recognition recognise_as(const Image& image, const std::shared_ptr<const Game>& 
 // The game with what the user says about the console of this image. Throws InvalidInput if the picture does
 // not fit.
 std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const Image& image,
-                                       const GivenProperties& given);
+                                       const GivenProperties& choices);
 
 // Warns that a game's rule was written for another image than this one. Empty if it was not.
 std::string doubt_about(const Game& game, const Image& image);

@@ -64,7 +64,7 @@ class Gif final : public Media {
   // Rounded so that errors do not add up.
   std::size_t delay() {
     const auto time = [this](int frames) { return (frames * kEvery * 100 + rate_ / 2) / rate_; };
-    const int number = shown_++;
+    const int number = number_++;
     return static_cast<std::size_t>(time(number + 1) - time(number));
   }
 
@@ -73,7 +73,7 @@ class Gif final : public Media {
   int rate_;
   Lzw lzw_;
   Bytes wide_, block_;
-  int frames_ = 0, shown_ = 0;
+  int frames_ = 0, number_ = 0;
 };
 
 }  // namespace

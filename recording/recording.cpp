@@ -71,7 +71,7 @@ void Recording::begin() { post(&Recording::open); }
 bool Recording::is_behind() const {
   const std::lock_guard lock(mutex_);
   if (ended_) return false;
-  return !begun_ || finishing_ || (!cut_ && waiting_ == queue_.size());
+  return !has_begun_ || finishing_ || (!cut_ && waiting_ == queue_.size());
 }
 
 bool Recording::is_over() const {
@@ -122,7 +122,7 @@ void Recording::open() {
     if (*given_up_) throw std::runtime_error(kStopping);
     for (const MediaKind kind : order_.kinds)
       media_.push_back(make_media(kind, order_.folder, order_.name, order_.footage, budget_));
-    change([this] { begun_ = true; });
+    change([this] { has_begun_ = true; });
   } catch (const std::exception& error) {
     result_.failure = error.what();
     end();

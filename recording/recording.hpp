@@ -111,7 +111,7 @@ class Recording : public std::enable_shared_from_this<Recording> {
 
   mutable std::mutex mutex_;
   std::size_t waiting_ = 0;  // frames in the queue
-  bool begun_ = false, finishing_ = false, ended_ = false;
+  bool has_begun_ = false, finishing_ = false, ended_ = false;
   std::optional<Cut> cut_;
 };
 

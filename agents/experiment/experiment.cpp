@@ -138,9 +138,9 @@ void remove_work(const ResultsFolder& folder) {
 
 std::string table_of_agents(const std::vector<Unit>& units) {
   std::string table = line_of(kAgentColumns);
-  std::set<std::string_view> seen;
+  std::set<std::string_view> names;
   for (const Unit& unit : units)
-    if (seen.insert(unit.agent_name).second)
+    if (names.insert(unit.agent_name).second)
       ((table += unit.agent_name + ',') += name_of(unit.agent->kind->role)) += '\n';
   return table;
 }

@@ -73,7 +73,7 @@ class Subcommand {
   // An option whose values have names.
   template <typename Value>
   Option choice(const std::string& name, Value& value, const std::map<std::string, Value>& choices,
-                const std::string& usual, const std::string& help);
+                const std::string& default_value, const std::string& help);
 
   Option find(const std::string& name);
 
@@ -92,13 +92,13 @@ class Subcommand {
 
 template <typename Value>
 Option Subcommand::choice(const std::string& name, Value& value, const std::map<std::string, Value>& choices,
-                          const std::string& usual, const std::string& help) {
+                          const std::string& default_value, const std::string& help) {
   std::vector<std::string> names;
   for (const auto& [word, ignored] : choices) names.push_back(word);
   const std::function<void(const std::string&)> set = [&value, choices](const std::string& word) {
     value = choices.at(word);
   };
-  return option(name, set, help).check(one_of(names)).default_text(usual).value_name("NAME");
+  return option(name, set, help).check(one_of(names)).default_text(default_value).value_name("NAME");
 }
 
 }  // namespace racebeam

@@ -70,16 +70,16 @@ Display::Display(Graphics preference)
 // Answers that come later would be read by the next program.
 Display::~Display() {
   try {
-    while (under_way_ > 0 && Clock::now() < shown_ + kPatience) wait(shown_ + kPatience);
+    while (under_way_ > 0 && Clock::now() < last_time_ + kPatience) wait(last_time_ + kPatience);
   } catch (const std::exception&) {  // the terminal is gone
   }
 }
 
 bool Display::is_ready() {
   const auto now = Clock::now();
-  if (now > shown_ + kLost) under_way_ = 0;
+  if (now > last_time_ + kLost) under_way_ = 0;
   if (!tty_.is_idle()) return false;
-  return abilities_.answers ? under_way_ < kMostUnderWay : now >= shown_ + kUnanswered;
+  return abilities_.answers ? under_way_ < kMostUnderWay : now >= last_time_ + kUnanswered;
 }
 
 void Display::show(const TerminalPicture* picture, const std::string& line) {
@@ -99,7 +99,7 @@ void Display::show(const TerminalPicture* picture, const std::string& line) {
     text.append(kAskArrival);
     ++under_way_;
   }
-  shown_ = Clock::now();
+  last_time_ = Clock::now();
   tty_.write(text);
 }
 

@@ -55,7 +55,7 @@ class Display {
   InputParser parser_;
   Room room_{.columns = 0, .rows = 0};  // for which the picture was drawn
   int under_way_ = 0;                   // pictures whose arrival the terminal has not confirmed
-  Time shown_{};                        // when the last one was written
+  Time last_time_{};                    // when the last one was written
 };
 
 }  // namespace racebeam

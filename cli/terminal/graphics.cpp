@@ -33,8 +33,8 @@ std::string Painter::paint(const TerminalPicture& picture, const Room& room) {
     case Graphics::kSixel: return kHome + sixel(picture, room);
     default: {
       Cells now = cells_of(picture, room);
-      std::string text = as_changes(shown_, now);
-      shown_ = std::move(now);
+      std::string text = as_changes(last_cells_, now);
+      last_cells_ = std::move(now);
       return text;
     }
   }

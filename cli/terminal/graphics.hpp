@@ -24,11 +24,11 @@ class Painter {
   explicit Painter(Graphics graphics) : graphics_(graphics) {}
 
   std::string paint(const TerminalPicture& picture, const Room& room);
-  void forget() { shown_ = {}; }  // the terminal was cleared
+  void forget() { last_cells_ = {}; }  // the terminal was cleared
 
  private:
   Graphics graphics_;
-  Cells shown_;  // as blocks
+  Cells last_cells_;  // as blocks
 };
 
 }  // namespace racebeam

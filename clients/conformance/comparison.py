@@ -23,11 +23,11 @@ def steps(names, offers):
     """The lines of the files `names`, without the sections that need what a client does not offer."""
     kept = []
     for name in names:
-        wanted = True
+        is_offered = True
         for line in (STEPS / name).read_text().splitlines(keepends=True):
             if found := SECTION.match(line):
-                wanted = set((found[3] or "").split()) <= set(offers)
-            if wanted:
+                is_offered = set((found[3] or "").split()) <= set(offers)
+            if is_offered:
                 kept.append(line)
     return kept
 
@@ -79,14 +79,14 @@ def alike(names):
 def differences(printed, names, reference, offers):
     """A sentence for each section that is not as the reference's, or not as the section that it is like."""
     own, others = sections(printed), sections(reference)
-    wanted = section_names(names, offers)
+    sections_of_client = section_names(names, offers)
     wrong = [
         difference(name, own.get(name, []), others[name])
         for name in others
-        if name in wanted and own.get(name) != others[name]
+        if name in sections_of_client and own.get(name) != others[name]
     ]
     for name, other in alike(names):
-        if name not in wanted:
+        if name not in sections_of_client:
             continue
         pair = [
             [line for line in own.get(section, []) if not line.startswith("ok fields=")] for section in (name, other)

@@ -55,13 +55,13 @@ def used(steps, printed):
     fields = list(
         itertools.chain.from_iterable(words[1:] for words in requests if words and words[0] in ("observe", "look"))
     )
-    shown = {key for line in printed for key in re.findall(r" (\w+)=", line)}
+    keys = {key for line in printed for key in re.findall(r" (\w+)=", line)}
     return {
         "command": {words[0] for words in requests if words},
         "setting": {key for key, _ in pairs},
         "preset": {value for key, value in pairs if key == "preset"},
         "choice of open": {f"{key}={value}" for key, value in pairs},
-        "field": {kind_of_size(field) for field in shown},
+        "field": {kind_of_size(field) for field in keys},
         "encoding": {field.partition(":")[2] for field in fields},
         "error code": {line.split()[1] for line in printed if line.startswith("error ")},
     }
@@ -81,7 +81,7 @@ def undescribed(printed):
     known = {row.name for table in (protocol.fields, protocol.settings) for row in table}
     for command in protocol.commands:
         known |= {key.removesuffix("?") for key in (*command.reply, *command.groups)}
-    shown = {
+    keys = {
         key.removeprefix("final_") for line in printed if line.startswith("ok ") for key in re.findall(r" (\w+)=", line)
     }
-    return sorted(key for key in shown if kind_of_size(key) not in known and not re.fullmatch(r"grey84(x\d+)?", key))
+    return sorted(key for key in keys if kind_of_size(key) not in known and not re.fullmatch(r"grey84(x\d+)?", key))

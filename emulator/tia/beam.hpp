@@ -95,9 +95,9 @@ class Beam {
   void forget_lines() { lines_.drop(); }
 
   // For the cursor's row and those after it.
-  const LineNumber* shown() const { return &picture_->shows(row()); }
-  [[gnu::noinline]] bool can_copy(const LineNumber* shown, LineNumber line) {
-    return picture_->copy_row(other_, static_cast<std::size_t>(shown - &picture_->shows(0)), line);
+  const LineNumber* row_lines() const { return &picture_->shows(row()); }
+  [[gnu::noinline]] bool can_copy(const LineNumber* lines, LineNumber line) {
+    return picture_->copy_row(other_, static_cast<std::size_t>(lines - &picture_->shows(0)), line);
   }
 
   // Records that the row before the cursor's shows this line.

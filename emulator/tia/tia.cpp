@@ -70,7 +70,7 @@ void Tia::begin_frame() {
 void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, RenderMode mode,
                      Collisions sought) {
   beam_.aim(picture, other, mode, sought);
-  asked_ = 0;
+  latches_read_ = 0;
   watches_ = beam_.may_meet() || tia_.cosmic;
   log_ = &log;
   played_ = log.next;
@@ -79,8 +79,8 @@ void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& l
 }
 
 // The word behind the last write tells the cycle before which there is no other. On the line of that cycle,
-// only writes that affect the latches `asked` need be played. Returns false if that line was left.
-bool Tia::play_log(std::int32_t cycle, Collisions asked) {
+// only writes that affect the `latches` need be played. Returns false if that line was left.
+bool Tia::play_log(std::int32_t cycle, Collisions latches) {
   const bool empty = log_->size() == 0;
   if (empty && cycle < log_->base) return true;
   const std::int32_t last = empty ? 0 : TiaWrite(log_->next[-1]).cycle();
@@ -88,7 +88,7 @@ bool Tia::play_log(std::int32_t cycle, Collisions asked) {
   if (!beam_.draws_pixels()) return follow_log();
   for (;;) {
     skip(end_of_unseen());
-    if (at_line() && take_lines(asked)) return false;
+    if (at_line() && take_lines(latches)) return false;
     if (played_ == log_->next) return true;
     play(played_ + 1);
   }
@@ -116,9 +116,9 @@ void Tia::catch_up(std::int32_t cycle) {
   if (!beam_.draws_pixels()) tia_.enabled = enabled_objects(tia_);
 }
 
-void Tia::find_collisions(std::int32_t cycle, Collisions asked) {
-  asked_ |= asked;
-  if (!play_log(cycle, asked)) return;
+void Tia::find_collisions(std::int32_t cycle, Collisions latches) {
+  latches_read_ |= latches;
+  if (!play_log(cycle, latches)) return;
   if (!beam_.draws_pixels()) return touch(cycle);
   RenderPolicy{beam_, reached_}.collide_to(3 * cycle);
 }
@@ -180,12 +180,12 @@ bool Tia::at_line() const {
 
 // Takes line after line as a whole: recalled if it exists, else drawn and recorded. Returns true if nothing
 // more need be played.
-bool Tia::take_lines(Collisions asked) {
+bool Tia::take_lines(Collisions latches) {
   std::uint32_t origin = line_origin();
   while (beam_.line_can_end()) {
     if (beam_.at_line_start() && recorded_ == nullptr) {
       if (reached_ > tia_.cursor) return false;
-      if (recall_lines(origin, asked)) return true;
+      if (recall_lines(origin, latches)) return true;
       if (!beam_.line_can_end()) return false;
     }
     if (!draw_line(origin)) return false;
@@ -194,23 +194,23 @@ bool Tia::take_lines(Collisions asked) {
   return false;
 }
 
-// Whether the latches `asked` have the same values at the end of the writes as at the beginning of their
+// Whether the `latches` have the same values at the end of the writes as at the beginning of their
 // line. The record's line begins with the same registers.
-bool Tia::keeps_latches(const LineRecord& record, std::uint32_t origin, Collisions asked) const {
+bool Tia::keeps_latches(const LineRecord& record, std::uint32_t origin, Collisions latches) const {
   const Collisions met = record.meetings | record.cleared;
-  if (record.number == kNoLine || (met & asked & ~tia_.collisions) != 0) return false;
+  if (record.number == kNoLine || (met & latches & ~tia_.collisions) != 0) return false;
   if ((record.view.seen & kClears) != 0 && has_clear(played_, log_->next)) return false;
   return begins_the_same(played_, log_->next, origin, record);
 }
 
 // Recalls lines that start with the same relevant registers and have the same writes as when these rows were
 // last drawn. Returns true if it stops at a line whose writes are not complete, but equal so far, and leave
-// the asked latches as they are.
-bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
+// these latches as they are.
+bool Tia::recall_lines(std::uint32_t& origin, Collisions latches) {
   if (recorded_ != nullptr || !beam_.has_record()) return false;
   RegisterVectors registers(tia_);
   std::int32_t cursor = tia_.cursor;
-  const LineNumber* lines = beam_.shown();
+  const LineNumber* lines = beam_.row_lines();
   LineRecord* const first = &beam_.record();
   LineRecord* const last = first + std::min(beam_.lines_to_end(), beam_.rows_to_end_of_records());
   LineRecord* record = first;
@@ -218,8 +218,8 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   for (; record != last; ++record, ++lines, origin += kLineOfWrites, cursor += kLineClocks) {
     const Likeness likeness = compare(registers, played_, origin, *record);
     if (likeness < Likeness::kLooks || (*lines != record->number && !beam_.can_copy(lines, record->number))) {
-      enough =
-          likeness == Likeness::kBegins && asked != kWholePicture && keeps_latches(*record, origin, asked);
+      enough = likeness == Likeness::kBegins && latches != kWholePicture &&
+               keeps_latches(*record, origin, latches);
       break;
     }
     const std::uint32_t* next = played_ + record->count;

@@ -26,8 +26,8 @@ class Tia {
   void empty_log(std::int32_t cycle);  // the same, and empties the log, whose cycles then count from `cycle`
   void touch(std::int32_t cycle);      // an access that changes no register: draws up to it
   void catch_up(std::int32_t cycle);   // plays all writes, and draws up to `cycle`
-  void find_collisions(std::int32_t cycle, Collisions asked);   // computes these latches as of `cycle`
-  Collisions asked() const { return asked_; }                   // latches that have been read in this step
+  void find_collisions(std::int32_t cycle, Collisions latches);  // computes these latches as of `cycle`
+  Collisions latches_read() const { return latches_read_; }      // latches that have been read in this step
   bool cleared() const { return beam_.cleared(); }              // whether all latches have been, in this step
   bool drew_all() const { return tia_.cursor >= beam_.end(); }  // whether the window is complete
   // catch_up() at the end of a picture. Returns false if an access that is not in the log may have left
@@ -41,18 +41,18 @@ class Tia {
   void grey(FrameBuffer& picture, std::int32_t cycle) const;
 
  private:
-  static constexpr Collisions kWholePicture = 0xFFFF;  // a value of `asked`: more than collisions
+  static constexpr Collisions kWholePicture = 0xFFFF;  // a value of `latches`: more than collisions
 
-  bool play_log(std::int32_t cycle, Collisions asked);
+  bool play_log(std::int32_t cycle, Collisions latches);
   bool follow_log();
   void play(const std::uint32_t* next);
   void skip(const std::uint32_t* next);
   const std::uint32_t* end_of_unseen() const;
   bool at_line() const;
   std::uint32_t line_origin() const;
-  bool take_lines(Collisions asked);
-  bool keeps_latches(const LineRecord& record, std::uint32_t origin, Collisions asked) const;
-  bool recall_lines(std::uint32_t& origin, Collisions asked);
+  bool take_lines(Collisions latches);
+  bool keeps_latches(const LineRecord& record, std::uint32_t origin, Collisions latches) const;
+  bool recall_lines(std::uint32_t& origin, Collisions latches);
   void play_recalled(const std::uint32_t* next, LineRecord& record);
   bool draw_line(std::uint32_t origin);
   bool record_writes(std::uint32_t origin);
@@ -65,7 +65,7 @@ class Tia {
   WriteLog* log_ = nullptr;
   const std::uint32_t* played_ = nullptr;  // entries up to here have been played
   LineRecord* recorded_ = nullptr;         // the cursor's line, as far as it has been drawn
-  Collisions asked_ = 0;
+  Collisions latches_read_ = 0;
   bool watches_ = false;  // objects of a sought pair may meet, in a step without pixels
   // The clock that the reference's beam has reached; ours may be behind, with the same registers.
   std::int32_t reached_ = 0;

@@ -27,19 +27,19 @@ LegalActions::LegalActions(const std::vector<int>& legal, bool paddles) : paddle
   for (const int action : legal) legal_ |= 1u << action;
 }
 
-void LegalActions::check(const Presses& asked) const {
-  if (!std::isfinite(asked.a.strength) || !std::isfinite(asked.b.strength)) {
+void LegalActions::check(const Presses& presses) const {
+  if (!std::isfinite(presses.a.strength) || !std::isfinite(presses.b.strength)) {
     throw std::invalid_argument("a paddle's strength must be a finite number");
   }
   if (paddles_) return;
-  if (replace_a(asked.a.action) >= 18) {
+  if (replace_a(presses.a.action) >= 18) {
     throw std::invalid_argument(
-        "action " + std::to_string(asked.a.action) +
+        "action " + std::to_string(presses.a.action) +
         " of player A is out of range; accepted: 0 to 17, and 40 which presses nothing");
   }
-  if (replace_b(asked.b.action) >= 36) {
+  if (replace_b(presses.b.action) >= 36) {
     throw std::invalid_argument(
-        "action " + std::to_string(asked.b.action) +
+        "action " + std::to_string(presses.b.action) +
         " of player B is out of range; accepted: 18 to 35, and 40 which presses nothing");
   }
 }

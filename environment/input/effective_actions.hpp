@@ -29,9 +29,9 @@ class Sticky {
   explicit Sticky(float p) : threshold_(sticky_threshold(p)) {}
 
   // Makes two draws, A's first, whatever p is.
-  void draw(MersenneTwister& random, const Presses& asked, Presses& held) const {
-    if (random() >= threshold_) held.a = asked.a;
-    if (random() >= threshold_) held.b = asked.b;
+  void draw(MersenneTwister& random, const Presses& presses, Presses& held) const {
+    if (random() >= threshold_) held.a = presses.a;
+    if (random() >= threshold_) held.b = presses.b;
   }
 
  private:
@@ -45,7 +45,7 @@ class LegalActions {
 
   // Throws std::invalid_argument for actions that would abort the reference's process. With paddles, any
   // number is accepted.
-  void check(const Presses& asked) const;
+  void check(const Presses& presses) const;
 
   // Replaces illegal actions, and RESET, by NOOP.
   Presses replace(const Presses& held) const {

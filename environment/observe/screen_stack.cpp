@@ -45,7 +45,7 @@ ScreenStack::ScreenStack(const StackSettings& settings, const Environment& envir
   sources_.resize(static_cast<std::size_t>(rows));
   stale_.resize(sources_.size());
   changed_.resize(sources_.size(), 1);
-  wanted_.resize(static_cast<std::size_t>(height));
+  due_rows_.resize(static_cast<std::size_t>(height));
   if (brightness_.size() > 1) reduced_.resize(reduced);
   screens_.resize(screen_size_ * static_cast<std::size_t>(depth()));
 }
@@ -102,7 +102,7 @@ void ScreenStack::reduce(std::size_t channel, std::span<std::uint8_t> to) {
   if (resize_ == nullptr) {
     std::ranges::copy(plane(channel), to.begin());
   } else if (const auto* const area = std::get_if<AreaResize>(resize_)) {
-    (*area)(plane(channel), to, wanted_);
+    (*area)(plane(channel), to, due_rows_);
   } else {
     std::get<Enlargement> (*resize_)(plane(channel), to);
   }
@@ -110,9 +110,9 @@ void ScreenStack::reduce(std::size_t channel, std::span<std::uint8_t> to) {
 
 void ScreenStack::find_wanted() {
   if (const auto* const area = resize_ != nullptr ? std::get_if<AreaResize>(resize_) : nullptr)
-    return area->depending(changed_, wanted_);
+    return area->depending(changed_, due_rows_);
   const bool changed = std::ranges::find(changed_, 1) != changed_.end();
-  std::ranges::fill(wanted_, static_cast<std::uint8_t>(changed));
+  std::ranges::fill(due_rows_, static_cast<std::uint8_t>(changed));
 }
 
 void ScreenStack::push() {
@@ -120,11 +120,11 @@ void ScreenStack::push() {
   if (++newest_ == static_cast<std::size_t>(depth())) newest_ = 0;
   find_wanted();
   std::ranges::fill(changed_, std::uint8_t{0});
-  if (std::ranges::find(wanted_, 1) != wanted_.end()) make_newest();
+  if (std::ranges::find(due_rows_, 1) != due_rows_.end()) make_newest();
   if (depth() == 1) return;
-  const std::size_t row = screen_size_ / wanted_.size();
-  for (std::size_t y = 0; y < wanted_.size(); ++y) {
-    if (wanted_[y] == 0) std::ranges::copy(before.subspan(y * row, row), &newest()[y * row]);
+  const std::size_t row = screen_size_ / due_rows_.size();
+  for (std::size_t y = 0; y < due_rows_.size(); ++y) {
+    if (due_rows_[y] == 0) std::ranges::copy(before.subspan(y * row, row), &newest()[y * row]);
   }
 }
 
@@ -132,9 +132,9 @@ void ScreenStack::make_newest() {
   if (brightness_.size() == 1) return reduce(0, newest());
   for (std::size_t channel = 0; channel < brightness_.size(); ++channel) {
     reduce(channel, reduced_);
-    const std::size_t width = reduced_.size() / wanted_.size();
+    const std::size_t width = reduced_.size() / due_rows_.size();
     for (std::size_t at = 0; at < reduced_.size(); ++at) {
-      if (wanted_[at / width] != 0) newest()[at * brightness_.size() + channel] = reduced_[at];
+      if (due_rows_[at / width] != 0) newest()[at * brightness_.size() + channel] = reduced_[at];
     }
   }
 }

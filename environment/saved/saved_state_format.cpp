@@ -92,8 +92,8 @@ std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved, const Enviro
   append(bytes, prefix);
   append(bytes, saved.values);
   bytes.insert(bytes.end(), saved.cartridge_ram.begin(), saved.cartridge_ram.end());
-  append_pixels(bytes, *environment.drawn(saved.pictures.current), prefix.picture_size());
-  append_pixels(bytes, *environment.drawn(saved.pictures.previous), prefix.picture_size());
+  append_pixels(bytes, *environment.with_pixels(saved.pictures.current), prefix.picture_size());
+  append_pixels(bytes, *environment.with_pixels(saved.pictures.previous), prefix.picture_size());
   if (saved.random) append(bytes, words_of(*saved.random));
 
   Header header{{},

@@ -114,7 +114,7 @@ struct Batch::Impl final : VectorHost {
     if (out != nullptr) return layout.write_final(slot, number, *out);
     finals[number].keep(layout, slot);
   }
-  void shown(std::size_t number, const Slot& slot) override {
+  void show(std::size_t number, const Slot& slot) override {
     if (out != nullptr) layout.write(slot, number, number, *out);
   }
 

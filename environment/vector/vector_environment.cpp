@@ -24,7 +24,7 @@ VectorEnvironment::VectorEnvironment(std::span<const Cartridge> cartridges, cons
     slots_[number] =
         std::make_unique<Slot>(cartridges[number], settings_of(settings, number), host_.pace(number));
     host_.opened(number, *slots_[number]);
-    host_.shown(number, *slots_[number]);
+    host_.show(number, *slots_[number]);
   });
 }
 
@@ -53,7 +53,7 @@ void VectorEnvironment::reset(std::span<const std::uint8_t> chosen, std::span<co
   run([&](std::size_t number) {
     if (chosen.empty() || chosen[number] != 0) return reset_one(number, seeds.empty() ? -1 : seeds[number]);
     slots_[number]->begin_request();
-    host_.shown(number, *slots_[number]);
+    host_.show(number, *slots_[number]);
   });
 }
 
@@ -73,14 +73,14 @@ void VectorEnvironment::step_one(std::size_t number, const Act& act) {
       slot.set_outcome(outcome);
     }
   }
-  host_.shown(number, slot);
+  host_.show(number, slot);
 }
 
 void VectorEnvironment::reset_one(std::size_t number, std::int64_t seed) {
   Slot& slot = *slots_[number];
   slot.begin_request();
   slot.reset(seed_of(seed));
-  host_.shown(number, slot);
+  host_.show(number, slot);
 }
 
 }  // namespace racebeam

@@ -37,7 +37,7 @@ class VectorHost {
   // Called from within a machine's task. What they throw is the failure of that machine.
   virtual void opened(std::size_t number, Slot& slot) = 0;       // after it was made
   virtual void ended(std::size_t number, const Slot& slot) = 0;  // Autoreset::kSameStep: before its reset
-  virtual void shown(std::size_t number, const Slot& slot) = 0;  // at the end of each request
+  virtual void show(std::size_t number, const Slot& slot) = 0;   // at the end of each request
 };
 
 class VectorEnvironment {

@@ -74,19 +74,19 @@ void Context::run_parallel(std::size_t count, const std::function<void(std::size
 void Context::publish() {
   const Slot& slot = game.loaded->slot();
   const Environment& machine = slot.environment();
-  Snapshot shown;
-  shown.game = machine.game().name;
-  shown.format = machine.format();
-  shown.frame = machine.frame_number();
-  shown.episode = game.episode;
-  shown.score = slot.score();
-  shown.reward = slot.outcome().reward;
-  shown.lives = machine.lives();
-  shown.action = game.last_action;
-  shown.over = slot.finished();
-  shown.screen.assign(machine.screen().begin(), machine.screen().end());
-  std::ranges::copy(machine.ram(), shown.ram.begin());
-  sharing->share().publish(std::move(shown), statistics.frames);
+  Snapshot snapshot;
+  snapshot.game = machine.game().name;
+  snapshot.format = machine.format();
+  snapshot.frame = machine.frame_number();
+  snapshot.episode = game.episode;
+  snapshot.score = slot.score();
+  snapshot.reward = slot.outcome().reward;
+  snapshot.lives = machine.lives();
+  snapshot.action = game.last_action;
+  snapshot.over = slot.finished();
+  snapshot.screen.assign(machine.screen().begin(), machine.screen().end());
+  std::ranges::copy(machine.ram(), snapshot.ram.begin());
+  sharing->share().publish(std::move(snapshot), statistics.frames);
 }
 
 void Context::rest() {

@@ -16,7 +16,7 @@ void MachineMemory::rest(Slot& slot) {
 
 std::size_t MachineMemory::held(const Slot& slot) const {
   const auto rows = static_cast<std::size_t>(slot.environment().height());
-  const bool played = frame_of(slot) != begun_;
+  const bool played = frame_of(slot) != first_frame_;
   const bool rested = frame_of(slot) == rested_;
   const std::size_t pictures =
       played ? (slot.environment().drawing() == Drawing::kNone ? 1 : 2) : (rested ? 0 : 1);

@@ -13,7 +13,7 @@ namespace racebeam {
 
 class MachineMemory {
  public:
-  explicit MachineMemory(const Slot& slot) : begun_(frame_of(slot)) {}
+  explicit MachineMemory(const Slot& slot) : first_frame_(frame_of(slot)) {}
 
   void rest(Slot& slot);                     // releases caches
   std::size_t held(const Slot& slot) const;  // bytes
@@ -23,7 +23,7 @@ class MachineMemory {
  private:
   static int frame_of(const Slot& slot) { return slot.environment().frame_number(); }
 
-  int begun_;                  // the frame when the machine was made
+  int first_frame_;            // the frame when the machine was made
   std::optional<int> rested_;  // that of the last rest
 };
 

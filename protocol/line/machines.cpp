@@ -50,7 +50,7 @@ class Machines::Host final : public VectorHost {
   void ended(std::size_t number, const Slot& slot) override {
     seats_[number]->view->append_final(seats_[number]->text, seats_[number]->raw, slot);
   }
-  void shown(std::size_t number, const Slot& slot) override {
+  void show(std::size_t number, const Slot& slot) override {
     seats_[number]->view->append(seats_[number]->text, seats_[number]->raw, slot);
   }
 

@@ -11,7 +11,7 @@ constexpr auto kBetweenCopies = 1'000'000us / 60;
 constexpr auto kBetweenCounts = 500ms;  // of frames, for fps
 
 std::shared_ptr<const Snapshot> Share::newest() {
-  wanted_.store(true, std::memory_order_relaxed);
+  wants_copies_.store(true, std::memory_order_relaxed);
   const std::lock_guard lock(mutex_);
   return newest_;
 }
@@ -35,7 +35,7 @@ void Share::publish(Snapshot snapshot, std::int64_t frames) {
   snapshot.fps = fps_;
   snapshot.when = now;
   next_ = now + kBetweenCopies;
-  wanted_.store(false, std::memory_order_relaxed);
+  wants_copies_.store(false, std::memory_order_relaxed);
   auto newest = std::make_shared<const Snapshot>(std::move(snapshot));
   const std::lock_guard lock(mutex_);
   newest_.swap(newest);

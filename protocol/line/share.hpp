@@ -69,7 +69,7 @@ class Share {
   static std::unique_ptr<Place> place(const std::shared_ptr<Share>& share);
 
   // For the session, on its thread.
-  bool is_wanted() const { return wanted_.load(std::memory_order_relaxed); }
+  bool is_wanted() const { return wants_copies_.load(std::memory_order_relaxed); }
   // Whether the last copy is older than the shortest time between two: a sixtieth of a second.
   bool is_due(Snapshot::Clock::time_point now) const { return now >= next_; }
   void publish(Snapshot snapshot, std::int64_t frames);  // frames: that the session has run in all
@@ -78,7 +78,7 @@ class Share {
  private:
   const std::string name_;
   const int most_watchers_;
-  std::atomic<bool> wanted_ = true, ended_ = false;
+  std::atomic<bool> wants_copies_ = true, ended_ = false;
   std::atomic<int> watchers_ = 0;
 
   // The session's thread uses these:

@@ -186,7 +186,7 @@ StreamSession::StreamSession(const Endpoint& endpoint, const Service& service,
 }
 
 StreamSession::~StreamSession() {
-  if (!begun_.test()) halt_.reading = halt_.all = true;
+  if (!has_begun_.test()) halt_.reading = halt_.all = true;
   begin();
   if (thread_.joinable()) thread_.join();
 }
@@ -195,14 +195,14 @@ void StreamSession::start(std::function<void()> ended) {
   on_end_ = std::move(ended);
   Halt::prepare();
   thread_ = std::jthread([this] {
-    begun_.wait(false);
+    has_begun_.wait(false);
     run();
   });
 }
 
 void StreamSession::begin() {
-  begun_.test_and_set();
-  begun_.notify_all();
+  has_begun_.test_and_set();
+  has_begun_.notify_all();
 }
 
 void StreamSession::stop(bool at_once) {

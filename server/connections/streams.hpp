@@ -61,7 +61,7 @@ class StreamSession {
   std::atomic<bool> ended_ = false;
   std::atomic<int> status_ = 0;
   std::function<void()> on_end_;
-  std::atomic_flag begun_;
+  std::atomic_flag has_begun_;
   std::jthread thread_;
 };
 

@@ -75,10 +75,10 @@ spdlog::logger& logger() {
 
 }  // namespace
 
-void set_up_log(LogLevel least, LogFormat wanted) {
-  format = wanted;
+void set_up_log(LogLevel least, LogFormat log_format) {
+  format = log_format;
   logger().set_level(kLevels[static_cast<std::size_t>(least)]);
-  if (wanted == LogFormat::kText) return;
+  if (log_format == LogFormat::kText) return;
   auto in_utc = std::make_unique<spdlog::pattern_formatter>(R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ",%v)",
                                                             spdlog::pattern_time_type::utc);
   logger().set_formatter(std::move(in_utc));

@@ -72,7 +72,7 @@ void LogSink::add(const spdlog::details::log_msg& message) {
 }
 
 void LogSink::lose_oldest() {
-  waiting_.erase(waiting_.begin() + (begun_ ? 1 : 0));
+  waiting_.erase(waiting_.begin() + (has_begun_ ? 1 : 0));
   ++untold_;
   ++lost_;
 }
@@ -86,7 +86,7 @@ void LogSink::tell_of_lost() {
     return;
   }
   untold_ = 0;
-  std::rotate(waiting_.begin() + (begun_ ? 1 : 0), waiting_.end() - 1, waiting_.end());
+  std::rotate(waiting_.begin() + (has_begun_ ? 1 : 0), waiting_.end() - 1, waiting_.end());
 }
 
 void LogSink::flush_() {
@@ -125,9 +125,9 @@ bool LogSink::has_room() const {
 bool LogSink::write(std::string& line) {
   const ssize_t count = write_some(line);
   if (count < 0) return errno != EAGAIN && errno != EINTR;
-  begun_ = static_cast<std::size_t>(count) < line.size();
-  if (begun_) line.erase(0, static_cast<std::size_t>(count));
-  return !begun_;
+  has_begun_ = static_cast<std::size_t>(count) < line.size();
+  if (has_begun_) line.erase(0, static_cast<std::size_t>(count));
+  return !has_begun_;
 }
 
 ssize_t LogSink::write_some(const std::string& line) const {

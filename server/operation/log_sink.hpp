@@ -51,7 +51,7 @@ class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
   const Kind kind_;
   const std::function<std::string(std::int64_t)> tell_;
   std::deque<std::string> waiting_;
-  bool begun_ = false;       // the first waiting line is written in part
+  bool has_begun_ = false;   // the first waiting line is written in part
   std::int64_t untold_ = 0;  // lines lost since the last report
   std::atomic<std::int64_t> lost_ = 0;
 

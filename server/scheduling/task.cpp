@@ -26,7 +26,7 @@ void TaskFrame::destroy_all() const noexcept {
 }
 
 void Operation::abandoned() noexcept {
-  if (!begun_) {
+  if (!has_begun_) {
     if (std::uncaught_exceptions() == 0)  // else begin() catches the exception
       failure_ = std::make_exception_ptr(boost::system::system_error(boost::asio::error::operation_aborted));
   } else if (std::uncaught_exceptions() > 0) {

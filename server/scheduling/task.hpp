@@ -139,12 +139,12 @@ class Operation {
     } catch (...) {
       failure_ = std::current_exception();
     }
-    begun_ = true;
+    has_begun_ = true;
     return !done_ && !failure_;
   }
   void finish() {
     done_ = true;
-    if (begun_) task_->resume();
+    if (has_begun_) task_->resume();
   }
   void check() const {
     if (failure_) std::rethrow_exception(failure_);
@@ -152,7 +152,7 @@ class Operation {
 
  private:
   const TaskFrame* task_ = nullptr;
-  bool begun_ = false, done_ = false;
+  bool has_begun_ = false, done_ = false;
   std::exception_ptr failure_;
   Operation* next_ = nullptr;  // of those that were abandoned
 };

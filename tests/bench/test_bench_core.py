@@ -22,12 +22,12 @@ LIAR = """\
 #!{python}
 import json, subprocess, sys
 real = subprocess.Popen([{binary!r}, *sys.argv[1:]], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-asked = 0
+count = 0
 for line in sys.stdin:
     print(line, end="", file=real.stdin, flush=True)
     answer = json.loads(real.stdout.readline())
-    asked += line.startswith({command!r})
-    if asked == 3 and {field!r} in answer:
+    count += line.startswith({command!r})
+    if count == 3 and {field!r} in answer:
         answer[{field!r}] ^= 1
     print(json.dumps(answer), flush=True)
 """

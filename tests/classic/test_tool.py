@@ -66,8 +66,8 @@ class Tool(unittest.TestCase):
         )
         runs = read(self.folder / "recorded")
         self.assertEqual(len(runs), 2)
-        for run, wanted in runs:
-            self.assertEqual(digest(play([BINARY, "classic"], run, str(IMAGE))), wanted)
+        for run, expected in runs:
+            self.assertEqual(digest(play([BINARY, "classic"], run, str(IMAGE))), expected)
 
     def test_nonsense_is_named(self):
         for options, hint in (

@@ -122,8 +122,8 @@ class Piped(unittest.TestCase):
             client.stdin.flush()
             client.stdout.readline()
             server.stop()
-        told, errors = client.communicate("hello\nhello\n", timeout=PATIENCE)
-        self.assertEqual(client.returncode, 1, told)
+        output, errors = client.communicate("hello\nhello\n", timeout=PATIENCE)
+        self.assertEqual(client.returncode, 1, output)
         self.assertRegex(errors, "^racebeam: ")
 
 

@@ -20,8 +20,8 @@ with client.connect() as game:
     print(game.hello()["max_machines"], "machines")
     game.load("beamfall", seed=1)
     game.observe("screen:raw")
-    shown = game.act("FIRE")["screen"]
-    print(len(shown), open(os.environ["RACEBEAM_ADDRESS"].split(":", 1)[1].split("?")[0]).read())
+    screen = game.act("FIRE")["screen"]
+    print(len(screen), open(os.environ["RACEBEAM_ADDRESS"].split(":", 1)[1].split("?")[0]).read())
 sys.exit(int(sys.stdin.read()))
 """
 WARNING = "if srun forwards standard output"

@@ -72,14 +72,14 @@ def numbers(text):
 
 def fault(root, citation):
     """The error in a citation, or None."""
-    name, wanted, heading, cases = citation.groups()
+    name, section_numbers, heading, cases = citation.groups()
     if re.match(r",? sections?\b", citation.string[citation.end() :]):
         return "a section is cited only by its number, after a comma"
     if not (root / name).is_file():
         return f"{name} does not exist"
     sections = markdown.sections((root / name).read_text())
-    if wanted:
-        missing = sorted(set(numbers(wanted)) - {section.number() for section in sections})
+    if section_numbers:
+        missing = sorted(set(numbers(section_numbers)) - {section.number() for section in sections})
         return f"{name} has no section {missing[0]}" if missing else None
     if heading is None:
         return None

@@ -41,9 +41,11 @@ class Numbers(unittest.TestCase):
         lines = {client.language: client.lines_of_code() for client in clients.CLIENTS}
         rows = table(page("clients/README.md"), "| language | connects over |")
         self.assertEqual(len(rows), len(HEADINGS))
-        for name, *_, told in rows:
+        for name, *_, claim in rows:
             count = lines[HEADINGS[name.split()[0]]]
-            self.assertLess(abs(int(told) - count), MOST_WRONG * count, f"{name}: scripts/clients counts {count} lines")
+            self.assertLess(
+                abs(int(claim) - count), MOST_WRONG * count, f"{name}: scripts/clients counts {count} lines"
+            )
 
     def test_the_python_page_names_the_extras_and_the_oldest_versions(self):
         project = tomllib.loads(page("pyproject.toml"))["project"]

@@ -7,20 +7,33 @@ from tree import ROOT, files
 
 ENDINGS = {".cpp", ".hpp", ".py", ".md", ".toml", ".java", ".js", ".lua", ".ts", ".bash"}
 NOT_READ = ("CHANGELOG.md", "docs/spec/", "viewer/dist/", "tests/docs/test_prose.py")
+PARTICIPLE = r"(?:told|said|meant|asked|heard|wanted|begun)"
+NAME = "a name is a noun or a verb"
 FORBIDDEN = {
     r"\b(?:is|are|was|were) none\b": "say what does not exist, or what lacks it",
     r"\bhas none\b": "name what it lacks",
     r"\baccepted are\b": "errors end with 'accepted: A, B'",
     r"[\"'`](?:[^\"'`]*[:;] )?there (?:is|are) no (?:\w+ )?[\"'{]": "errors begin with 'unknown KIND'",
-    r"\b(?:def|self\.|auto|void) ?_?\w*_(?:told|shown|meant|begun)\b(?!\w)": "a name is a noun or a verb",
+    r"(?<!there )(?<!There )\b(?:is|are|was|were) no (?!longer|more|less|later|fewer)\w": "negate the verb: 'is not'",
+    r"^\s*(?://+|#|--|\"\"\") ?(?:Of|Those|The same|As(?! long| soon| far))\b[^,:;]*$": "a sentence has its subject",
+    r"\b(?:def|self\.|auto|void) ?_?\w*_(?:told|shown|meant|begun)\b(?!\w)": NAME,
+    rf"(?:^\s*|^\s*for .*\b)(?:\w+, )*{PARTICIPLE}(?:, \w+)*(?: = | in )": NAME,
+    rf"^\s*(?:const )?[\w:<>]+[&*]? {PARTICIPLE}_?(?: = |;|\{{)": NAME,
+}
+TESTS = r"(?:TEST_CASE\(\"|\btest\(\"|def test_)"
+FORBIDDEN_IN_TESTS = {
+    rf"{TESTS}.*[ _]none(?:\b|_)": "say what does not exist, or what lacks it",
+    rf"{TESTS}.*(?<!there)[ _](?:is|are)[ _]no[ _](?!longer)": "negate the verb: 'is not'",
+    rf"{TESTS}.*[ _](?:is|are)[ _](?:told|said|content)(?:\b|_)": "name the actor, or what is reported",
 }
 
 
 def faults(path, text):
     """A line for each forbidden form in a text."""
     for number, line in enumerate(text.splitlines(), 1):
-        for form, advice in FORBIDDEN.items():
-            if re.search(form, line) and "def test_" not in line:
+        forms = FORBIDDEN_IN_TESTS if re.search(TESTS, line) else FORBIDDEN
+        for form, advice in forms.items():
+            if re.search(form, line):
                 yield f"{path}:{number}: {line.strip()[:100]} ({advice})"
 
 
@@ -40,9 +53,25 @@ class Prose(unittest.TestCase):
             '"; accepted are a and b"',
             'raise Error(f"there is no game {game!r}")',
             "def _game_shown(self):",
+            "        told = subprocess.run(command)",
+            "    for words, said in cases:",
+            "  const std::string meant = did_you_mean(name);",
+            "// an image that is no cartridge",
+            '    """Of all units."""',
+            "  // The same for a watched session.",
+            "    def test_counts_that_are_none(self):",
+            'TEST_CASE("a folder is no image") {',
+            "    def test_mypy_is_content(self):",
         ):
             self.assertEqual(len(list(faults("a", line))), 1, line)
-        self.assertEqual(list(faults("a", "\"unknown game 'x'; accepted: a, b\"")), [])
+        for line in (
+            "\"unknown game 'x'; accepted: a, b\"",
+            "// Lines for which there is no room wait here.",
+            "# As long as the server runs, the file stays.",
+            "if told in words:",
+            'TEST_CASE("Without news there is no picture") {',
+        ):
+            self.assertEqual(list(faults("a", line)), [], line)
 
 
 if __name__ == "__main__":

@@ -113,12 +113,12 @@ TEST_CASE("Cartridge RAM is filled once, by a generator with the default seed") 
   const MersenneTwister untouched = shared;
   ClassicPowerOn power_on(shared);
   std::array<std::uint8_t, 128> ram{};
-  std::uint32_t drawn = 0;
-  power_on.fill_cartridge(ram, drawn);
+  std::uint32_t draws = 0;
+  power_on.fill_cartridge(ram, draws);
   for (const std::uint8_t byte : ram) CHECK(byte == static_cast<std::uint8_t>(expected()));
   CHECK(shared == untouched);
   ram.fill(7);
-  power_on.fill_cartridge(ram, drawn);
+  power_on.fill_cartridge(ram, draws);
   CHECK(std::ranges::all_of(ram, [](std::uint8_t byte) { return byte == 7; }));
 }
 

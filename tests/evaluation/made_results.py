@@ -50,13 +50,13 @@ def evaluate(*arguments):
     here."""
     from racebeam_evaluation.main import main
 
-    said, errors = io.StringIO(), io.StringIO()
-    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(errors):
+    output, errors = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
         try:
             status = main(["--repetitions", "50", *map(str, arguments)])
         except SystemExit as ended:  # a usage error
             status = ended.code
-    return types.SimpleNamespace(returncode=status, stdout=said.getvalue(), stderr=errors.getvalue())
+    return types.SimpleNamespace(returncode=status, stdout=output.getvalue(), stderr=errors.getvalue())
 
 
 def report(*folders, mix=False):

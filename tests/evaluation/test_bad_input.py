@@ -233,18 +233,18 @@ class Untested(unittest.TestCase):
             return done.returncode, done.stderr.splitlines(), (out / "report.md").read_text()
 
     def test_fewer_than_two_trials(self):
-        status, said, report = self.evaluated(GOOD | {("bass", "pong"): [[3, 5]]})
+        status, output, report = self.evaluated(GOOD | {("bass", "pong"): [[3, 5]]})
         self.assertEqual(status, 3)
         self.assertEqual(
-            said, ["racebeam-evaluate: Not tested: bass on pong has fewer than 2 trials; a test takes 2 or more."]
+            output, ["racebeam-evaluate: Not tested: bass on pong has fewer than 2 trials; a test takes 2 or more."]
         )
         self.assertIn("Not tested: bass on pong has fewer than 2 trials", report)
 
     def test_no_variance(self):
-        status, said, report = self.evaluated({("basic", "pong"): [[0], [0]], ("bass", "pong"): [[2], [2]]})
+        status, output, report = self.evaluated({("basic", "pong"): [[0], [0]], ("bass", "pong"): [[2], [2]]})
         self.assertEqual(status, 3)
         self.assertEqual(
-            said,
+            output,
             [
                 "racebeam-evaluate: Not tested: basic and bass on pong have no variance; a test takes trials that "
                 "differ."
@@ -253,8 +253,8 @@ class Untested(unittest.TestCase):
         self.assertIn("Not tested: basic and bass on pong have no variance", report)
 
     def test_a_game_that_one_lacks(self):
-        status, said, report = self.evaluated(GOOD | {("bass", "boxing"): [[1], [2]]})
-        self.assertEqual((status, said), (0, []))
+        status, output, report = self.evaluated(GOOD | {("bass", "boxing"): [[1], [2]]})
+        self.assertEqual((status, output), (0, []))
         self.assertIn("basic and bass are compared in 1 game; only one of them has played boxing.", report)
         self.assertIn("Not every agent has played boxing: not aggregated.", report)
 

@@ -79,7 +79,7 @@ class Published(unittest.TestCase):
         self.assertIn("\nuct,here,paper2013,5,500 simulations of 300 frames,,2,1\n", found)
         self.assertIn("\nconst,Bellemare et al. 2013,paper2013,5,,,unknown,unknown\n", found)
 
-    def test_agreement_is_said_of_each_score(self):
+    def test_agreement_is_reported_for_each_score(self):
         found = self.rows(tables(self.results())["beside-published.csv"])
         self.assertEqual(found["asterix", "basic"]["agrees"], "yes")  # 862.3 lies within
         self.assertEqual(found["seaquest", "basic"]["agrees"], "no: the cause is not known")

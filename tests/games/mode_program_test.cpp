@@ -62,7 +62,7 @@ TEST_CASE("a mode program presses SELECT until memory shows the mode") {
   CHECK(run("while ram[0x80] != mode { select 2 }\nsoft_reset", 0) == "reset; ");
 }
 
-TEST_CASE("actions are done once or as often as is said") {
+TEST_CASE("actions are done once, or as often as the program says") {
   CHECK(run("act UPFIRE; act NOOP 20\nact RIGHT 1 + mode", 4) == "act 10 1; act 0 20; act 3 5; ");
 }
 

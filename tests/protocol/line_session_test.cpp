@@ -293,7 +293,7 @@ TEST_CASE("Names of states and recordings cannot lead out of their folder") {
   CHECK_THAT(client.ask("record gif a"), Contains("--record-dir"));
 }
 
-TEST_CASE("Nothing that is said makes a session fall over") {
+TEST_CASE("No request makes a session fall over") {
   LineClient client;
   const std::vector<std::string> words = {
       "load", "beamfall", "act",  "observe", "look",         "save",     "a",        "restore", "branch",

@@ -155,7 +155,7 @@ class Compiled(unittest.TestCase):
 
 
 class Refused(unittest.TestCase):
-    def test_what_is_said_before_anything_is_compiled(self):
+    def test_errors_before_anything_is_compiled(self):
         envs = both()[0]
         handle, reset, step = envs.xla()
         for error, call in (

@@ -18,11 +18,11 @@ async function served(context, answer, options = { timeout: 2000, longestReply: 
   const server = net.createServer((socket) => {
     sockets.add(socket.on("error", () => {}).on("close", () => sockets.delete(socket)));
     readline.createInterface({ input: socket }).on("line", (line) => {
-      const told = line.startsWith("hello") ? HELLO : answer(line);
-      if (told === undefined) {
+      const reply = line.startsWith("hello") ? HELLO : answer(line);
+      if (reply === undefined) {
         socket.destroySoon();
       } else if (socket.writable) {
-        socket.write(told, "latin1");
+        socket.write(reply, "latin1");
       }
     });
   }).listen(0, "127.0.0.1");
@@ -109,7 +109,7 @@ test("any number of requests can be sent ahead", async (context) => {
   assert.equal(replies.length, 5000);
 });
 
-test("why a server ends is told to the next request", async (context) => {
+test("the next request reports why a server ends", async (context) => {
   const { session, sockets } = await served(context, () => "ok\n");
   for (const socket of sockets) {
     socket.end("error stopping the server stops\n");
@@ -133,7 +133,7 @@ test("a watched session has its own arrays", async (context) => {
   assert.deepEqual((await session.act("FIRE")).grey84.slice(0, 4), Uint8Array.of(5, 5, 5, 0));
 });
 
-test("the end of a session is told without a request", async (context) => {
+test("the end of a session is reported without a request", async (context) => {
   const { session, sockets } = await served(context, () => "ok\n");
   sockets.forEach((socket) => socket.end());
   assert.ok(await session.ended instanceof LostError);

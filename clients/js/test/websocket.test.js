@@ -15,8 +15,8 @@ function socketOf(answer, { opens = true, made = [] } = {}) {
     }
 
     send(line) {
-      const told = line.startsWith("hello") ? ["ok server=test protocol=1"] : answer(line);
-      setImmediate(() => (Array.isArray(told) ? told.forEach((data) => this.tell("message", { data })) : this.tell("close", told)));
+      const reply = line.startsWith("hello") ? ["ok server=test protocol=1"] : answer(line);
+      setImmediate(() => (Array.isArray(reply) ? reply.forEach((data) => this.tell("message", { data })) : this.tell("close", reply)));
     }
 
     close() {
@@ -78,7 +78,7 @@ for (const [name, answer] of Object.entries(faults)) {
   });
 }
 
-test("why the server closed is told", async () => {
+test("the reason of the server is reported", async () => {
   const { session } = await opened(() => ({ code: 1008, reason: "three wrong tokens" }));
   await assert.rejects(session.act("FIRE"), /1008 three wrong tokens/);
 });

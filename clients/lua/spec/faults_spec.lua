@@ -75,9 +75,9 @@ describe("a session", function()
   it("waits until TLS can write, if a read has to write first", function()
     local game, peer = prepared("")
     local receive, waited = game.connection.socket.receive, {}
-    local wanted = { "wantwrite", "wantread" }
+    local problems = { "wantwrite", "wantread" }
     game.connection.socket.receive = function(...)
-      local problem = table.remove(wanted, 1)
+      local problem = table.remove(problems, 1)
       if problem then
         return nil, problem, ""
       end

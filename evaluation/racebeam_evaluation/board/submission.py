@@ -111,9 +111,9 @@ def _check_text(path: pathlib.Path, key: str, value: object) -> None:
         raise BadInput(f"{path}: {key} has {len(value)} letters; expected at most {_MOST_LETTERS}")
 
 
-def _check(path: pathlib.Path, found: dict[str, Any], key: str, right: object, wanted: str) -> None:
+def _check(path: pathlib.Path, found: dict[str, Any], key: str, right: object, expected: str) -> None:
     if not right:
-        raise BadInput(f"{path}: {key} is '{found[key]}'; expected {wanted}")
+        raise BadInput(f"{path}: {key} is '{found[key]}'; expected {expected}")
 
 
 def _episode(folder: pathlib.Path, line: int, row: dict[str, str], about: About) -> Episode:

@@ -90,7 +90,7 @@ TEST_CASE("A trial goes on from its checkpoint as if nothing had happened") {
   CHECK(files_of(whole) == files_of(parts));
 }
 
-TEST_CASE("The role of each agent is said once") {
+TEST_CASE("The role of each agent is reported once") {
   const Scratch place;
   const ResultsFolder folder(place.path("results"));
   run(bound_plan("games = [\"beamfall\", \"updraft\"]\nagents = [\"uct\", \"random\", \"basic\"]\n"

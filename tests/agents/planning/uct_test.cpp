@@ -83,10 +83,10 @@ TEST_CASE("A kept subtree is the same tree, and its visits count") {
   Uct uct(model, settings(300, 10), 1);
   const int action = uct.choose(ToyModel::place(0));
   REQUIRE(action == 1);
-  const Uct::Node* kept = nullptr;
+  const Uct::Node* old_child = nullptr;
   for (const auto& child : uct.root()->children)
-    if (child->action == action) kept = child.get();
-  const std::string before = describe(*kept);
+    if (child->action == action) old_child = child.get();
+  const std::string before = describe(*old_child);
   uct.keep(action, ToyModel::place(2));
   CHECK(describe(*uct.root()) == before);
   CHECK(uct.root()->parent == nullptr);

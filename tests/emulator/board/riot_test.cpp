@@ -39,8 +39,8 @@ TEST_CASE("Case 1: RAM and timers at power-on come from the generator") {
   CHECK(std::equal(std::begin(first), std::end(first), console.ram().begin()));
 
   SystemGenerator again(4753849);
-  std::uint32_t drawn = 128;
-  CHECK(25 + again.draw(drawn) % 75 == 58);
+  std::uint32_t draws = 128;
+  CHECK(25 + again.draw(draws) % 75 == 58);
 }
 
 TEST_CASE("Case 2: TIM8T through its expiry, read in time") {

@@ -25,16 +25,16 @@ constexpr int kTries = 20000;
 
 // What a painter hears of a write (render_policies.hpp). It draws nothing, so that only the writes change
 // registers.
-struct Heard {
+struct Effects {
   std::int32_t clock = -1000;  // the latest that was named
   bool cleared = false;        // the collisions
 };
 
 struct Listener {
-  Heard& heard;
+  Effects& effects;
   bool compares;
 
-  void reach(std::int32_t clock) const { heard.clock = std::max(heard.clock, clock); }
+  void reach(std::int32_t clock) const { effects.clock = std::max(effects.clock, clock); }
   void draw_to(std::int32_t clock, unsigned) const { reach(clock); }
   void draw_before(std::int32_t clock, const PlayfieldPart&) const { reach(clock); }
   void come_to(std::int32_t clock) const { reach(clock); }
@@ -43,7 +43,7 @@ struct Listener {
   static bool minds(unsigned) { return false; }
   void changed(std::uint8_t) const {}
   void enabled() const {}
-  void clear_collisions() const { heard.cleared = true; }
+  void clear_collisions() const { effects.cleared = true; }
 };
 
 class Trial {
@@ -97,7 +97,7 @@ class Trial {
 
 struct Played {
   TiaBytes bytes;
-  Heard heard;
+  Effects effects;
 };
 
 Played play(const TiaRegisters& registers, std::uint32_t hmove_clock, const std::vector<TiaWrite>& writes,
@@ -108,7 +108,7 @@ Played play(const TiaRegisters& registers, std::uint32_t hmove_clock, const std:
   Played played;
   std::vector<std::uint32_t> log;
   for (const TiaWrite write : writes) log.push_back(write.packed());
-  RegisterEffects<Listener>(tia, FrameState{}, Video{}, {played.heard, compares})
+  RegisterEffects<Listener>(tia, FrameState{}, Video{}, {played.effects, compares})
       .play(log.data(), log.data() + log.size(), 0);
   played.bytes = std::bit_cast<TiaBytes>(tia.registers());
   return played;
@@ -207,7 +207,7 @@ TEST_CASE("The delay of a write is the longest that the picture hears of") {
     std::int32_t longest = -1000;
     for (int i = 0; i < kTries; ++i) {
       const TiaWrite write = trial.write(reg);
-      const Heard events = play(trial.registers(), trial.hmove_clock(write), {write}, i % 2 == 0).heard;
+      const Effects events = play(trial.registers(), trial.hmove_clock(write), {write}, i % 2 == 0).effects;
       longest = std::max(longest, events.clock - 3 * write.cycle());
     }
     INFO(kNames[reg]);

@@ -131,7 +131,7 @@ void play(unsigned seed, int frames) {
       compare(drawn.console, other.console, random, looks);
       if (random.percent(30)) {
         const FrameBuffer& theirs = *drawn.console.pictures().current;
-        REQUIRE(same(theirs.pixels(), other.console.drawn(of_other.pictures.current)->pixels()));
+        REQUIRE(same(theirs.pixels(), other.console.with_pixels(of_other.pictures.current)->pixels()));
       }
     }
     if (saved.size() > 4) saved.erase(saved.begin());

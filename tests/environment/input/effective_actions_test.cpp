@@ -42,12 +42,12 @@ TEST_CASE("The generator is the standard 32-bit Mersenne Twister") {
 
 TEST_CASE("The system generator gives the power-on RAM and timers of the reference") {
   SystemGenerator source(4753849);
-  std::uint32_t drawn = 0;
+  std::uint32_t draws = 0;
   std::array<std::uint8_t, 128> ram;
-  for (std::uint8_t& byte : ram) byte = static_cast<std::uint8_t>(source.draw(drawn));
+  for (std::uint8_t& byte : ram) byte = static_cast<std::uint8_t>(source.draw(draws));
   CHECK(std::equal(ram.begin(), ram.begin() + 4, std::begin({0xB8, 0x96, 0xC0, 0x49})));
   CHECK(test::crc(ram) == 0x006CDA95);
-  for (const unsigned timer : {58u, 51u, 32u, 74u, 65u, 64u}) CHECK(25 + source.draw(drawn) % 75 == timer);
+  for (const unsigned timer : {58u, 51u, 32u, 74u, 65u, 64u}) CHECK(25 + source.draw(draws) % 75 == timer);
 }
 
 TEST_CASE("The system generator goes on wherever a restored machine stood") {

@@ -25,9 +25,9 @@ Settings sticky_settings() {
 Future play(Environment& environment, int frames, unsigned seed) {
   std::mt19937 random(seed);
   const auto& legal = environment.game().legal_actions;
-  Future seen;
-  for (int i = 0; i < frames; ++i) seen.push_back(act(environment, legal[random() % legal.size()]));
-  return seen;
+  Future future;
+  for (int i = 0; i < frames; ++i) future.push_back(act(environment, legal[random() % legal.size()]));
+  return future;
 }
 
 // Along a random run, every state can be restored: in this machine, in another one, and from bytes.

@@ -121,9 +121,9 @@ TEST_CASE("A reset with a seed leads where a new batch with that seed begins") {
   check_same(play(played, 50), play(fresh, 50));
   played.reset(results.arrays(), std::vector<std::uint8_t>{0, 1, 0}, std::vector<std::int64_t>{-1, 91, 5});
   Batch other(copies(3), settings);
-  const BatchResults begun = play(other, 0);
-  CHECK(results.frames[1] == begun.frames[1]);
-  CHECK(results.frames[2] > begun.frames[2]);
+  const BatchResults start = play(other, 0);
+  CHECK(results.frames[1] == start.frames[1]);
+  CHECK(results.frames[2] > start.frames[2]);
 }
 
 TEST_CASE("Results have clipped and unclipped rewards, and ends of lives beside ends of games") {

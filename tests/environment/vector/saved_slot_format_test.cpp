@@ -37,17 +37,17 @@ struct Played {
 
 // What the slot shows in this many steps, with a reset where an episode ends.
 Bytes play(Slot& slot, int steps) {
-  Bytes shown;
+  Bytes bytes;
   for (int step = 0; step < steps; ++step) {
     slot.begin_request();
     slot.finished() ? slot.reset() : slot.act({.a = step % 18});
     const Bytes stack = slot.stack()->bytes();
-    shown.insert(shown.end(), stack.begin(), stack.end());
+    bytes.insert(bytes.end(), stack.begin(), stack.end());
     const auto ram = slot.environment().ram();
-    shown.insert(shown.end(), ram.begin(), ram.end());
-    shown.push_back(slot.finished());
+    bytes.insert(bytes.end(), ram.begin(), ram.end());
+    bytes.push_back(slot.finished());
   }
-  return shown;
+  return bytes;
 }
 
 void seal(Bytes& bytes) {

@@ -30,7 +30,7 @@ struct Backwards final : VectorHost {
   }
   void opened(std::size_t, Slot&) override {}
   void ended(std::size_t, const Slot&) override {}
-  void shown(std::size_t number, const Slot&) override {
+  void show(std::size_t number, const Slot&) override {
     ++shows;
     if (number >= first_bad) throw Counted(number);
   }
@@ -64,7 +64,7 @@ TEST_CASE("Machines after one that fails are not made") {
       if (number == 2) throw std::bad_alloc();
     }
     void ended(std::size_t, const Slot&) override {}
-    void shown(std::size_t, const Slot&) override {}
+    void show(std::size_t, const Slot&) override {}
     int made = 0;
   } host;
   const std::vector<Cartridge> cartridges(9, {test::counter_image(), test::game()});

@@ -49,10 +49,10 @@ TEST_CASE("A watcher sees what the player's machine shows") {
   CHECK_THAT(reply,
              StartsWith("ok game=beamfall frame=60 score=21 episode=1 over=0 lives=4 reward=21 action=FIRE "
                         "height=210 screen="));
-  const std::string shown = server.player.ask("look screen:hex ram palette:zlib");
+  const std::string look = server.player.ask("look screen:hex ram palette:zlib");
   for (const std::string key : {"screen", "ram", "palette"}) {
-    CHECK(value(shown, key) != "(none)");
-    CHECK(value(reply, key) == value(shown, key));
+    CHECK(value(look, key) != "(none)");
+    CHECK(value(reply, key) == value(look, key));
   }
 }
 

@@ -136,7 +136,7 @@ class Submissions(unittest.TestCase):
                 env.step(2)
         self.assertEqual((env.logged, env.unlogged, self.rows()), (0, 2, []))
 
-    def test_a_full_disk_is_told_and_the_game_goes_on(self):
+    def test_a_full_disk_is_reported_and_the_game_goes_on(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
         limits = resource.getrlimit(resource.RLIMIT_FSIZE)
         resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))

@@ -25,9 +25,9 @@ class Halves(unittest.TestCase):
         steps = [0] * 4
 
         def check(observations, info):
-            for env, seen in zip(info["env_id"], observations):
+            for env, observation in zip(info["env_id"], observations):
                 if steps[env] <= 20:
-                    self.assertTrue(np.array_equal(seen, expected[env][steps[env]]))
+                    self.assertTrue(np.array_equal(observation, expected[env][steps[env]]))
                 steps[env] += 1
 
         observations, info = envs.reset(seed=1)

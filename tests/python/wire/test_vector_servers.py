@@ -195,10 +195,10 @@ class Lost(Servers):
     def test_the_same_step_begins_new_episodes(self):
         here, there = self.both(autoreset_mode="SameStep", noop_max=0, use_fire_reset=False)
         self.play(here, there, 20)
-        before, _, _, _, told = there.step([1] * COUNT)
+        before, _, _, _, infos = there.step([1] * COUNT)
         here.step([1] * COUNT)
         self.kill(self.second)
-        begun, rewards, terminated, truncated, info = there.step([0] * COUNT)
+        observations, rewards, terminated, truncated, info = there.step([0] * COUNT)
         self.assertTrue(
             np.array_equal(info["lost"], SECOND)
             and np.array_equal(truncated, SECOND)
@@ -206,9 +206,9 @@ class Lost(Servers):
         )
         for env in np.flatnonzero(SECOND):
             self.assertTrue(np.array_equal(info["final_obs"][env], before[env]))
-            self.assertEqual(info["final_info"]["frame_number"][env], told["frame_number"][env])
+            self.assertEqual(info["final_info"]["frame_number"][env], infos["frame_number"][env])
         self.assertFalse(info["episode_frame_number"][SECOND].any() or rewards[SECOND].any() or terminated.any())
-        self.assertTrue(np.array_equal(begun[FIRST], here.step([0] * COUNT)[0][FIRST]))
+        self.assertTrue(np.array_equal(observations[FIRST], here.step([0] * COUNT)[0][FIRST]))
         self.check(there.step([1] * COUNT), here.step([1] * COUNT), FIRST)
 
     def test_without_autoreset_a_reset_begins_new_episodes(self):

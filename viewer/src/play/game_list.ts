@@ -51,10 +51,10 @@ export class GameList {
 
   /** Hides the games that lack a word of the filter. */
   #narrow(): void {
-    const wanted = this.#filter.value.toLowerCase().split(/\s+/);
+    const parts = this.#filter.value.toLowerCase().split(/\s+/);
     let found = 0;
     for (const { element, words } of this.#items.values()) {
-      element.hidden = !wanted.every((word) => words.includes(word));
+      element.hidden = !parts.every((word) => words.includes(word));
       found += Number(!element.hidden);
     }
     tell(byId("games-told", HTMLElement), found ? "" : "No game of this server has these words.");

@@ -183,15 +183,15 @@ export class ReplayView {
   /** Makes a film of the first episode. */
   async #film(): Promise<void> {
     const button = byId("film", HTMLButtonElement);
-    const told = byId("link-told", HTMLElement);
+    const note = byId("link-told", HTMLElement);
     button.disabled = true;
-    tell(told, "The server makes the film.");
+    tell(note, "The server makes the film.");
     let made = "";
     try {
       made = await this.#decks[0]?.film(byId("film-kind", HTMLSelectElement).value) ?? "";
     } finally {
       button.disabled = false;
-      tell(told, made && `In the server's folder of recordings: ${made}.`);
+      tell(note, made && `In the server's folder of recordings: ${made}.`);
     }
   }
 

@@ -73,16 +73,16 @@ describe("the view Play", () => {
   });
 
   test("a key shows within two frames", async () => {
-    const told = async () => await page.locator("#figures").textContent() ?? "";
-    const latency = async () => Number(/\(([\d.]+) frames\)/.exec(await told())?.[1] ?? Infinity);
+    const figures = async () => await page.locator("#figures").textContent() ?? "";
+    const latency = async () => Number(/\(([\d.]+) frames\)/.exec(await figures())?.[1] ?? Infinity);
     for (let round = 0; round < 12 && await latency() > 2; ++round) { // other work on this machine delays some
       for (let press = 0; press < 20; ++press) {
         await page.keyboard.press(press % 2 ? "ArrowLeft" : "ArrowRight", { delay: 20 });
       }
       await page.waitForTimeout(600);
     }
-    console.log(await told());
-    assert.ok(await latency() <= 2, await told());
+    console.log(await figures());
+    assert.ok(await latency() <= 2, await figures());
   });
 
   test("the game pauses, and goes frame by frame", async () => {

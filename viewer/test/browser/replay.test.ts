@@ -59,27 +59,27 @@ describe("the view Replay", () => {
 
   test("a film is made on the server", async () => {
     await page.getByRole("button", { name: "Make it on the server" }).click();
-    const told = page.locator("#link-told");
-    await until(async () => /recordings: /.test(await told.textContent() ?? ""), "the film");
-    const [, name, frames] = /: (beamfall-\d{14}\.gif): (\d+) frames\.$/.exec(await told.textContent() ?? "")!;
+    const note = page.locator("#link-told");
+    await until(async () => /recordings: /.test(await note.textContent() ?? ""), "the film");
+    const [, name, frames] = /: (beamfall-\d{14}\.gif): (\d+) frames\.$/.exec(await note.textContent() ?? "")!;
     assert.match(await page.locator("#place").textContent() ?? "", new RegExp(` of ${frames}$`));
     assert.equal(readFileSync(path.join(server.folder, name!)).subarray(0, 6).toString(), "GIF89a");
     await page.locator("#film-kind").selectOption("webm");
     await page.getByRole("button", { name: "Make it on the server" }).click();
     await until(async () => /\.webm: |ffmpeg is not installed/.test(
-      `${await told.textContent()} ${await page.locator("#log-problem").textContent()}`), "a film, or the reason against one");
+      `${await note.textContent()} ${await page.locator("#log-problem").textContent()}`), "a film, or the reason against one");
   });
 
   test("it runs at the speed that is chosen", async () => {
     await page.locator("#speed").selectOption("2");
     const rate = await measured(async () => {
       await scrub(0);
-      const begun = Date.now();
+      const start = Date.now();
       assert.equal(await page.locator("#run").textContent(), "Play");
       await page.locator("#run").click();
       assert.equal(await page.locator("#run").textContent(), "Pause");
       await until(async () => await place() >= 180, "180 frames");
-      const found = (1000 * await place()) / (Date.now() - begun);
+      const found = (1000 * await place()) / (Date.now() - start);
       await page.locator("#run").click();
       return found;
     }, 90, 135);

@@ -54,7 +54,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
 
     @property
     def ale(self) -> ALEVectorInterface:
-        """The same environments with the interface of lists and arrays."""
+        """These environments, with the interface of lists and arrays."""
         return ALEVectorInterface.wrap(self)
 
     def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None, out: Any = None) -> tuple[Any, Info]:

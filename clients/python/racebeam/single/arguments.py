@@ -25,28 +25,28 @@ def check_rules(rules: object) -> None:
         raise InvalidInput(f"rules is {rules!r}; it takes {' or '.join(RULES)}")
 
 
-def frameskip_of(given: Any) -> int | tuple[int, int]:
+def frameskip_of(value: Any) -> int | tuple[int, int]:
     """Checks a frameskip, and converts its numbers to int.
 
     Args:
-        given: A number of frames, or a tuple (low, high).
+        value: A number of frames, or a tuple (low, high).
 
     Returns:
         The number or the tuple.
 
     Raises:
-        WrongType: If `given` is neither a whole number nor a tuple of such numbers.
+        WrongType: If `value` is neither a whole number nor a tuple of such numbers.
         WrongValue: If a number is out of range, or `low` is not below `high`.
     """
     accepted = f"it takes an int from 1 to {MOST}, or a tuple (low, high) of such ints with low < high"
-    if not isinstance(given, tuple) and not _is_whole(given):
-        raise WrongType(f"frameskip has the type {type(given).__name__}; {accepted}")
-    ends = given if isinstance(given, tuple) else (given, MOST + 1)
+    if not isinstance(value, tuple) and not _is_whole(value):
+        raise WrongType(f"frameskip has the type {type(value).__name__}; {accepted}")
+    ends = value if isinstance(value, tuple) else (value, MOST + 1)
     if not all(map(_is_whole, ends)):
-        raise WrongType(f"frameskip is {given}; {accepted}")
-    if not (len(ends) == 2 and 0 < ends[0] < ends[1] <= MOST + (ends is not given)):
-        raise WrongValue(f"frameskip is {given}; {accepted}")
-    return (int(ends[0]), int(ends[1])) if ends is given else int(given)
+        raise WrongType(f"frameskip is {value}; {accepted}")
+    if not (len(ends) == 2 and 0 < ends[0] < ends[1] <= MOST + (ends is not value)):
+        raise WrongValue(f"frameskip is {value}; {accepted}")
+    return (int(ends[0]), int(ends[1])) if ends is value else int(value)
 
 
 def check_reward_range(reward_range: object) -> None:

@@ -166,16 +166,16 @@ class AsyncSession:
     async def __aexit__(self, *_: object) -> None:
         await self.close()
 
-    def check_greeting(self, said: Values) -> None:
+    def check_greeting(self, greeting: Values) -> None:
         """Checks the reply to the first request.
 
         Args:
-            said: Values of the reply.
+            greeting: Values of the reply.
 
         Raises:
             ConnectionError: If the server speaks another version of the protocol.
         """
-        self._session.check_greeting(said)
+        self._session.check_greeting(greeting)
 
     async def request(self, *words: object, **settings: object) -> list[Values]:
         """Sends a request, and waits for its reply.

@@ -105,12 +105,12 @@ class RemotePlay(RemoteGame):
         """Begins an episode."""
         self.ask(self.session.reset)
 
-    def _decode(self, shown: dict[str, Any], view: View) -> Any:
+    def _decode(self, fields: dict[str, Any], view: View) -> Any:
         if view is View.NONE:
             return None
         if view is View.RAM:
-            return np.frombuffer(shown["ram"], np.uint8).copy()
-        screen = np.frombuffer(shown["screen"], np.uint8).reshape(-1, 160)
+            return np.frombuffer(fields["ram"], np.uint8).copy()
+        screen = np.frombuffer(fields["screen"], np.uint8).reshape(-1, 160)
         if view is View.PALETTE:
             return screen.copy()
         return self._colours[screen] if view is View.RGB else self._greys[screen]

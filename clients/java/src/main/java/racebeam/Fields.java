@@ -41,12 +41,12 @@ final class Fields {
       default -> { }
     }
     boolean watches = command.equals("watch");
-    List<String> asked = watches ? watchedFields(fields) : fields;
-    Map<String, Encoding> encodings = watches || command.equals("look") && !fields.isEmpty() ? encodings(asked) : chosen;
+    List<String> names = watches ? watchedFields(fields) : fields;
+    Map<String, Encoding> encodings = watches || command.equals("look") && !fields.isEmpty() ? encodings(names) : chosen;
     int first = firstMachine(words);
     Group[] decoded = new Group[groups.size()];
     for (int number = 0; number < decoded.length; ++number) {
-      Source source = watches ? watched(fields.get(0), asked, groups.get(0)) : machine(first + number);
+      Source source = watches ? watched(fields.get(0), names, groups.get(0)) : machine(first + number);
       decoded[number] = decode(source, groups.get(number), encodings, raw);
     }
     if (raw.hasRemaining()) {
@@ -72,8 +72,8 @@ final class Fields {
 
   /** A watched session begins anew with other fields, and with another height. */
   private Source watched(String name, List<String> fields, Map<String, String> texts) {
-    String told = texts.get("height");
-    int rows = told == null ? height : Integer.parseInt(told);
+    String rowCount = texts.get("height");
+    int rows = rowCount == null ? height : Integer.parseInt(rowCount);
     return watched.compute(name, (unused, known) -> known != null && known.fields.equals(fields) && known.height == rows
         ? known : new Source(fields, rows, new HashMap<>()));
   }
