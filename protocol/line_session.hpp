@@ -49,7 +49,7 @@ class LineSession {
   std::string_view output() const;  // to be sent; valid until run() or sent()
   void sent(std::size_t count);     // this many bytes of it were sent
 
-  bool admitted() const;     // it has given its token, or needs none
+  bool admitted() const;     // it has given its token, or does not need one
   int wrong_tokens() const;  // number of wrong tokens so far
   bool refused() const;      // ended by an error, with LineService::strict
   bool finished() const;     // there will be no more replies: send the output, then close

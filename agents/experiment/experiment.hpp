@@ -21,7 +21,7 @@ struct ExperimentSettings {
       {};  // called after each decision, by all threads; what it throws ends the run
 };
 
-// Where an experiment is.
+// How far an experiment has come.
 struct Progress {
   std::size_t finished = 0, all = 0;  // units of this process
   std::string unit;

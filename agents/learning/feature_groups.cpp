@@ -34,7 +34,7 @@ FeatureGroups::Slot& FeatureGroups::slot_of(std::uint32_t feature) {
   return slots_[place];
 }
 
-// For so many features that may be new.
+// Makes room for this number of features that may be new.
 void FeatureGroups::make_room(std::size_t features) {
   const std::size_t slots = std::bit_ceil(2 * std::min(seen_ + features, most_));
   if (slots <= slots_.size()) return;

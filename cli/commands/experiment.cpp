@@ -122,7 +122,7 @@ void print_units(const Plan& plan, const PlayRates& rates, Shard shard) {
                 seconds_of_trial(*units[i].agent, rates.of(plan, *units[i].game, *units[i].agent)) / 3600);
 }
 
-// Where the figures come from.
+// Says where the figures come from.
 void print_source(const Plan& plan, const PlayRates& rates) {
   const int longest = plan.play.machine.max_episode_frames;
   if (rates.empty())

@@ -102,7 +102,7 @@ class Conversation {
   }
 
  private:
-  // For completion.
+  // Asks the server what completion needs to know.
   std::string text_of(const std::string& request) {
     try {
       constexpr std::string_view kOk = "ok ";

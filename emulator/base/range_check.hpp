@@ -29,7 +29,7 @@ inline void check_clear(const char* what, unsigned value, unsigned unused) {
   if ((value & unused) != 0) refuse_field(what, value, "without the bits " + std::to_string(unused));
 }
 
-// For bytes that are only padding.
+// Refuses padding whose bytes are not all 0.
 template <class Bytes>
 void check_zeros(const char* what, const Bytes& bytes) {
   for (const std::uint8_t byte : bytes) check_range(what, byte, 0, 0);

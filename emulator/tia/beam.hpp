@@ -94,7 +94,7 @@ class Beam {
   LineRecord& record() { return lines_.row(row()); }
   void forget_lines() { lines_.drop(); }
 
-  // For the cursor's row and those after it.
+  // The lines that the cursor's row and those after it show.
   const LineNumber* row_lines() const { return &picture_->shows(row()); }
   [[gnu::noinline]] bool can_copy(const LineNumber* lines, LineNumber line) {
     return picture_->copy_row(other_, static_cast<std::size_t>(lines - &picture_->shows(0)), line);

@@ -94,7 +94,7 @@ bool Tia::play_log(std::int32_t cycle, Collisions latches) {
   }
 }
 
-// For steps without pixels.
+// Plays the log in steps without pixels.
 bool Tia::follow_log() {
   skip(end_of_unseen());
   const TrackPolicy painter{beam_, tia_, reached_, watches_};

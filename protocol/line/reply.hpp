@@ -32,7 +32,7 @@ class ReplyKey {
 // Replies that wait to be sent, and the one that is being written.
 class Reply {
  public:
-  // For handlers. "ok" is written before.
+  // Handlers call these. "ok" is written before.
   void add(ReplyKey key, std::int64_t number);
   void add(ReplyKey key, std::string_view text);
   void add(ReplyKey key, std::span<const int> numbers);  // 0,1,2
@@ -65,7 +65,7 @@ class Reply {
   std::string& add_help();
   void reserve(std::size_t more, std::size_t more_raw);
 
-  // For the session.
+  // The session calls these.
   void begin();                         // a request
   void answer(const Command& command);  // with "ok"; its keys are checked
   void drop();                          // what was written since begin()

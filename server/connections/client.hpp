@@ -73,7 +73,7 @@ class Client {
   std::optional<Guesser> guesser;              // while a token is required
   std::optional<Lobby::Place> place;           // while a token is required
   bool greeted = false;                        // the handshakes of TLS and HTTP are done
-  bool admitted = false;                       // it has given its token, or needs none
+  bool admitted = false;                       // it has given its token, or does not need one
   bool working = false;                        // a slice of its requests is done, and the next is pending
   Usage usage{};                               // of the event loop
 

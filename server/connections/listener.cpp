@@ -54,7 +54,7 @@ class FolderLock {
   FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  // Something else may hold it for long, and a folder may have none: the server then goes on without.
+  // Something else may hold the lock for long, and a folder may lack one: the server then goes on without.
   static constexpr std::chrono::seconds kPatience{2};
   static constexpr std::chrono::milliseconds kBetweenTries{5};
 

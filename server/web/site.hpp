@@ -34,7 +34,7 @@ struct Site {
 // the site are.
 std::optional<HttpResponse> answer(const HttpRequest& request, const Site& site);
 
-// For a client whose request the server does not read.
+// A response to a client whose request the server does not read.
 HttpResponse refuse(boost::beast::http::status code, const std::string& sentence);
 std::string http_refusal(const std::string& sentence);  // as text: with the status 503
 

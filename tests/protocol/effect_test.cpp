@@ -122,7 +122,7 @@ bool is_constant(const std::string& values) {
   return std::ranges::adjacent_find(words, std::not_equal_to{}) == words.end();
 }
 
-// No two of them say the same, and none says the same always.
+// No two fields say the same, and no field says the same always.
 void check_told_apart(const std::vector<std::string>& fields) {
   std::map<std::string, std::string> effects;
   for (const std::string& field : fields) {
