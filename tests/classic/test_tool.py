@@ -43,7 +43,7 @@ class Tool(unittest.TestCase):
         self.assertEqual(status, 0, output)
         self.assertIn("6 of 6 runs identical, of 1 games", output)
 
-    def test_a_difference_is_told_with_the_line_and_its_run_can_be_played_again(self):
+    def test_a_difference_is_reported_with_the_line_and_its_run_can_be_played_again(self):
         (self.folder / "other").write_text("repeat_action_probability = 0.9\n")
         command = f"exec '{BINARY}' classic -config '{self.folder}/other' \"$@\""
         for options in (("--seed", "1", "--seeds", "2"), ("--run", "beamfall:sticky=0.0,seed=5,lines=200")):

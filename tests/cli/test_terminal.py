@@ -153,7 +153,7 @@ class Keys(InTerminal):
         self.press(terminal, wire, name, b"\x1b[A\x1b[B", "DOWN")  # a direction ends the opposite one
         self.quit(terminal)
 
-    def test_releases_are_told_where_the_keyboard_protocol_is(self):
+    def test_releases_are_reported_where_the_keyboard_protocol_is(self):
         terminal, wire, name = self.play(keyboard=True)
         self.assertIn("keyboard", terminal.modes)
         terminal.type(b"\x1b[32u")

@@ -427,7 +427,7 @@ class Tls(Folder):
             self.assertEqual(plain.rest(), b"")
             plain.close()
 
-    def test_the_end_of_a_session_is_told_over_TLS(self):
+    def test_the_end_of_a_session_is_reported_over_TLS(self):
         for options, requests, last in ((["--idle", "1"], b"hello\n", b"error idle "), ([], b"quit\n", b"ok")):
             with self.subTest(last=last), self.serve(*options) as server, self.connect(server) as connection:
                 connection.sendall(requests)

@@ -23,7 +23,7 @@ from long_request import FRAMES, load
 
 
 class Limits(unittest.TestCase):
-    def test_a_session_too_many_is_told_so(self):
+    def test_a_session_too_many_gets_an_error(self):
         with serve("--max-sessions", "2") as server:
             wires = [connect_tcp(server.port()) for _ in range(2)]
             for wire in wires:

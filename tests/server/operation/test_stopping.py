@@ -33,7 +33,7 @@ class Stopping(unittest.TestCase):
             wire.close()
             self.assertEqual(server.wait(), 0)
 
-    def test_sessions_that_stay_are_told_when_the_grace_is_over(self):
+    def test_sessions_that_stay_get_an_error_when_the_grace_is_over(self):
         with serve("--grace", "2") as server:
             wire = connect_tcp(server.port())
             ask(wire, b"hello")
@@ -45,7 +45,7 @@ class Stopping(unittest.TestCase):
             self.assertEqual(server.wait(), 0)
             self.assertGreater(time.monotonic() - start, 1.9)
 
-    def test_who_is_in_the_middle_of_a_request_is_told_too(self):
+    def test_a_session_in_the_middle_of_a_request_gets_an_error_too(self):
         with serve("--grace", "0", "--max-request-frames", "10000000") as server:
             wire = connect_tcp(server.port())
             load(wire, b"branch root " + b"NOOP*1000 " * 5000 + b"\n")
@@ -54,7 +54,7 @@ class Stopping(unittest.TestCase):
             wire.close()
             self.assertEqual(server.wait(), 0)
 
-    def test_who_is_in_the_middle_of_a_request_on_streams_is_told_too(self):
+    def test_a_session_on_streams_in_the_middle_of_a_request_gets_an_error_too(self):
         with Server("serve", "--stdio", "--grace", "0", "--max-request-frames", "1000000000", streams=True) as server:
             wire = Wire(server.process.stdout.fileno(), server.process.stdin.fileno())
             load(

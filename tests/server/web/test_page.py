@@ -63,7 +63,7 @@ class Page(Case):
             ].startswith(b"HTTP/1.1 413 ")
         )
 
-    def test_a_request_that_cannot_be_read_is_told_so(self):
+    def test_a_request_that_cannot_be_read_gets_an_error(self):
         self.start("--http", "127.0.0.1:0")
         health = int(self.server.wait_for(r"health and metrics on http://127\.0\.0\.1:(\d+)").group(1))
         cases = (

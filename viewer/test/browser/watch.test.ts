@@ -45,7 +45,7 @@ describe("the view Watch", () => {
     assert.ok(await page.getByText("No session is shared").isHidden());
   });
 
-  test("what is told of the large session is seen without scrolling", async () => {
+  test("what the page says of the large session is seen without scrolling", async () => {
     const { y, height } = (await page.locator("#watched-facts").boundingBox())!;
     assert.ok(height > 0 && y + height < page.viewportSize()!.height / 3, `the facts end at ${y + height}`);
   });
