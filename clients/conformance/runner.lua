@@ -18,7 +18,7 @@ local function adler(bytes)
   return ("%d:%04x%04x"):format(#bytes, b, a)
 end
 
-local BYTES = { ram = true, tia = true, screen = true, rgb = true, grey = true, palette = true, audio = true }
+local BYTES = require("racebeam.field_table").usual
 
 local function is_bytes(key)
   local field = key:gsub("^final_", "")
