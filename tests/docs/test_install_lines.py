@@ -11,7 +11,8 @@ import tree
 # It does not match the lines of scripts, which call pip as a module, nor words such as "pip installs".
 COMMAND = re.compile(r"""(?<!-m )\bpip install((?: +(?:"[^"\n{]+"|[A-Za-z.][\w.,\[\]<>=/-]*))+)""")
 NAME = re.compile(r"[\w-]+")
-OTHERS = {"envpool", "gymnasium", "matplotlib", "moviepy", "optax"}  # packages of examples, which are on PyPI
+# Packages of examples, which are on PyPI.
+OTHERS = {"envpool", "gymnasium", "matplotlib", "moviepy", "optax", "tianshou", "torch", "torchrl"}
 HERE = tree.ROOT / "tests/docs/test_install_lines.py"
 
 
