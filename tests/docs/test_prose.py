@@ -24,7 +24,9 @@ TESTS = r"(?:TEST_CASE\(\"|\btest\(\"|def test_)"
 FORBIDDEN_IN_TESTS = {
     rf"{TESTS}.*[ _]none(?![a-z]|[ _]of[ _])": "say what does not exist, or what lacks it",
     rf"{TESTS}.*(?<!there)[ _](?:is|are)[ _]no[ _](?!longer)": "negate the verb: 'is not'",
-    rf"{TESTS}.*[ _](?:is|are)[ _](?:told|said|content)(?![a-z]|[ _](?:to|apart|by|from)[ _\"(])": "say what is reported",
+    rf"{TESTS}.*[ _](?:is|are)[ _](?:told|said|content)(?![a-z]|[ _](?:to|apart|by|from)[ _\"(])": (
+        "say what is reported"
+    ),
 }
 
 
