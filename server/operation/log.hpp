@@ -23,7 +23,7 @@ struct LogField {
 };
 
 // Thread-safe; lines never mix. Bytes other than printable ASCII become '?', and long lines are truncated.
-// It never blocks (log_sink.hpp), and throws nothing: a line for which there is no memory is lost.
+// It never blocks (log_sink.hpp), and never throws. Without memory for a line, the line is lost.
 void log(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields = {});
 
 void write_log();  // writes waiting lines, if there is room now
