@@ -7,7 +7,7 @@
 namespace racebeam {
 namespace {
 
-constexpr int kNoop = 0, kFire = 1;
+constexpr int kFire = 1;  // the action's number
 
 // While it exists, an episode begins.
 class Beginning {
