@@ -11,6 +11,8 @@ MODULES = (
     "observations",
     "addresses",
     "transport",
+    "connection",
+    "replies",
     "exchange",
     "commands",
     "session",

@@ -708,52 +708,33 @@ class SocketStream:
 
 
 LONGEST_REPLY = 1 << 28  # bytes; a server that sends a longer line is faulty
-RAW_COUNT = re.compile(r" raw=(\S+)$")
 
 Result = TypeVar("Result")
 
 
-class Exchange:
-    """Sends requests, and pairs each reply with its request.
-
-    A call that is interrupted between a request and the end of its reply aborts the session. Otherwise, the next reply
-    would be paired with the wrong request.
+class Connection:
+    """The streams of a session. Every error of a stream ends the session.
 
     Args:
         reader: Stream of replies.
         writer: Stream of requests.
         close: Closes the streams.
-        arrays: Whether bytes are returned as arrays of NumPy.
 
     Attributes:
         reader: Stream of replies.
         writer: Stream of requests.
         address: Address of the server, or "".
         longest_reply: Bytes of the longest reply that is accepted.
-        offered: Encodings that the server offers, after a greeting.
-        unanswered: Words of each request without a reply, in order.
     """
 
     def __init__(
-        self,
-        reader: IO[bytes] | SocketStream,
-        writer: IO[bytes] | SocketStream,
-        close: Callable[[], object],
-        arrays: bool = False,
+        self, reader: IO[bytes] | SocketStream, writer: IO[bytes] | SocketStream, close: Callable[[], object]
     ) -> None:
         self.reader, self.writer, self._close = reader, writer, close
-        self._observations = Observations(arrays)
         self._process = os.getpid()
         self._end_reason = ""
         self.address = ""
         self.longest_reply = LONGEST_REPLY
-        self.offered: list[str] = []
-        self.unanswered: collections.deque[list[str]] = collections.deque()
-
-    @property
-    def height(self) -> int:
-        """Rows of the screen of the loaded game."""
-        return self._observations.height
 
     def close_connection(self) -> None:
         """Ends the session. A second call does nothing. In a child process, the parent's session goes on."""
@@ -783,7 +764,6 @@ class Exchange:
     def _end(self, reason: str) -> None:
         if not self._end_reason:
             self._end_reason = reason
-            self.unanswered.clear()
             if os.getpid() == self._process:
                 self._close()
 
@@ -807,6 +787,86 @@ class Exchange:
         if os.getpid() != self._process:
             raise RuntimeError("this session of a server was opened before the process forked; open a new one")
 
+    def _abort_on_interrupt(self, call: Callable[[], Result]) -> Result:
+        """Runs `call`. If it is interrupted, such as by Ctrl-C, aborts the session."""
+        try:
+            return call()
+        except Refused:
+            raise
+        except BaseException:
+            self.abort()
+            raise
+
+    def _write_line(self, line: str) -> None:
+        try:
+            self.writer.write(f"{line}\n".encode())
+        except OSError as error:
+            raise self.fail(error) from error
+
+    def _flush(self) -> None:
+        try:
+            self.writer.flush()
+        except ConnectionError:
+            pass  # the server may have written why it ends
+        except OSError as error:
+            raise self.fail(error) from error
+
+    def _read_line(self) -> str:
+        self._flush()
+        try:
+            line = self.reader.readline(self.longest_reply)
+        except OSError as error:  # such as a TimeoutError in the middle of a reply
+            raise self.fail(error) from error
+        if not line.endswith(b"\n"):
+            is_long = len(line) >= self.longest_reply
+            too_long = ConnectionError(f"its reply is longer than {self.longest_reply} bytes")
+            raise self.fail(too_long if is_long else None)
+        return line.decode("latin-1").rstrip("\n")
+
+    def _read_bytes(self, count: int) -> bytes | bytearray:
+        try:
+            data = self.reader.read(count)
+        except OSError as error:
+            raise self.fail(error) from error
+        if len(data) < count:
+            raise self.fail(None)
+        return data
+
+
+RAW_COUNT = re.compile(r" raw=(\S+)$")
+
+
+class Replies(Connection):
+    """Pairs each reply with its request, and decodes it.
+
+    Args:
+        reader: Stream of replies.
+        writer: Stream of requests.
+        close: Closes the streams.
+        arrays: Whether bytes are returned as arrays of NumPy.
+
+    Attributes:
+        offered: Encodings that the server offers, after a greeting.
+        unanswered: Words of each request without a reply, in order.
+    """
+
+    def __init__(
+        self,
+        reader: IO[bytes] | SocketStream,
+        writer: IO[bytes] | SocketStream,
+        close: Callable[[], object],
+        arrays: bool = False,
+    ) -> None:
+        super().__init__(reader, writer, close)
+        self._observations = Observations(arrays)
+        self.offered: list[str] = []
+        self.unanswered: collections.deque[list[str]] = collections.deque()
+
+    @property
+    def height(self) -> int:
+        """Rows of the screen of the loaded game."""
+        return self._observations.height
+
     def check_greeting(self, greeting: Values) -> None:
         """Checks the reply to hello.
 
@@ -821,6 +881,136 @@ class Exchange:
             sentence = f"it speaks version {version} of the protocol; this client speaks {PROTOCOL}"
             raise self.fail(ConnectionError(sentence))
         self.offered = str(greeting.get("encodings", "")).split(",")
+
+    def decode_plain(self, reply: Reply) -> list[Values]:
+        """Decodes a reply of `receive_plain`.
+
+        Args:
+            reply: The reply.
+
+        Returns:
+            The groups of the reply, with numbers, and bytes or arrays.
+
+        Raises:
+            ConnectionError: If the reply is damaged.
+        """
+        groups = parse_groups(reply.text)
+        if groups[-1].pop("raw", None):
+            self.split_bytes(reply.words, groups, reply.data)
+        return self.decode(reply.words, groups)
+
+    def _receive_values(self) -> list[Values]:
+        return self.decode(*self._receive())
+
+    def _receive_plain(self) -> Reply:
+        words, text = self.read_status(self._read_line())
+        count = RAW_COUNT.search(text)
+        return Reply(words, text, self._read_bytes(self._parse_count(count[1])) if count else b"")
+
+    def _receive(self) -> tuple[list[str], list[Texts]]:
+        """Returns the words of the oldest request without a reply, and the groups of its reply."""
+        words, groups, count = self.parse_reply(self._read_line())
+        if count:
+            self.split_bytes(words, groups, self._read_bytes(count))
+        return words, groups
+
+    # A session of asyncio reads replies by itself. It passes each line to `parse_reply` or `read_status`, the bytes
+    # that follow to `split_bytes`, and the groups to `decode`.
+
+    def parse_reply(self, line: str) -> tuple[list[str], list[Texts], int]:
+        """Parses the line of a reply.
+
+        Args:
+            line: The line without its end.
+
+        Returns:
+            The words of the request, the groups of the reply, and the number of bytes that follow the line.
+
+        Raises:
+            Refused: If the server refuses the request.
+            ConnectionError: If the reply is damaged.
+        """
+        words, text = self.read_status(line)
+        groups = parse_groups(text)
+        with self._fail_if_damaged():
+            self._observations.follow(words, groups[0])
+        return words, groups, self._parse_count(groups[-1].pop("raw", "0"))
+
+    def read_status(self, line: str) -> tuple[list[str], str]:
+        """Reads the status of a reply.
+
+        Args:
+            line: The line of the reply without its end.
+
+        Returns:
+            The words of the oldest request without a reply, and the text after `ok `.
+
+        Raises:
+            Refused: If the server refuses the request.
+            ConnectionError: If the line is not a reply.
+        """
+        # Without a request, the server writes why it ends.
+        words = self.unanswered.popleft() if self.unanswered else [""]
+        status, _, rest = line.partition(" ")
+        if status == "error" and rest:
+            code, _, sentence = rest.partition(" ")
+            raise Refused(code, sentence)
+        if status != "ok":
+            raise self.fail(ConnectionError(f"it sent {line[:60]!r}, which is not a reply"))
+        return words, rest
+
+    def split_bytes(self, words: list[str], groups: list[Texts], data: bytes | bytearray) -> None:
+        """Gives each field with the encoding raw its part of the bytes that followed a reply.
+
+        Args:
+            words: Words of the request.
+            groups: Groups of the reply. Bytes replace the counts in them.
+            data: Bytes that followed the reply.
+
+        Raises:
+            ConnectionError: If the counts do not add up to the bytes.
+        """
+        with self._fail_if_damaged():
+            self._observations.split_bytes(words, groups, data)
+
+    def decode(self, words: list[str], groups: list[Texts]) -> list[Values]:
+        """Decodes a reply.
+
+        Args:
+            words: Words of the request.
+            groups: Groups of the reply, as texts.
+
+        Returns:
+            The groups with numbers, and bytes or arrays.
+
+        Raises:
+            ConnectionError: If a field is damaged.
+        """
+        with self._fail_if_damaged():
+            return self._observations.decode(words, groups)
+
+    def _end(self, reason: str) -> None:
+        super()._end(reason)
+        self.unanswered.clear()
+
+    def _parse_count(self, text: str) -> int:
+        with self._fail_if_damaged():
+            return parse_count(text, self.longest_reply)
+
+    @contextlib.contextmanager
+    def _fail_if_damaged(self) -> Iterator[None]:
+        try:
+            yield
+        except (ValueError, KeyError, IndexError, zlib.error) as error:
+            raise self.fail(ConnectionError(f"its reply is damaged: {error}")) from error
+
+
+class Exchange(Replies):
+    """Sends requests, and receives their replies in order.
+
+    A call that is interrupted between a request and the end of its reply aborts the session. Otherwise, the next reply
+    would be paired with the wrong request. `Connection` and `Replies` describe the arguments and the attributes.
+    """
 
     def send(self, *words: object, **settings: object) -> None:
         """Sends a request ahead. `receive` returns the replies in order.
@@ -907,23 +1097,6 @@ class Exchange:
         """
         self.check()
         return self._abort_on_interrupt(self._receive_plain)
-
-    def decode_plain(self, reply: Reply) -> list[Values]:
-        """Decodes a reply of `receive_plain`.
-
-        Args:
-            reply: The reply.
-
-        Returns:
-            The groups of the reply, with numbers, and bytes or arrays.
-
-        Raises:
-            ConnectionError: If the reply is damaged.
-        """
-        groups = parse_groups(reply.text)
-        if groups[-1].pop("raw", None):
-            self.split_bytes(reply.words, groups, reply.data)
-        return self.decode(reply.words, groups)
 
     def request(self, *words: object, **settings: object) -> list[Values]:
         """Sends any request, and decodes its reply.
@@ -1013,152 +1186,9 @@ class Exchange:
         if self.unanswered:
             raise ValueError(f"{len(self.unanswered)} requests were sent ahead; receive their replies first")
 
-    def _abort_on_interrupt(self, call: Callable[[], Result]) -> Result:
-        """Runs `call`. If it is interrupted, such as by Ctrl-C, aborts the session."""
-        try:
-            return call()
-        except Refused:
-            raise
-        except BaseException:
-            self.abort()
-            raise
-
     def _write(self, line: str) -> None:
         self.unanswered.append(line.split())
-        try:
-            self.writer.write(f"{line}\n".encode())
-        except OSError as error:
-            raise self.fail(error) from error
-
-    def _flush(self) -> None:
-        try:
-            self.writer.flush()
-        except ConnectionError:
-            pass  # the server may have written why it ends
-        except OSError as error:
-            raise self.fail(error) from error
-
-    def _receive_values(self) -> list[Values]:
-        return self.decode(*self._receive())
-
-    def _receive_plain(self) -> Reply:
-        words, text = self.read_status(self._read_line())
-        count = RAW_COUNT.search(text)
-        return Reply(words, text, self._read_bytes(self._parse_count(count[1])) if count else b"")
-
-    def _receive(self) -> tuple[list[str], list[Texts]]:
-        """Returns the words of the oldest request without a reply, and the groups of its reply."""
-        words, groups, count = self.parse_reply(self._read_line())
-        if count:
-            self.split_bytes(words, groups, self._read_bytes(count))
-        return words, groups
-
-    def _read_line(self) -> str:
-        self._flush()
-        try:
-            line = self.reader.readline(self.longest_reply)
-        except OSError as error:  # such as a TimeoutError in the middle of a reply
-            raise self.fail(error) from error
-        if not line.endswith(b"\n"):
-            is_long = len(line) >= self.longest_reply
-            too_long = ConnectionError(f"its reply is longer than {self.longest_reply} bytes")
-            raise self.fail(too_long if is_long else None)
-        return line.decode("latin-1").rstrip("\n")
-
-    def _read_bytes(self, count: int) -> bytes | bytearray:
-        try:
-            data = self.reader.read(count)
-        except OSError as error:
-            raise self.fail(error) from error
-        if len(data) < count:
-            raise self.fail(None)
-        return data
-
-    # A session of asyncio reads replies by itself. It passes each line to `parse_reply` or `read_status`, the bytes
-    # that follow to `split_bytes`, and the groups to `decode`.
-
-    def parse_reply(self, line: str) -> tuple[list[str], list[Texts], int]:
-        """Parses the line of a reply.
-
-        Args:
-            line: The line without its end.
-
-        Returns:
-            The words of the request, the groups of the reply, and the number of bytes that follow the line.
-
-        Raises:
-            Refused: If the server refuses the request.
-            ConnectionError: If the reply is damaged.
-        """
-        words, text = self.read_status(line)
-        groups = parse_groups(text)
-        with self._fail_if_damaged():
-            self._observations.follow(words, groups[0])
-        return words, groups, self._parse_count(groups[-1].pop("raw", "0"))
-
-    def read_status(self, line: str) -> tuple[list[str], str]:
-        """Reads the status of a reply.
-
-        Args:
-            line: The line of the reply without its end.
-
-        Returns:
-            The words of the oldest request without a reply, and the text after `ok `.
-
-        Raises:
-            Refused: If the server refuses the request.
-            ConnectionError: If the line is not a reply.
-        """
-        # Without a request, the server writes why it ends.
-        words = self.unanswered.popleft() if self.unanswered else [""]
-        status, _, rest = line.partition(" ")
-        if status == "error" and rest:
-            code, _, sentence = rest.partition(" ")
-            raise Refused(code, sentence)
-        if status != "ok":
-            raise self.fail(ConnectionError(f"it sent {line[:60]!r}, which is not a reply"))
-        return words, rest
-
-    def split_bytes(self, words: list[str], groups: list[Texts], data: bytes | bytearray) -> None:
-        """Gives each field with the encoding raw its part of the bytes that followed a reply.
-
-        Args:
-            words: Words of the request.
-            groups: Groups of the reply. Bytes replace the counts in them.
-            data: Bytes that followed the reply.
-
-        Raises:
-            ConnectionError: If the counts do not add up to the bytes.
-        """
-        with self._fail_if_damaged():
-            self._observations.split_bytes(words, groups, data)
-
-    def decode(self, words: list[str], groups: list[Texts]) -> list[Values]:
-        """Decodes a reply.
-
-        Args:
-            words: Words of the request.
-            groups: Groups of the reply, as texts.
-
-        Returns:
-            The groups with numbers, and bytes or arrays.
-
-        Raises:
-            ConnectionError: If a field is damaged.
-        """
-        with self._fail_if_damaged():
-            return self._observations.decode(words, groups)
-
-    def _parse_count(self, text: str) -> int:
-        with self._fail_if_damaged():
-            return parse_count(text, self.longest_reply)
-
-    @contextlib.contextmanager
-    def _fail_if_damaged(self) -> Iterator[None]:
-        try:
-            yield
-        except (ValueError, KeyError, IndexError, zlib.error) as error:
-            raise self.fail(ConnectionError(f"its reply is damaged: {error}")) from error
+        self._write_line(line)
 
 
 class Commands(Exchange):

@@ -18,7 +18,7 @@ from collections.abc import Awaitable, Callable, Coroutine
 from typing import IO, Any, cast
 
 from .addresses import reach
-from .exchange import LONGEST_REPLY
+from .connection import LONGEST_REPLY
 from .messages import Refused, Values
 from .opening import not_serving, server_command
 from .session import Session

@@ -17,8 +17,8 @@ not answer in time. Both end the session.
 from __future__ import annotations
 
 from .addresses import ANNOUNCEMENT
+from .connection import LONGEST_REPLY
 from .encodings import DECODERS, apply_delta, decode_rewards, decode_runs
-from .exchange import LONGEST_REPLY
 from .fields import SHAPES, USUAL_ENCODING
 from .messages import PROTOCOL, Refused, Reply, Texts, Values
 from .opening import connect, launch

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterable
 
 from .addresses import reach
-from .exchange import LONGEST_REPLY
+from .connection import LONGEST_REPLY
 from .session import Session
 from .transport import close_pipes, open_secure_socket
 
