@@ -5,13 +5,15 @@ import os
 import signal
 import ssl
 import sys
+import tempfile
 import time
 import unittest
 import urllib.error
 import urllib.request
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-import test_access
+SERVER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path[:0] = [SERVER, os.path.join(SERVER, "access")]
+from access_case import TOKEN, Folder, make_certificate
 from harness import PATIENCE, Server, main, run
 from web_case import Case, port_of
 from web_socket import TEXT, WebSocket, frame, request
@@ -57,10 +59,10 @@ class Origins(Case):
         self.assertEqual(self.refusal(Origin="http://evil.example:80", Host="evil.example:80").status, 403)
 
     def test_a_name_is_admitted_where_tokens_are_required(self):
-        folder = test_access.Folder()
+        folder = Folder()
         folder.setUp()
         self.addCleanup(folder.doCleanups)
-        self.start("--token-file", folder.write("tokens", test_access.TOKEN))
+        self.start("--token-file", folder.write("tokens", TOKEN))
         wire = self.connect(Origin="http://node7:80", Host="node7:80")
         self.assertIn(b" admitted=0 ", wire.ask(b"hello"))
         self.assertEqual(self.refusal(Origin="http://node8:80", Host="node7:80").status, 403)
@@ -71,16 +73,16 @@ class Origins(Case):
             self.assertEqual((status, len(errors)), (2, 1), errors)
 
 
-class Tokens(Case, test_access.Folder):
+class Tokens(Case, Folder):
     def setUp(self):
         super().setUp()
-        self.tokens = self.write("tokens", test_access.TOKEN)
+        self.tokens = self.write("tokens", TOKEN)
 
     def test_a_token_is_required_and_the_third_wrong_one_closes(self):
         self.start("--token-file", self.tokens)
         wire = self.connect()
         self.assertTrue(wire.ask(b"load beamfall").startswith(b"error unauthorized "))
-        self.assertIn(b" admitted=1 ", wire.ask(b"hello token=" + test_access.TOKEN.encode()))
+        self.assertIn(b" admitted=1 ", wire.ask(b"hello token=" + TOKEN.encode()))
         self.assertTrue(wire.ask(b"load beamfall").startswith(b"ok "))
         wire = self.connect()
         for _ in range(3):
@@ -95,7 +97,7 @@ class Tokens(Case, test_access.Folder):
         self.start("--token-file", self.tokens)
         self.assertEqual(self.too_long(self.connect(), 4099), 1009)
         wire = self.connect()
-        wire.ask(b"hello token=" + test_access.TOKEN.encode())
+        wire.ask(b"hello token=" + TOKEN.encode())
         self.assertTrue(wire.ask(b"help" + b" " * 5000).startswith(b"ok "))
         self.assertEqual(self.too_long(wire, (1 << 20) + 3), 1009)
 
@@ -126,11 +128,11 @@ class Tokens(Case, test_access.Folder):
 
 class OverTls(unittest.TestCase):
     def test_a_session_and_the_page_run_over_TLS(self):
-        tls = test_access.Tls
-        tls.setUpClass()
-        self.addCleanup(tls.doClassCleanups)
-        keys = ("--tls-cert", tls.certificate, "--tls-key", tls.key)
-        context = ssl.create_default_context(cafile=tls.certificate)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        certificate, key = make_certificate(folder.name)
+        keys = ("--tls-cert", certificate, "--tls-key", key)
+        context = ssl.create_default_context(cafile=certificate)
         with Server("serve", "--listen", "wss://127.0.0.1:0", *keys, "--grace", "0") as server:
             port = port_of(server, "wss")
             wire = WebSocket(port, tls=context)
