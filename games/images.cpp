@@ -83,7 +83,7 @@ std::vector<std::string_view> Images::names() const {
 }
 
 std::shared_ptr<const Game> Images::rules(std::string_view game) const {
-  if (auto known = find_game(game)) return known;
+  if (auto row = find_game(game)) return row;
   const auto found = by_name_.find(game);
   if (found == by_name_.end() || !found->second.cartridge.game->has_rule()) return nullptr;
   return found->second.cartridge.game;

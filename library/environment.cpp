@@ -14,10 +14,10 @@ static_assert(kScreenWidth == racebeam::kScreenWidth && kRamSize == racebeam::kR
               kAudioSize == racebeam::kAudioSize);
 
 struct Environment::Impl {
-  Impl(const racebeam::Cartridge& given, const Settings& settings)
-      : cartridge(given),
-        game(Internals::wrap(given.game)),
-        machine(given.image, given.game, internal(settings)) {
+  Impl(const racebeam::Cartridge& loaded, const Settings& settings)
+      : cartridge(loaded),
+        game(Internals::wrap(loaded.game)),
+        machine(loaded.image, loaded.game, internal(settings)) {
     if (settings.screens != Screens::kLast) machine.set_drawing(drawing(settings.screens));
   }
 

@@ -75,8 +75,8 @@ std::vector<racebeam::Cartridge> internal(std::span<const Cartridge> cartridges)
 }  // namespace
 
 struct VectorEnvironment::Impl {
-  Impl(std::vector<racebeam::Cartridge> given, const VectorSettings& settings)
-      : cartridges(std::move(given)), batch(cartridges, internal(settings)) {}
+  Impl(std::vector<racebeam::Cartridge> loaded, const VectorSettings& settings)
+      : cartridges(std::move(loaded)), batch(cartridges, internal(settings)) {}
 
   // Whether each array has room for so many machines, or is left out.
   void check_sizes(const VectorArrays& arrays, std::size_t machines) const {
@@ -152,9 +152,9 @@ void VectorEnvironment::step(std::span<const int> actions, const VectorArrays& o
 }
 
 void VectorEnvironment::reset(const VectorArrays& out, std::span<const std::int64_t> seeds,
-                              std::span<const std::uint8_t> chosen) {
+                              std::span<const std::uint8_t> reset_mask) {
   impl_->check_sizes(out, size());
-  guarded(Error::Cause::kArgument, [&] { impl_->batch.reset(internal(out), chosen, seeds); });
+  guarded(Error::Cause::kArgument, [&] { impl_->batch.reset(internal(out), reset_mask, seeds); });
 }
 
 void VectorEnvironment::observe(const VectorArrays& out) const {

@@ -35,12 +35,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::vector<std::string_view> similar_names(std::string_view name, std::span<const std::string_view> known) {
+std::vector<std::string_view> similar_names(std::string_view name,
+                                            std::span<const std::string_view> candidates) {
   if (name.empty() || name.size() > kLongest) return {};
   const std::string small = in_small_letters(name);
   const std::size_t farthest = std::min(std::max<std::size_t>(2, name.size() / 3), name.size() - 1);
   std::vector<std::pair<std::size_t, std::string_view>> near;
-  for (const std::string_view one : known) {
+  for (const std::string_view one : candidates) {
     const std::string other = in_small_letters(one);
     const bool begins_alike = small.size() > 2 && other != small && other.starts_with(small);
     const std::size_t distance = begins_alike ? 1 : edit_distance(small, other);
@@ -54,9 +55,9 @@ std::vector<std::string_view> similar_names(std::string_view name, std::span<con
   return names;
 }
 
-std::string did_you_mean(std::string_view name, std::span<const std::string_view> known) {
+std::string did_you_mean(std::string_view name, std::span<const std::string_view> candidates) {
   std::string question;
-  for (const std::string_view one : similar_names(name, known))
+  for (const std::string_view one : similar_names(name, candidates))
     (question += question.empty() ? " did you mean " : " or ") += one;
   return question.empty() ? question : question + '?';
 }

@@ -56,21 +56,21 @@ std::string_view value_of(std::string_view word, std::string_view key, std::stri
                          std::string(key) + "=");
 }
 
-std::string advice(std::string_view given, Words known, std::string accepted) {
-  const std::string similar = did_you_mean(given, known);
+std::string advice(std::string_view name, Words names, std::string accepted) {
+  const std::string similar = did_you_mean(name, names);
   if (!similar.empty())
     accepted[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(accepted[0])));
   return similar + ' ' + accepted;
 }
 
-std::string unknown_name(std::string_view kind, std::string_view name, Words known) {
+std::string unknown_name(std::string_view kind, std::string_view name, Words names) {
   std::string list = "accepted:";
-  for (const std::string_view one : known) (list += ' ') += one;
-  return "unknown " + std::string(kind) + ' ' + quote(name) + ';' + advice(name, known, list);
+  for (const std::string_view one : names) (list += ' ') += one;
+  return "unknown " + std::string(kind) + ' ' + quote(name) + ';' + advice(name, names, list);
 }
 
-void refuse_name(std::string_view kind, std::string_view name, Words known) {
-  throw InvalidArguments(unknown_name(kind, name, known));
+void refuse_name(std::string_view kind, std::string_view name, Words names) {
+  throw InvalidArguments(unknown_name(kind, name, names));
 }
 
 std::size_t choice_of(std::string_view value, std::string_view what, Words accepted) {

@@ -51,11 +51,11 @@ std::string_view value_of(std::string_view word, std::string_view key, std::stri
 
 // A suggestion, if a name is similar, then what is accepted, which begins with a small letter: " did you mean
 // A? Accepted: A B C", or " accepted: A B C".
-std::string advice(std::string_view given, Words known, std::string accepted);
+std::string advice(std::string_view name, Words names, std::string accepted);
 
 // "unknown KIND 'NAME'; did you mean A? Accepted: A B C"
-std::string unknown_name(std::string_view kind, std::string_view name, Words known);
-[[noreturn]] void refuse_name(std::string_view kind, std::string_view name, Words known);  // InvalidArguments
+std::string unknown_name(std::string_view kind, std::string_view name, Words names);
+[[noreturn]] void refuse_name(std::string_view kind, std::string_view name, Words names);  // InvalidArguments
 
 // The index of `value` in `accepted`. Throws InvalidInput: "WHAT is 'VALUE'; did you mean A? It
 // takes A, B or C".

@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 // The first setting of a log that is not the plan's.
 std::string first_difference_of_words(const std::string& ours, const std::string& theirs) {
-  std::vector<std::string_view> own, wanted;
+  std::vector<std::string_view> own, expected;
   split(ours, own);
-  split(theirs, wanted);
+  split(theirs, expected);
   const auto tell = [](std::string_view here, std::string_view there) {
     const auto text = [](std::string_view word) { return word.empty() ? "nothing" : quote(word); };
     return "its log's settings have " + text(here) + "; the plan gives " + text(there);
@@ -31,8 +31,8 @@ std::string first_difference_of_words(const std::string& ours, const std::string
     return found == words.end() ? std::string_view() : *found;
   };
   for (const std::string_view word : own)
-    if (const std::string_view there = same_key(wanted, word); there != word) return tell(word, there);
-  for (const std::string_view word : wanted)
+    if (const std::string_view there = same_key(expected, word); there != word) return tell(word, there);
+  for (const std::string_view word : expected)
     if (same_key(own, word).empty()) return tell("", word);
   return "";
 }

@@ -39,12 +39,12 @@ def section_names(names, offers=()):
 
 def run(client, names, racebeam, roms=None, **variables):
     """What `client` prints about the steps of the files, with its own servers."""
-    with servers.started(racebeam, roms) as told:
-        path = servers.pathlib.Path(told["AUTHORITY"]).parent / "steps.txt"
+    with servers.started(racebeam, roms) as places:
+        path = servers.pathlib.Path(places["AUTHORITY"]).parent / "steps.txt"
         path.write_text("".join(steps(names, client.offers)))
         done = subprocess.run(
             [*client.runner, str(path)],
-            env={**told, **dict(client.variables), **variables},
+            env={**places, **dict(client.variables), **variables},
             capture_output=True,
             text=True,
             timeout=PATIENCE,

@@ -80,14 +80,16 @@ void check_memory(std::size_t machines) {
 }
 
 struct Batch::Impl final : VectorHost {
-  Impl(std::span<const Cartridge> cartridges, const BatchSettings& given, Watch given_watch)
-      : settings(given),
-        watch(given_watch),
-        batch_size(checked_size(cartridges.size(), given)),
-        pool(useful_threads(given.threads, cartridges.size()), given.busy_poll, given.first_processor),
-        layout(given.stack, given.screens, given.autoreset == Autoreset::kSameStep),
+  Impl(std::span<const Cartridge> cartridges, const BatchSettings& batch_settings, Watch batch_watch)
+      : settings(batch_settings),
+        watch(batch_watch),
+        batch_size(checked_size(cartridges.size(), batch_settings)),
+        pool(useful_threads(batch_settings.threads, cartridges.size()), batch_settings.busy_poll,
+             batch_settings.first_processor),
+        layout(batch_settings.stack, batch_settings.screens,
+               batch_settings.autoreset == Autoreset::kSameStep),
         finals(cartridges.size()),
-        vector(cartridges, given.slot, given.autoreset, *this),
+        vector(cartridges, batch_settings.slot, batch_settings.autoreset, *this),
         playing(vector.size()),
         jobs(vector.size()),
         queue(pool, [this](std::size_t number) { play(number); }) {
@@ -311,13 +313,13 @@ void Batch::step(std::span<const int> actions, const BatchArrays& out) {
   step(impl_->acts_of(actions, [](std::size_t i) { return i; }), out);
 }
 
-void Batch::reset(const BatchArrays& out, std::span<const std::uint8_t> chosen,
+void Batch::reset(const BatchArrays& out, std::span<const std::uint8_t> mask,
                   std::span<const std::int64_t> seeds) {
-  if (!chosen.empty()) check_count(chosen.size(), "choices", size());
+  if (!mask.empty()) check_count(mask.size(), "choices", size());
   if (!seeds.empty()) check_count(seeds.size(), "seeds", size());
   impl_->check_free();
   const Impl::Output output(*impl_, out);
-  impl_->vector.reset(chosen, seeds);
+  impl_->vector.reset(mask, seeds);
 }
 
 void Batch::show(const BatchArrays& out) const {

@@ -68,9 +68,9 @@ class Batch {
   void step(std::span<const Act> acts, const BatchArrays& out);
   void step(std::span<const int> actions, const BatchArrays& out);  // indices into actions()
 
-  // Begins new episodes of the machines whose byte in `chosen` is not 0; of all if `chosen` is empty. A seed
+  // Begins new episodes of the machines whose byte in `mask` is not 0; of all if `mask` is empty. A seed
   // of 0 or more powers the machine on anew. With a negative seed, or none, its generators continue.
-  void reset(const BatchArrays& out, std::span<const std::uint8_t> chosen = {},
+  void reset(const BatchArrays& out, std::span<const std::uint8_t> mask = {},
              std::span<const std::int64_t> seeds = {});
 
   // Writes what all machines show now, without a step.

@@ -49,9 +49,9 @@ void VectorEnvironment::step(std::span<const Act> acts) {
   run([&](std::size_t number) { step_one(number, acts[number]); });
 }
 
-void VectorEnvironment::reset(std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds) {
+void VectorEnvironment::reset(std::span<const std::uint8_t> mask, std::span<const std::int64_t> seeds) {
   run([&](std::size_t number) {
-    if (chosen.empty() || chosen[number] != 0) return reset_one(number, seeds.empty() ? -1 : seeds[number]);
+    if (mask.empty() || mask[number] != 0) return reset_one(number, seeds.empty() ? -1 : seeds[number]);
     slots_[number]->begin_request();
     host_.show(number, *slots_[number]);
   });

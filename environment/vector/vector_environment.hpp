@@ -58,10 +58,10 @@ class VectorEnvironment {
   // host.run_all() throws. Each machine has then made its step, or is as it was.
   void step(std::span<const Act> acts);
 
-  // Begins new episodes of the machines whose byte in `chosen` is not 0; of all if `chosen` is empty. The
+  // Begins new episodes of the machines whose byte in `mask` is not 0; of all if `mask` is empty. The
   // other machines are shown as they are. A seed of 0 or more goes to Slot::reset(); a negative one means
   // none. Throws as step() does.
-  void reset(std::span<const std::uint8_t> chosen = {}, std::span<const std::int64_t> seeds = {});
+  void reset(std::span<const std::uint8_t> mask = {}, std::span<const std::int64_t> seeds = {});
 
   // Step and reset one machine, on the caller's thread. Callers may use different machines at the same time.
   // Both throw the machine's failure.

@@ -112,10 +112,10 @@ class RACEBEAM_API VectorEnvironment {
   // index or an array of another size.
   void step(std::span<const int> actions, const VectorArrays& out);
 
-  // Begins new episodes of all machines, or of those whose byte in `chosen` is not 0. A seed of 0 or more
+  // Begins new episodes of all machines, or of those whose byte in `reset_mask` is not 0. A seed of 0 or more
   // powers its machine on anew; with a negative one, or none, the random numbers continue.
   void reset(const VectorArrays& out, std::span<const std::int64_t> seeds = {},
-             std::span<const std::uint8_t> chosen = {});
+             std::span<const std::uint8_t> reset_mask = {});
 
   // Writes what the machines show now, for example after a restore.
   void observe(const VectorArrays& out) const;

@@ -33,8 +33,8 @@ def explained(argument):
     return f"{value}{argument.about}"
 
 
-def comment(command, shape, told):
-    lines = [sentence(command.summary) + (f" Returns {told}." if told else "")]
+def comment(command, shape, result):
+    lines = [sentence(command.summary) + (f" Returns {result}." if result else "")]
     lines += [f"@param {argument.name} {argument.about or argument.usage}" for argument in shape.required]
     if shape.others and not shape.only_key:
         about = [explained(argument) for argument in shape.others if argument.about]

@@ -27,15 +27,15 @@ std::string usage(const Command& command) {
   return text;
 }
 
-const Command* CommandTable::known(std::string_view name) const {
+const Command* CommandTable::look_up(std::string_view name) const {
   const auto found = std::ranges::find(commands, name, &Command::name);
   if (found != commands.end()) return &*found;
   const auto alias = std::ranges::find(aliases, name, &Alias::name);
-  return alias != aliases.end() ? known(alias->command) : nullptr;
+  return alias != aliases.end() ? look_up(alias->command) : nullptr;
 }
 
 const Command& CommandTable::find(std::string_view name) const {
-  if (const Command* const found = known(name)) return *found;
+  if (const Command* const found = look_up(name)) return *found;
   throw RequestError(ErrorCode::kUnknownCommand, unknown_name("command", name, names_of(commands)));
 }
 

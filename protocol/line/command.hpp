@@ -47,7 +47,7 @@ struct CommandTable {
   std::span<const Command> commands;
   std::span<const Alias> aliases;
 
-  const Command* known(std::string_view name) const;  // by its name or an alias; null: unknown
+  const Command* look_up(std::string_view name) const;  // by its name or an alias; null: unknown
   // Returns the command of this name or alias. Throws RequestError, with the names that exist.
   const Command& find(std::string_view name) const;
   std::size_t row(const Command& command) const {

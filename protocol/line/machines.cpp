@@ -171,11 +171,11 @@ void Machines::step(std::span<const Act> acts, Reply& reply) {
     context_.count(opened_->vector.slot(number).outcome());
 }
 
-void Machines::restart(std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds,
+void Machines::restart(std::span<const std::uint8_t> mask, std::span<const std::int64_t> seeds,
                        Reply& reply) {
-  check_frames(0, chosen);
+  check_frames(0, mask);
   check_reply_memory();
-  opened_->vector.reset(chosen, seeds);
+  opened_->vector.reset(mask, seeds);
   reply.add("machines", static_cast<std::int64_t>(size()));
   add_texts(reply);
 }

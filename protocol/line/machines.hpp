@@ -41,8 +41,8 @@ class Machines {
   // were there.
   void open(std::size_t count, const SlotSettings& settings, Autoreset autoreset, Reply& reply);
   void step(std::span<const Act> acts, Reply& reply);  // one for each machine
-  // Resets the machines whose byte in `chosen` is not 0. There is a seed for each machine; -1: none.
-  void restart(std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds, Reply& reply);
+  // Resets the machines whose byte in `mask` is not 0. There is a seed for each machine; -1: none.
+  void restart(std::span<const std::uint8_t> mask, std::span<const std::int64_t> seeds, Reply& reply);
 
  private:
   class Host;

@@ -189,7 +189,7 @@ void Session::execute(std::string_view line) {
   check_bytes(line);
   read_words(line);
   if (words_.empty()) throw RequestError(ErrorCode::kBadLine, "the line is empty; help lists the commands");
-  if (!context_.peer.admitted && !table_.known(words_[0])) refuse_without_token(words_[0]);
+  if (!context_.peer.admitted && !table_.look_up(words_[0])) refuse_without_token(words_[0]);
   const Command& command = table_.find(words_[0]);
   command_ = table_.row(command);
   const Words arguments = Words(words_).subspan(1);

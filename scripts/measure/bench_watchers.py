@@ -77,17 +77,17 @@ def measure(watchers, seconds):
         ask(agent, b"load beamfall seed=1 sticky=0 frame_skip=4 autoreset=1 max_episode_frames=0")
         ask(agent, b"observe reward grey84x84x4:delta")
         ask(agent, b"share room")
-        (told, ready), (ended, stop) = multiprocessing.Pipe(False), multiprocessing.Pipe(False)
+        (orders, ready), (ended, stop) = multiprocessing.Pipe(False), multiprocessing.Pipe(False)
         process = multiprocessing.Process(target=watch_all, args=(port, watchers, ready, ended))
         process.start()
-        told.recv()
+        orders.recv()
         play(agent, seconds / 4)
         begin, processor_time = time.monotonic(), processor_seconds(server.process.pid)
         rate = play(agent, seconds)
         processor_time = processor_seconds(server.process.pid) - processor_time
         duration = time.monotonic() - begin
         stop.send(True)
-        pictures = told.recv()
+        pictures = orders.recv()
         process.join()
         agent.close()
         return rate, 1e6 * processor_time / (rate * duration), pictures / (1.25 * duration)
@@ -98,8 +98,8 @@ def main():
     parser.add_argument(
         "--watchers", type=int, nargs="+", default=[0, 1, 16], metavar="N", help="how many; the first is the base"
     )
-    parser.add_argument("--seconds", type=float, default=5, help="of each measurement (default: %(default)s)")
-    parser.add_argument("--rounds", type=int, default=5, help="of all settings (default: %(default)s)")
+    parser.add_argument("--seconds", type=float, default=5, help="seconds per measurement (default: %(default)s)")
+    parser.add_argument("--rounds", type=int, default=5, help="rounds over all settings (default: %(default)s)")
     options = parser.parse_args()
     os.environ.setdefault("RACEBEAM_BINARY", str(ROOT / "build/release/racebeam"))
     rounds = [[measure(count, options.seconds) for count in options.watchers] for _ in range(options.rounds)]

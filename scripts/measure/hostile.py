@@ -51,14 +51,14 @@ def keep_attacking(function, port, folder):
         session.socket.close()
 
 
-def attack_all(functions, port, folder, told, answers):
+def attack_all(functions, port, folder, orders, answers):
     """A process of attackers. It reports their replies from time to time."""
     os.nice(5)
     for function in functions:
         threading.Thread(target=keep_attacking, args=(function, port, folder), daemon=True).start()
-    told.recv()
+    orders.recv()
     answers.send(dict(Session.replies))
-    told.recv()
+    orders.recv()
 
 
 def raise_priority():

@@ -9,16 +9,16 @@ from images import SKIPPED, folder, image, images
 from recorded import digest, read
 from session import BINARY, play
 
-RUNS = [(run, wanted) for run, wanted in read() if run.game in images()]
+RUNS = [(run, expected) for run, expected in read() if run.game in images()]
 
 
 class Kept(unittest.TestCase):
     def test_sessions_are_those_of_ale_0_6(self):
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             answers = pool.map(lambda recorded: play([BINARY, "classic"], recorded[0], image(recorded[0].game)), RUNS)
-            for (run, wanted), answer in zip(RUNS, answers):
+            for (run, expected), answer in zip(RUNS, answers):
                 with self.subTest(run=run.name):
-                    self.assertEqual(digest(answer), wanted, answer.errors)
+                    self.assertEqual(digest(answer), expected, answer.errors)
 
 
 if __name__ == "__main__":

@@ -142,9 +142,9 @@ def chosen_runs(options, seeds):
     return plan(games, options.settings, seeds, options.frames, other_frames)
 
 
-def compare_all(runs, options, kept):
+def compare_all(runs, options, record):
     extra = shlex.split(options.racebeam_options)
-    todo = [run for run in runs if run.name not in kept.results]
+    todo = [run for run in runs if run.name not in record.results]
     if len(todo) < len(runs):
         print(f"{len(runs) - len(todo)} runs are done already")
     progress = Progress(len(todo))
@@ -155,24 +155,24 @@ def compare_all(runs, options, kept):
 
     for run, returned in pool_results(compare, todo, options.jobs, PATIENCE):
         result = result_of(run, returned)
-        kept.add(result)
+        record.add(result)
         if result["verdict"] != IDENTICAL:
             progress.say(f"{result['run']}: {result['verdict']}: {result['report']}")
         progress.step(result["frames"], result["verdict"] == IDENTICAL)
 
 
-def conclude(runs, options, kept, gaps):
+def conclude(runs, options, record, gaps):
     """Writes the report. Returns the exit status."""
-    done = [kept.results[run.name] for run in runs if run.name in kept.results]
+    done = [record.results[run.name] for run in runs if run.name in record.results]
     identical = sum(result["verdict"] == IDENTICAL for result in done)
-    text = markdown(done, kept.identity, shlex.join(["scripts/conformance", *command_line()]), gaps)
+    text = markdown(done, record.identity, shlex.join(["scripts/conformance", *command_line()]), gaps)
     (options.out / "conformance.md").write_text(text)
     if options.publish and len(done) == len(runs):
         (ours.SOURCE / "docs/conformance.md").write_text(text)
     frames = sum(result["frames"] for result in done)
     print(
         f"{identical} of {len(runs)} runs identical, {frames:,} frames, {len(gaps)} not comparable in part; "
-        f"ale-py {kept.identity['reference']}, seeds {', '.join(map(str, kept.identity['seeds']))}"
+        f"ale-py {record.identity['reference']}, seeds {', '.join(map(str, record.identity['seeds']))}"
     )
     return 0 if identical == len(runs) else 1
 
@@ -183,7 +183,7 @@ def command_line():
 
 
 def prepare(options):
-    """What is kept in the folder, the runs to compare, and what is left out of them."""
+    """Returns the record in the folder, the runs to compare, and what is left out of them."""
     check_numbers(options)
     first = base_seed(options.seed)
     identity = {
@@ -207,19 +207,19 @@ def main():
         if options.programs:
             check_numbers(options)
             return compare_programs(options, base_seed(options.seed))
-        kept, runs, gaps = prepare(options)
+        record, runs, gaps = prepare(options)
     except (ValueError, OSError) as error:
         parser.error(str(error))
     except KeyboardInterrupt:
         print("\nstopped")
         return INTERRUPTED
     try:
-        compare_all(runs, options, kept)
+        compare_all(runs, options, record)
     except KeyboardInterrupt:
         print("\nstopped; scripts/conformance --resume goes on where this ended")
-        conclude(runs, options, kept, gaps)
+        conclude(runs, options, record, gaps)
         return INTERRUPTED
-    return conclude(runs, options, kept, gaps)
+    return conclude(runs, options, record, gaps)
 
 
 if __name__ == "__main__":

@@ -29,8 +29,8 @@ def table(text, heading):
 class Numbers(unittest.TestCase):
     def test_the_title_of_the_readme_rounds_the_speed_of_the_last_run(self):
         means, _, _ = last_run()
-        [told] = re.findall(r"\(ALE\), (\d+) times as\s+fast", page("README.md"))
-        self.assertEqual(int(told), int(means["Screen of every frame"]))
+        [listed] = re.findall(r"\(ALE\), (\d+) times as\s+fast", page("README.md"))
+        self.assertEqual(int(listed), int(means["Screen of every frame"]))
 
     def test_the_readme_names_the_packages_of_this_version(self):
         [version] = re.findall(r"project\(racebeam VERSION ([0-9.]+)", page("CMakeLists.txt"))
@@ -50,8 +50,8 @@ class Numbers(unittest.TestCase):
     def test_the_python_page_names_the_extras_and_the_oldest_versions(self):
         project = tomllib.loads(page("pyproject.toml"))["project"]
         text = " ".join(page("docs/python/reference.md").split())
-        [told] = re.findall(r"Each of the extras (.*?) brings", text)
-        self.assertEqual(set(re.findall(r"`([\w-]+)`", told)), set(project["optional-dependencies"]))
+        [listed] = re.findall(r"Each of the extras (.*?) brings", text)
+        self.assertEqual(set(re.findall(r"`([\w-]+)`", listed)), set(project["optional-dependencies"]))
         python = project["requires-python"].removeprefix(">=")
         self.assertIn(f"runs on Linux with Python {python} or later", text)
         gymnasium = re.search(r"gymnasium>=([\d.]+)", project["optional-dependencies"]["gymnasium"][0])[1]

@@ -164,9 +164,9 @@ void receive(VectorMachines& self, const Results& results) {
   batch.receive(arrays_of(batch, count, results), count);
 }
 
-void reset(VectorMachines& self, const std::optional<Given<bool>>& chosen,
+void reset(VectorMachines& self, const std::optional<Given<bool>>& reset_mask,
            const std::optional<Given<std::int64_t>>& seeds, const Results& results) {
-  const std::span<const bool> mask = span_of(chosen);
+  const std::span<const bool> mask = span_of(reset_mask);
   const std::vector<std::uint8_t> bytes(mask.begin(), mask.end());
   fill(self, results, [&](Batch& batch, const BatchArrays& out) { batch.reset(out, bytes, span_of(seeds)); });
 }
@@ -223,9 +223,9 @@ Bytes screen(VectorMachines& self, std::int64_t machine) {
 using GivenImage = std::pair<ImageArgument, std::optional<std::string>>;
 using Console = std::map<std::string, std::string>;  // keys and values of GivenProperties
 
-Cartridge cartridge_of(const GivenImage& given, const std::optional<std::string>& game_file,
+Cartridge cartridge_of(const GivenImage& image, const std::optional<std::string>& game_file,
                        const Console& console) {
-  const auto& [where, game] = given;
+  const auto& [where, game] = image;
   GivenProperties properties;
   for (const auto& [key, value] : console) properties.give(key, value);
   auto image = image_of(where, game.value_or("bytes"));
@@ -307,7 +307,7 @@ void bind_vector(nb::module_& module) {
            "Makes the next step of each machine begin a new game; a seed of -1 means unseeded.")
       .def("playing", playing, "Returns how many machines were sent and not yet received.")
       .def("receive", receive, results, "Waits for as many machines as the results have columns.")
-      .def("reset", reset, "chosen"_a.none(), "seeds"_a.none(), results)
+      .def("reset", reset, "reset_mask"_a.none(), "seeds"_a.none(), results)
       .def("show", show, results)
       .def("save", save, "machine"_a, "include_rng"_a)
       .def("restore", restore, "machine"_a, "state"_a)

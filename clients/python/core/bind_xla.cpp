@@ -137,9 +137,8 @@ void play_step_joysticks(Batch& batch, Reader& arguments, Reader& results) {
 // Arguments: seeds, negative for none, and which machines are reset.
 void play_reset(Batch& batch, Reader& arguments, Reader& results) {
   const auto seeds = arguments.next<const std::int32_t>(batch.size());
-  const auto chosen = arguments.next<const bool>(batch.size());
-  batch.reset(results_of(batch, batch.size(), results),
-              std::vector<std::uint8_t>(chosen.begin(), chosen.end()),
+  const auto mask = arguments.next<const bool>(batch.size());
+  batch.reset(results_of(batch, batch.size(), results), std::vector<std::uint8_t>(mask.begin(), mask.end()),
               std::vector<std::int64_t>(seeds.begin(), seeds.end()));
 }
 

@@ -269,9 +269,9 @@ def check_source(game: Any, rom: images.Rom | None, game_file: str | None, serve
         raise WrongValue("game is None; it takes a name, or None with rom=, or with rom= and game_file=")
 
 
-def console_of(**given: Any) -> dict[str, str]:
+def console_of(**settings: Any) -> dict[str, str]:
     """Returns the settings of the console that are not None, as texts."""
-    return {key: str(value) for key, value in given.items() if value is not None}
+    return {key: str(value) for key, value in settings.items() if value is not None}
 
 
 def warn_of(doubts: list[str]) -> None:

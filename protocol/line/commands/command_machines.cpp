@@ -108,9 +108,9 @@ std::vector<std::uint8_t> read_mask(const Context& context, std::string_view mas
     throw RequestError(ErrorCode::kBadValue,
                        quote(mask) + " is not a mask; it takes a 0 or a 1 for each machine");
   if (mask.size() != context.machines.size()) refuse_count(context, mask.size(), "digits in the mask");
-  std::vector<std::uint8_t> chosen;
-  for (const char digit : mask) chosen.push_back(digit == '1');
-  return chosen;
+  std::vector<std::uint8_t> bytes;
+  for (const char digit : mask) bytes.push_back(digit == '1');
+  return bytes;
 }
 
 }  // namespace
@@ -139,12 +139,12 @@ void run_step(Context& context, Words arguments, Reply& reply) {
 }
 
 void run_restart(Context& context, Words arguments, Reply& reply) {
-  std::vector<std::uint8_t> chosen;
+  std::vector<std::uint8_t> mask;
   std::vector<std::int64_t> seeds;
   for (const std::string_view word : arguments) {
     if (word.find('=') == std::string_view::npos) {
-      if (!chosen.empty()) refuse_twice("MASK");
-      chosen = read_mask(context, word);
+      if (!mask.empty()) refuse_twice("MASK");
+      mask = read_mask(context, word);
       continue;
     }
     if (!seeds.empty()) refuse_twice("seed");
@@ -152,8 +152,8 @@ void run_restart(Context& context, Words arguments, Reply& reply) {
     const std::uint32_t first = parse_seed(value_of(word, "seed", "restart"));
     for (std::size_t i = 0; i < seeds.size(); ++i) seeds[i] = first + static_cast<std::uint32_t>(i);
   }
-  chosen.resize(context.machines.size(), 1);
-  context.machines.restart(chosen, seeds, reply);
+  mask.resize(context.machines.size(), 1);
+  context.machines.restart(mask, seeds, reply);
 }
 
 void run_close(Context& context, Words, Reply&) {

@@ -12,13 +12,13 @@ constexpr std::size_t kLarge = Disposal::kWorthwhile;
 
 // Tells the thread on which it was destroyed, after `may_go`.
 struct Probe {
-  Probe(std::promise<std::thread::id>& told, std::shared_future<void> go)
-      : gone(&told), may_go(std::move(go)) {}
+  Probe(std::promise<std::thread::id>& promise, std::shared_future<void> go)
+      : destroyed(&promise), may_go(std::move(go)) {}
   ~Probe() {
     may_go.wait();
-    gone->set_value(std::this_thread::get_id());
+    destroyed->set_value(std::this_thread::get_id());
   }
-  std::promise<std::thread::id>* gone;
+  std::promise<std::thread::id>* destroyed;
   std::shared_future<void> may_go;
 };
 
@@ -27,12 +27,12 @@ struct Probe {
 TEST_CASE("A large object is destroyed elsewhere, and counts until then") {
   const auto disposal = std::make_shared<Disposal>();
   const auto memory = std::make_shared<MemoryBudget>();
-  std::promise<std::thread::id> gone;
+  std::promise<std::thread::id> destroyed;
   std::promise<void> go;
-  dispose(disposal, memory, kLarge, std::make_unique<Probe>(gone, go.get_future().share()));
+  dispose(disposal, memory, kLarge, std::make_unique<Probe>(destroyed, go.get_future().share()));
   CHECK(memory->taken() == kLarge);
   go.set_value();
-  CHECK(gone.get_future().get() != std::this_thread::get_id());
+  CHECK(destroyed.get_future().get() != std::this_thread::get_id());
   while (memory->taken() != 0) std::this_thread::yield();
 }
 
@@ -42,10 +42,10 @@ TEST_CASE("A small object is destroyed at once, as are all without a disposal") 
   go.set_value();
   const std::shared_future<void> may_go = go.get_future().share();
   for (const bool small : {false, true}) {
-    std::promise<std::thread::id> gone;
+    std::promise<std::thread::id> destroyed;
     dispose(small ? std::make_shared<Disposal>() : nullptr, memory, small ? kLarge - 1 : kLarge,
-            std::make_unique<Probe>(gone, may_go));
-    CHECK(gone.get_future().get() == std::this_thread::get_id());
+            std::make_unique<Probe>(destroyed, may_go));
+    CHECK(destroyed.get_future().get() == std::this_thread::get_id());
     CHECK(memory->taken() == 0);
   }
 }

@@ -185,9 +185,10 @@ class Halves(Compared):
                 for seed in (1, None):
                     for envs in (here, there):
                         envs.send([1, 0, 1])
-                    (seen, told), (expected, info) = there.reset(seed=seed), here.reset(seed=seed)
+                    (seen, our_info), (expected, info) = there.reset(seed=seed), here.reset(seed=seed)
                     self.assertTrue(
-                        np.array_equal(seen, expected) and np.array_equal(told["frame_number"], info["frame_number"])
+                        np.array_equal(seen, expected)
+                        and np.array_equal(our_info["frame_number"], info["frame_number"])
                     )
 
     def test_a_server_that_dies_between_the_halves_is_a_ConnectionError(self):

@@ -46,18 +46,18 @@ class Compared(unittest.TestCase):
             self.assertTrue(np.array_equal(one, other))
         self.check_info(shown[-1], expected[-1])
 
-    def check_info(self, told, expected):
-        self.assertEqual(list(told), list(expected))
+    def check_info(self, info, expected):
+        self.assertEqual(list(info), list(expected))
         for key, value in expected.items():
             if isinstance(value, dict):
-                self.check_info(told[key], value)
+                self.check_info(info[key], value)
             elif value.dtype == object:
                 self.assertTrue(
-                    all(one is other is None or np.array_equal(one, other) for one, other in zip(told[key], value)), key
+                    all(one is other is None or np.array_equal(one, other) for one, other in zip(info[key], value)), key
                 )
             else:
-                self.assertEqual(told[key].dtype, value.dtype)
-                self.assertTrue(np.array_equal(told[key], value), key)
+                self.assertEqual(info[key].dtype, value.dtype)
+                self.assertTrue(np.array_equal(info[key], value), key)
 
     def play(self, here, there, steps):
         """How many episodes ended."""

@@ -35,8 +35,8 @@ inline std::optional<Encoding> encoding_of(std::string_view name) {
                                                                          {"base64", Encoding::kBase64},
                                                                          {"zlib", Encoding::kZlib},
                                                                          {"raw", Encoding::kRaw}}};
-  for (const auto& [known, encoding] : kNames)
-    if (known == name) return encoding;
+  for (const auto& [word, encoding] : kNames)
+    if (word == name) return encoding;
   return std::nullopt;
 }
 

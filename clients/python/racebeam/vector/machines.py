@@ -45,8 +45,8 @@ class Machines(Protocol):
     def receive(self, results: Results) -> None:
         """Waits for as many machines as `results` has columns."""
 
-    def reset(self, chosen: Bools | None, seeds: Seeds | None, results: Results) -> None:
-        """Resets the chosen machines, or all if `chosen` is None."""
+    def reset(self, reset_mask: Bools | None, seeds: Seeds | None, results: Results) -> None:
+        """Resets the machines that `reset_mask` selects; all if it is None."""
 
     def show(self, results: Results) -> None:
         """Reads what all machines show, without stepping them."""

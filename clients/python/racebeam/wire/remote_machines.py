@@ -171,15 +171,15 @@ class RemoteMachines(Halves):
         with self._exclusively(is_second=True):
             self._take_pending()(results)
 
-    def reset(self, chosen: Bools | None, seeds: Seeds | None, results: Results) -> None:
-        """Resets the chosen machines, or all if `chosen` is None."""
+    def reset(self, reset_mask: Bools | None, seeds: Seeds | None, results: Results) -> None:
+        """Resets the machines that `reset_mask` selects; all if it is None."""
         with self._exclusively():
-            self._reset(chosen, seeds, results)
+            self._reset(reset_mask, seeds, results)
 
-    def _reset(self, chosen: Bools | None, seeds: Seeds | None, results: Results) -> None:
+    def _reset(self, reset_mask: Bools | None, seeds: Seeds | None, results: Results) -> None:
         """Resets machines whose seeds count up as the server counts them by one request."""
         masks: dict[int | None, list[str]] = {}
-        for machine in range(self._count) if chosen is None else np.flatnonzero(chosen):
+        for machine in range(self._count) if reset_mask is None else np.flatnonzero(reset_mask):
             seed = -1 if seeds is None else int(seeds[machine])
             first = None if seed < 0 else (seed - int(machine)) % 2**32
             masks.setdefault(first, ["0"] * self._count)[machine] = "1"

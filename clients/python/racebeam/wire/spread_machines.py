@@ -302,14 +302,14 @@ class SpreadMachines(Halves):
             raise
         return None
 
-    def reset(self, chosen: Bools | None, seeds: Seeds | None, results: Results) -> None:
-        """Resets the chosen machines, or all if `chosen` is None."""
-        self._exchange(lambda results: self._reset(chosen, seeds, results), results)
+    def reset(self, reset_mask: Bools | None, seeds: Seeds | None, results: Results) -> None:
+        """Resets the machines that `reset_mask` selects; all if it is None."""
+        self._exchange(lambda results: self._reset(reset_mask, seeds, results), results)
 
-    def _reset(self, chosen: Bools | None, seeds: Seeds | None, results: Results) -> None:
+    def _reset(self, reset_mask: Bools | None, seeds: Seeds | None, results: Results) -> None:
         def reset_part(part: _Part) -> None:
             rows = part.rows
-            mask = None if chosen is None else chosen[rows]
+            mask = None if reset_mask is None else reset_mask[rows]
             part.machines.reset(mask, None if seeds is None else seeds[rows], results.select(rows))
             part.is_fresh = False
 
