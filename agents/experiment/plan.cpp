@@ -97,7 +97,7 @@ void bind(Plan& plan, const Images& images, const std::string& version) {
     const std::string& found = images.find(game.name)->image->md5;
     if (!game.image_md5.empty() && game.image_md5 != found)
       throw InvalidInput("the plan's image of " + game.name + " has MD5 " + game.image_md5 +
-                         "; the one that is here has " + found);
+                         "; the available one has " + found);
     game.image_md5 = found;
     check_game(plan, *images.find(game.name));
   }

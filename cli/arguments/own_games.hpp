@@ -17,7 +17,7 @@ class OwnGames {
 
   const std::vector<std::shared_ptr<const Game>>& games() const { return games_; }
 
-  // Throws InvalidInput if none of these games is that of an image that is here: the file would have no
+  // Throws InvalidInput if none of these games is that of an available image: the file would have no
   // effect. `places`: where the images are from.
   void check_use(const Images& images, const std::string& places) const;
 

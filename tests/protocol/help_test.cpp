@@ -182,7 +182,7 @@ TEST_CASE("A name without similar ones gets the list of names") {
   LineClient client;
   client.ask(kLoad);
   CHECK_THAT(client.ask("xyzzy"), Contains("unknown command 'xyzzy'; accepted: hello help"));
-  CHECK_THAT(client.ask("load plughplugh"), EndsWith("; games lists those that are here"));
+  CHECK_THAT(client.ask("load plughplugh"), EndsWith("; games lists the available ones"));
   CHECK(client.ask("restore a") == "error no-state unknown state 'a'; accepted: none");
 }
 

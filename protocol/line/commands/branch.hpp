@@ -16,7 +16,7 @@ class Reply;
 // Lists of actions, one after the other in one piece of memory: there may be half a million.
 struct ActionLists {
   std::vector<Action> actions;
-  std::vector<std::size_t> ends;  // of each list, in `actions`
+  std::vector<std::size_t> ends;  // per list, in `actions`
 
   std::size_t size() const { return ends.size(); }
   std::span<const Action> operator[](std::size_t list) const {

@@ -28,13 +28,13 @@ void add_names(Reply& reply, const Names& names) {
   if (find_game(name)) {
     throw RequestError(ErrorCode::kUnknownGame,
                        "the image of " + std::string(name) +
-                           " is not here; games lists those that are; load inline takes one");
+                           " is missing; games lists the available ones; load inline takes one");
   }
   std::string similar = did_you_mean(name, images.names());
   if (similar.empty()) similar = did_you_mean(name, game_names());
   throw RequestError(
       ErrorCode::kUnknownGame,
-      "unknown game " + quote(name) + ';' + (similar.empty() ? " games lists those that are here" : similar));
+      "unknown game " + quote(name) + ';' + (similar.empty() ? " games lists the available ones" : similar));
 }
 
 void add_console(Reply& reply, const Cartridge& cartridge) {

@@ -164,7 +164,7 @@ TEST_CASE("A plan of another image or version is refused") {
   CHECK_THROWS_WITH(bind(plan, Images(), "0.1.0"), "the plan is of version '0.0.9'; this program is 0.1.0");
   plan = parse_plan(start + "[images]\nbeamfall = \"abc\"\n", "");
   CHECK_THROWS_WITH(bind(plan, Images(), "0.1.0"),
-                    Catch::StartsWith("the plan's image of beamfall has MD5 abc; the one that is here has "));
+                    Catch::StartsWith("the plan's image of beamfall has MD5 abc; the available one has "));
 }
 
 TEST_CASE("Baselines are 37, in the plan's order, with their own seeds") {
