@@ -255,25 +255,27 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("plan")
     parser.add_argument("--nodes", type=number(int, 1), nargs="+", default=[], help="numbers of nodes to simulate")
     parser.add_argument("--within", type=number(float, 0), metavar="HOURS", help="find the number of nodes")
-    parser.add_argument("--cores", type=number(int, 1), default=64, help="of a node (default 64)")
+    parser.add_argument("--cores", type=number(int, 1), default=64, help="cores per node (default 64)")
     parser.add_argument("--shards", type=number(int, 0), default=0, help="tasks (default: a task a unit)")
     parser.add_argument(
         "--longest-first", action="store_true", help="not in the order of the plan, as with a plan for each agent"
     )
     parser.add_argument("--pilot", type=pathlib.Path, metavar="RESULTS")
-    parser.add_argument("--failures", type=number(float, 0), default=4, help="of a node in a year (default 4)")
+    parser.add_argument("--failures", type=number(float, 0), default=4, help="failures per node and year (default 4)")
     parser.add_argument("--repair", type=number(float, 0), default=3600, help="seconds (default 3600)")
     parser.add_argument("--requeue", type=number(float, 0), default=120, help="seconds (default 120)")
     parser.add_argument("--checkpoint", type=number(float, 1), default=60, help="seconds (default 60)")
     parser.add_argument(
         "--slow", type=number(float, 0, 1), default=0.05, help="share of nodes that are slow (default 0.05)"
     )
-    parser.add_argument("--slowness", type=number(float, 1), default=2, help="of slow nodes (default 2)")
+    parser.add_argument(
+        "--slowness", type=number(float, 1), default=2, help="how many times slower slow nodes are (default 2)"
+    )
     parser.add_argument("--runs", type=number(int, 1), default=20, help="simulations (default 20)")
     parser.add_argument(
         "--program",
         default="racebeam",
-        help="that says how long units take: a name in the PATH, or a path (default: %(default)s)",
+        help="program that says how long units take: a name in the PATH, or a path (default: %(default)s)",
     )
     return parser.parse_args()
 

@@ -39,7 +39,7 @@ class Blobs {
   const int reach_;
   std::vector<Run> runs_;
   std::array<std::vector<Number>, kColours> of_colour_;  // runs, in their order
-  std::vector<Number> blob_of_;                          // of each run that is a root
+  std::vector<Number> blob_of_;                          // per run; only of roots
   std::vector<Blob> blobs_;
 };
 

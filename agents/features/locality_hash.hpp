@@ -46,10 +46,10 @@ class LocalityHash final : public FeatureSet {
   void apply(const Change& change);
 
   const std::uint32_t buckets_;
-  HugeTable<std::uint32_t> first_;  // of each bit's entries; one more for the end
+  HugeTable<std::uint32_t> first_;  // per bit: its entries; one more for the end
   HugeTable<Entry> entries_;
   std::vector<Change> changes_;
-  std::vector<std::int32_t> sums_;                     // of each vector: hashes of the bits that both have
+  std::vector<std::int32_t> sums_;                     // per vector: hashes of the bits that both have
   std::array<std::uint8_t, kFeaturePixels> before_{};  // colours
   FeatureScreen screen_;
 };

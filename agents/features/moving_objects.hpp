@@ -82,7 +82,7 @@ class MovingObjects {
   Regions regions_;
   const int reach_;
   Seen now_, before_;
-  std::vector<std::uint32_t> parent_;  // of each region: an earlier one of its object, or itself
+  std::vector<std::uint32_t> parent_;  // per region: an earlier one of its object, or itself
   std::vector<std::uint32_t> parts_;   // regions in the order of objects
   Shape joined_;
 };

@@ -71,7 +71,7 @@ class ObjectFeatures final : public FeatureSet {
   const int fastest_;  // of relative velocities, in x and in y
   std::uint32_t classes_, first_place_, first_pair_;
   std::size_t size_;
-  std::vector<float> counts_;           // of each feature; 0 between calls
+  std::vector<float> counts_;           // per feature; 0 between calls
   std::vector<std::uint64_t> counted_;  // a bit for each feature with a count
   FeatureScreen screen_;
 };

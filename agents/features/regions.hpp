@@ -45,12 +45,12 @@ class Regions {
 
   Background behind_;  // palette indices with the lowest bit clear
   std::vector<PixelRun> runs_;
-  std::vector<std::uint8_t> colours_;  // of each run
-  std::vector<Number> parent_;         // of each run: an earlier one of its region, or itself
+  std::vector<std::uint8_t> colours_;  // per run
+  std::vector<Number> parent_;         // per run: an earlier one of its region, or itself
   std::vector<std::pair<Number, Number>> touching_;
-  std::vector<Number> region_of_;  // of each run
-  std::vector<Number> renamed_;    // of each region: its number without single pixels
-  std::vector<Number> next_;       // of each region: the place of its next run in shapes_
+  std::vector<Number> region_of_;  // per run
+  std::vector<Number> renamed_;    // per region: its number without single pixels
+  std::vector<Number> next_;       // per region: the place of its next run in shapes_
   std::vector<Region> regions_;
   std::vector<PixelRun> shapes_;
 };

@@ -41,7 +41,7 @@ class TileCoding {
 
   std::uint32_t tilings_, side_;
   std::uint32_t width_, height_;
-  std::vector<std::uint8_t> columns_, rows_;  // of each tiling and coordinate
+  std::vector<std::uint8_t> columns_, rows_;  // per tiling and coordinate
 };
 
 }  // namespace racebeam

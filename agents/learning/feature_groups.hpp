@@ -55,9 +55,9 @@ class FeatureGroups {
 
   std::size_t most_, seen_ = 0;
   HugeTable<Slot> slots_;              // a power of two, at most half full
-  std::vector<std::uint32_t> sizes_;   // of each group
-  std::vector<std::uint32_t> active_;  // of each group: its features that are active; 0 between calls
-  std::vector<Number> successor_;      // of each active group: the group of its active features
+  std::vector<std::uint32_t> sizes_;   // per group
+  std::vector<std::uint32_t> active_;  // per group: its features that are active; 0 between calls
+  std::vector<Number> successor_;      // per active group: the group of its active features
   std::vector<Slot*> found_;           // of the features that are active
   std::vector<Number> touched_;        // groups with active features
   std::vector<FeatureSplit> splits_;

@@ -72,7 +72,7 @@ class RolloutSearch {
   Random random_;
   RewardScaler scaled_;
   std::unique_ptr<Node> root_;
-  std::vector<int> depths_;  // of each byte of the features, each value: the least at which it was seen
+  std::vector<int> depths_;  // per byte of the features and per value: the least at which it was seen
   std::int64_t search_ = 0, end_ = 0, frames_ = 0;
 };
 

@@ -84,7 +84,7 @@ class TreeSearch {
   std::vector<Node> nodes_;          // a parent before its children, and these behind its siblings
   bool kept_ = false;                // they are the next tree's
   std::deque<Number> open_, aside_;  // to be visited
-  std::vector<bool> seen_;           // of each byte of the features, each value
+  std::vector<bool> seen_;           // per byte of the features and per value
   std::vector<int> order_;           // of the actions at a node; each draw begins with the one before
   std::int64_t frames_ = 0;
 };

@@ -9,7 +9,7 @@ import sys
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("racebeam", help="the program, such as build/release/racebeam")
 parser.add_argument("rom", help="a cartridge image, or builtin:beamfall")
-parser.add_argument("seed", nargs="?", type=int, default=1, help="of the actions (default: 1)")
+parser.add_argument("seed", nargs="?", type=int, default=1, help="seed of the actions (default: 1)")
 if len(sys.argv) == 1:
     parser.print_help(sys.stderr)
     sys.exit(2)

@@ -257,9 +257,9 @@ def read_options():
     )
     parser.add_argument("--agent-seed", type=int, default=1, help="(default: %(default)s)")
     parser.add_argument(
-        "--seed", type=int, default=1, help="of the first episode; they count up (default: %(default)s)"
+        "--seed", type=int, default=1, help="seed of the first episode; they count up (default: %(default)s)"
     )
-    parser.add_argument("--frames", type=int, default=18000, help="of an episode at most (default: %(default)s)")
+    parser.add_argument("--frames", type=int, default=18000, help="limit of frames per episode (default: %(default)s)")
     parser.add_argument(
         "--background", help="a CSV file of 210 lines of 160 colours (racebeam background); without it: black"
     )

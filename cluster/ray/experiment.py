@@ -55,7 +55,7 @@ def main() -> None:
     parser.add_argument("plan")
     parser.add_argument("results")
     parser.add_argument("--shards", type=positive, default=10)
-    parser.add_argument("--address", help="of a cluster, or auto; without it, Ray starts on this machine")
+    parser.add_argument("--address", help="address of a cluster, or auto; without it, Ray starts on this machine")
     options, words = parser.parse_known_args()
     ray.init(options.address)
     try:

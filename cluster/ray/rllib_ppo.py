@@ -50,10 +50,10 @@ def config(game: str, *, runners: int = 1, envs: int = 8, vector: bool = True, *
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("game", help="as in the id racebeam/Breakout-v5")
+    parser.add_argument("game", help="name of the game, as in the id racebeam/Breakout-v5")
     parser.add_argument("--iterations", type=positive, default=10)
     parser.add_argument("--runners", type=positive, default=1)
-    parser.add_argument("--envs", type=positive, default=8, help="of each runner")
+    parser.add_argument("--envs", type=positive, default=8, help="environments per runner")
     parser.add_argument("--single", action="store_true", help="without vector environments")
     options = parser.parse_args()
     try:

@@ -112,10 +112,10 @@ def main() -> None:
     parser.add_argument("game")
     parser.add_argument("--actors", type=positive, default=2)
     parser.add_argument("--rollouts", type=positive, default=8)
-    parser.add_argument("--envs", type=positive, default=8, help="of each actor")
+    parser.add_argument("--envs", type=positive, default=8, help="environments per actor")
     parser.add_argument("--steps", type=positive, default=128)
     parser.add_argument("--roms", help="the folder of cartridge images on each node")
-    parser.add_argument("--address", help="of a cluster, or auto; without it, Ray starts on this machine")
+    parser.add_argument("--address", help="address of a cluster, or auto; without it, Ray starts on this machine")
     options = parser.parse_args()
     images = {"RACEBEAM_ROMS": options.roms} if options.roms else {}
     ray.init(options.address, runtime_env={"env_vars": images})

@@ -14,7 +14,7 @@
 namespace racebeam {
 
 constexpr int kLineClocks = 228;
-constexpr int kBlankClocks = 68;  // of each line, before its first pixel
+constexpr int kBlankClocks = 68;  // per line, before its first pixel
 
 // How much of the picture a step makes.
 enum class RenderMode : std::uint8_t {

@@ -82,7 +82,7 @@ class ScreenStack {
   std::vector<Brightness> brightness_;  // one a channel
   std::size_t plane_size_, screen_size_;
   std::vector<std::uint8_t> seen_;      // planes, one after the other
-  std::vector<Source> sources_;         // of each row of the planes
+  std::vector<Source> sources_;         // per row of the planes
   std::vector<std::uint8_t> stale_;     // rows of the planes that this look must make
   std::vector<std::uint8_t> changed_;   // rows of the planes that the newest screen does not show
   std::vector<std::uint8_t> due_rows_;  // rows of the next screen that differ from the newest

@@ -79,7 +79,7 @@ def _parser() -> argparse.ArgumentParser:
         "--viewer",
         type=_address,
         metavar="ADDRESS",
-        help="of a racebeam server's page, in which links of the board replay episodes",
+        help="address of a racebeam server's page, in which links of the board replay episodes",
     )
     parser.add_argument("--into", required=True, type=pathlib.Path, metavar="FOLDER", help="a new or an empty folder")
     parser.add_argument(
@@ -90,8 +90,10 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="evaluate results of different settings together, and put them beside published ones of other settings",
     )
-    parser.add_argument("--seed", type=_whole, default=1, help="of the bootstrap (default: %(default)s)")
-    parser.add_argument("--repetitions", type=_positive, default=2000, help="of the bootstrap (default: %(default)s)")
+    parser.add_argument("--seed", type=_whole, default=1, help="seed of the bootstrap (default: %(default)s)")
+    parser.add_argument(
+        "--repetitions", type=_positive, default=2000, help="repetitions of the bootstrap (default: %(default)s)"
+    )
     return parser
 
 

@@ -67,7 +67,7 @@ class Plan:
 
     @property
     def games(self) -> set[str]:
-        """The games whose images the plan names: a user may have games of one's own."""
+        """The games whose images the plan names: users may have games of their own."""
         images = self.tables.get("images")
         return set(images) if isinstance(images, dict) else set()
 

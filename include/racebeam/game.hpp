@@ -27,7 +27,7 @@ class RACEBEAM_API Game {
 
   static Game named(const std::string& name);  // one of names(); throws Error for others
 
-  // Reads a game file of one's own. games/catalogue/README.md describes the format. Throws Error, which names
+  // Reads a game file of the user. games/catalogue/README.md describes the format. Throws Error, which names
   // the file, the line and the field.
   static Game load(const std::string& path);
 

@@ -37,7 +37,7 @@ QUICK_GAMES = ["breakout", "pong", "qbert", "seaquest", "space_invaders"]
 CHUNK = 500  # frames
 WARM_UP = 2  # chunks that are not measured
 STATES = "states"
-ROUNDS, RESETS, SNAPSHOTS = 5, 4, 200  # of each round: resets, saved states
+ROUNDS, RESETS, SNAPSHOTS = 5, 4, 200  # per round: resets, saved states
 
 
 def parse_arguments():

@@ -38,7 +38,10 @@ def parse_arguments():
     parser.add_argument("--frames", type=int, default=120, metavar="N", help="counted frames (default 120)")
     parser.add_argument("--before", type=int, default=600, metavar="N", help="frames before them (default 600)")
     parser.add_argument(
-        "--setting", choices=bench_settings.SETTINGS, default="every", help="as in scripts/bench core (default every)"
+        "--setting",
+        choices=bench_settings.SETTINGS,
+        default="every",
+        help="one setting, as in scripts/bench core (default every)",
     )
     parser.add_argument(
         "--cpu",

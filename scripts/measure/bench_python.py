@@ -17,8 +17,8 @@ parser = argparse.ArgumentParser(
     prog="scripts/bench python", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
 )
 parser.add_argument("--games", default=GAMES, help=f"A,B (default {GAMES})")
-parser.add_argument("--steps", type=int, default=100, help="of a chunk (default 100)")
-parser.add_argument("--chunks", type=int, default=9, help="of a game (default 9)")
+parser.add_argument("--steps", type=int, default=100, help="steps per chunk (default 100)")
+parser.add_argument("--chunks", type=int, default=9, help="chunks per game (default 9)")
 options = parser.parse_args()
 
 import ale_py  # noqa: E402

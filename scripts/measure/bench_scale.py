@@ -45,13 +45,18 @@ def parse_arguments():
     parser.add_argument("parts", nargs="*", default=PARTS, metavar="PART", help=f"{', '.join(PARTS)} (default: all)")
     parser.add_argument("--game", default="seaquest", help="for steps and sessions (default: seaquest)")
     parser.add_argument("--frame-skip", type=int, default=4)
-    parser.add_argument("--seconds", type=float, default=5, help="of each measurement (default 5)")
+    parser.add_argument("--seconds", type=float, default=5, help="seconds per measurement (default 5)")
     parser.add_argument(
         "--acting", type=int, nargs="+", default=[1, 16, 64, 256, 1024], help="numbers of acting sessions"
     )
     parser.add_argument("--idle", type=int, nargs="+", default=[1000, 8000], help="numbers of idle sessions")
     parser.add_argument("--crowd", type=int, default=50000, help="sessions of crowd (default 50000)")
-    parser.add_argument("--servers", type=int, default=3, help="of crowd: a process may open so many files (default 3)")
+    parser.add_argument(
+        "--servers",
+        type=int,
+        default=3,
+        help="servers of the measurement crowd, since a process may open only some files (default 3)",
+    )
     parser.add_argument(
         "--build", type=pathlib.Path, help="folder of a build (default: build/release, which is built first)"
     )

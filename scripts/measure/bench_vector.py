@@ -24,8 +24,10 @@ parser = argparse.ArgumentParser(
 )
 parser.add_argument("--games", default=GAMES, help=f"A,B (default {GAMES})")
 parser.add_argument("--envs", default="16,64", help="numbers of environments (default 16,64)")
-parser.add_argument("--steps", type=int, default=1600, help="of all environments together, in a chunk (default 1600)")
-parser.add_argument("--chunks", type=int, default=7, help="of a game (default 7)")
+parser.add_argument(
+    "--steps", type=int, default=1600, help="steps per chunk, of all environments together (default 1600)"
+)
+parser.add_argument("--chunks", type=int, default=7, help="chunks per game (default 7)")
 options = parser.parse_args()
 
 import numpy as np  # noqa: E402

@@ -10,7 +10,7 @@ from compare import IDENTICAL, Comparison, result_of
 from pool import results as pool_results
 from run import Run
 
-FRAMES = 20  # of each program, after the 128 steps of power-on
+FRAMES = 20  # per program, after the 128 steps of power-on
 PATIENCE = 300  # seconds for one program
 TOLD_EVERY = 30  # seconds
 

@@ -12,6 +12,8 @@ NAME = "a name is a noun or a verb"
 FORBIDDEN = {
     r"\b(?:is|are|was|were) none\b": "say what does not exist, or what lacks it",
     r"\bhas none\b": "name what it lacks",
+    r"\bhelp=\"(?:of|as|that) ": "a help text begins with what the option sets",
+    r"(?:^|[.] |// |# |\"\"\")Else[ ,]": "a sentence does not begin with 'Else': 'Otherwise'",
     r"\baccepted are\b": "errors end with 'accepted: A, B'",
     r"[\"'`](?:[^\"'`]*[:;] )?there (?:is|are) no (?:\w+ )?[\"'{]": "errors begin with 'unknown KIND'",
     r"(?<!there )(?<!There )\b(?:is|are|was|were) no (?!longer|more|less|later|fewer)\w": "negate the verb: 'is not'",
@@ -29,7 +31,9 @@ FORBIDDEN_IN_TESTS = {
     ),
 }
 # Each form has one of these words. Most lines have none of them, and are done.
-WORDS = re.compile(rf"none|accepted are|shown|content|(?<![a-z])no(?![a-z])|\b(?:As|Of|Those|The same)\b|{PARTICIPLE}")
+WORDS = re.compile(
+    rf"none|help=|Else|accepted are|shown|content|(?<![a-z])no(?![a-z])|\b(?:As|Of|Those|The same)\b|{PARTICIPLE}"
+)
 
 
 def faults(path, text):
@@ -57,6 +61,8 @@ class Prose(unittest.TestCase):
             "// null if there is none",
             "# an empty text has none",
             '"; accepted are a and b"',
+            'parser.add_argument("--steps", help="of each run")',
+            "# Else restarts the program.",
             'raise Error(f"there is no game {game!r}")',
             "def _game_shown(self):",
             "        told = subprocess.run(command)",
@@ -73,6 +79,7 @@ class Prose(unittest.TestCase):
         for line in (
             "\"unknown game 'x'; accepted: a, b\"",
             "// Lines for which there is no room wait here.",
+            'parser.add_argument("--steps", help="steps per run")',
             "# As long as the server runs, the file stays.",
             "if told in words:",
             'TEST_CASE("Without news there is no picture") {',

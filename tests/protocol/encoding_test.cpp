@@ -54,7 +54,7 @@ TEST_CASE("Base64 is that of RFC 4648") {
   CHECK(base64("foobar") == "Zm9vYmFy");
   for (const std::string text : {"", "f", "fo", "foo", "foob", "fooba", "foobar"})
     CHECK(bytes_of_base64(base64(text)) == text_bytes(text));
-  std::string all;  // of every length, with every byte at every place of a group
+  std::string all;  // groups of every length, with every byte at every place
   for (int i = 0; i < 800; ++i) {
     REQUIRE(bytes_of_base64(base64(all)) == text_bytes(all));
     all += static_cast<char>(i * 5);

@@ -19,9 +19,11 @@ import gymnasium
 from gymnasium.utils.env_match import check_environments_match
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-parser.add_argument("--steps", type=int, default=100, help="of each run (default 100)")
-parser.add_argument("--seeds", type=int, default=3, help="of each game (default 3)")
-parser.add_argument("--parts", type=int, default=52, help="of all runs, of which one is played (default 52)")
+parser.add_argument("--steps", type=int, default=100, help="steps per run (default 100)")
+parser.add_argument("--seeds", type=int, default=3, help="seeds per game (default 3)")
+parser.add_argument(
+    "--parts", type=int, default=52, help="number of parts of the runs; one part is played (default 52)"
+)
 parser.add_argument(
     "--part", type=int, default=datetime.date.today().toordinal(), help="which one (default: by the day)"
 )

@@ -19,14 +19,16 @@ import numpy as np
 import racebeam
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-parser.add_argument("--steps", type=int, default=40, help="of each run (default 40)")
+parser.add_argument("--steps", type=int, default=40, help="steps per run (default 40)")
 parser.add_argument("--runs", type=int, default=1, help="runs of each game (default 1)")
 parser.add_argument(
     "--first", type=int, default=datetime.date.today().toordinal(), help="number of the first run (default: of the day)"
 )
 parser.add_argument("--defaults", action="store_true", help="only in the default settings")
 parser.add_argument("--games", help="A,B: only these")
-parser.add_argument("--parts", type=int, default=2, help="of all games, of which one is played, by --first (default 2)")
+parser.add_argument(
+    "--parts", type=int, default=2, help="number of parts of the games; one part is played, by --first (default 2)"
+)
 options = parser.parse_args()
 
 ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)

@@ -27,15 +27,17 @@ from gymnasium.vector import AutoresetMode
 from racebeam.ale_py.vector_env import AtariVectorEnv
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-parser.add_argument("--steps", type=int, default=40, help="of each run (default 40)")
+parser.add_argument("--steps", type=int, default=40, help="steps per run (default 40)")
 parser.add_argument("--runs", type=int, default=1, help="runs of each game (default 1)")
-parser.add_argument("--envs", type=int, default=3, help="of each run (default 3)")
+parser.add_argument("--envs", type=int, default=3, help="environments per run (default 3)")
 parser.add_argument(
     "--first", type=int, default=datetime.date.today().toordinal(), help="number of the first run (default: of the day)"
 )
 parser.add_argument("--defaults", action="store_true", help="only in the default settings")
 parser.add_argument("--games", help="A,B: only these")
-parser.add_argument("--parts", type=int, default=4, help="of all games, of which one is played, by --first (default 4)")
+parser.add_argument(
+    "--parts", type=int, default=4, help="number of parts of the games; one part is played, by --first (default 4)"
+)
 parser.add_argument("--patience", type=float, default=120, help="seconds of a run at most (default 120)")
 options = parser.parse_args()
 

@@ -1,5 +1,5 @@
 """Runs a test with the Python that has the reference and its companions: this one, or that of
-scripts/reference. Else skips it."""
+scripts/reference. Without one, it skips the test."""
 
 import importlib.util
 import os
@@ -12,7 +12,7 @@ OF_SCRIPTS_REFERENCE = pathlib.Path(__file__).resolve().parents[2] / ".venv/bin/
 
 
 def require(*modules):
-    """Returns if all modules are installed. Else restarts the program once with the other Python, or ends it
+    """Returns if all modules are installed. Otherwise restarts the program once with the other Python, or ends it
     as skipped."""
     missing = [name for name in modules if importlib.util.find_spec(name) is None]
     if not missing:

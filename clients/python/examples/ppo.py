@@ -325,17 +325,17 @@ def main():
     parser.add_argument(
         "--horizon", type=int, default=128, help="steps of each environment before an update (default: %(default)s)"
     )
-    parser.add_argument("--epochs", type=int, default=4, help="of an update (default: %(default)s)")
-    parser.add_argument("--parts", type=int, default=4, help="of an epoch (default: %(default)s)")
+    parser.add_argument("--epochs", type=int, default=4, help="epochs per update (default: %(default)s)")
+    parser.add_argument("--parts", type=int, default=4, help="minibatches per epoch (default: %(default)s)")
     parser.add_argument(
-        "--rate", type=float, default=1e-3, help="of learning, at first; it falls to 0 (default: %(default)s)"
+        "--rate", type=float, default=1e-3, help="initial learning rate, which falls to 0 (default: %(default)s)"
     )
     parser.add_argument("--seed", type=int, default=1, help="(default: %(default)s)")
     parser.add_argument("--server", help="the environments run there, such as unix:PATH")
     parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores, beside that of random play")
     parser.add_argument("--keep", metavar="FILE", help="the file for the policy, at the end")
     parser.add_argument("--play", metavar="FILE", help="play with the policy of this file, and do not learn")
-    parser.add_argument("--games", type=int, default=10, help="of --play and --film (default: %(default)s)")
+    parser.add_argument("--games", type=int, default=10, help="games that --play plays (default: %(default)s)")
     parser.add_argument("--film", metavar="FILE", help="a GIF of a game with the policy; it needs Pillow")
     parser.add_argument("--log", metavar="FILE", help="the log of a game with the policy, FILE.episode")
     options = parser.parse_args()

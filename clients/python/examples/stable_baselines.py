@@ -16,8 +16,10 @@ from stable_baselines3 import PPO
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("game", nargs="?", default="beamfall", help="(default: %(default)s)")
-    parser.add_argument("--steps", type=int, default=1_000_000, help="of all environments (default: %(default)s)")
-    parser.add_argument("--steps-of-update", type=int, default=128, help="of each environment (default: %(default)s)")
+    parser.add_argument("--steps", type=int, default=1_000_000, help="steps of all environments (default: %(default)s)")
+    parser.add_argument(
+        "--steps-of-update", type=int, default=128, help="steps of each environment per update (default: %(default)s)"
+    )
     parser.add_argument("--envs", type=int, default=8, help="(default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="(default: %(default)s)")
     parser.add_argument("--model", metavar="FILE", help="keeps the model")

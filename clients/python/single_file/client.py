@@ -329,7 +329,7 @@ class Observations:
         self.height = 0
         self._as_arrays = as_arrays
         self._encodings: dict[str, str] = {}  # of the fields that observe chose
-        self._arrays: dict[int, Arrays] = {}  # of each machine; 0 is that of load
+        self._arrays: dict[int, Arrays] = {}  # per machine; 0 is that of load
         self._watched: dict[str, WatchedGame] = {}  # by name
 
     def follow(self, words: list[str], first: Texts) -> None:

@@ -331,9 +331,9 @@ def main():
         "--seed",
         type=int,
         default=random.SystemRandom().randrange(10**9),
-        help="of the first round; the next has one more",
+        help="seed of the first round; the next has one more",
     )
-    parser.add_argument("--calls", type=int, default=600, help="of a round")
+    parser.add_argument("--calls", type=int, default=600, help="calls per round")
     parser.add_argument("--round", action="store_true", help="play one round in this process")
     options = parser.parse_args()
     if options.round:

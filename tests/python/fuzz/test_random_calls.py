@@ -16,8 +16,8 @@ import racebeam
 from racebeam._core import View
 
 parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--calls", type=int, default=4000, help="of a run (default 4000)")
-parser.add_argument("--seed", type=int, default=1, help="of the first run; the next has one more (default 1)")
+parser.add_argument("--calls", type=int, default=4000, help="calls per run (default 4000)")
+parser.add_argument("--seed", type=int, default=1, help="seed of the first run; the next has one more (default 1)")
 parser.add_argument("--runs", type=int, default=8, help="default 8; scripts/check/python-fuzz draws others each time")
 options = parser.parse_args()
 

@@ -17,8 +17,8 @@ from gymnasium.error import Error
 from racebeam import AtariVectorEnv
 
 parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--calls", type=int, default=1500, help="of a run (default 1500)")
-parser.add_argument("--seed", type=int, default=1, help="of the first run; the next has one more (default 1)")
+parser.add_argument("--calls", type=int, default=1500, help="calls per run (default 1500)")
+parser.add_argument("--seed", type=int, default=1, help="seed of the first run; the next has one more (default 1)")
 parser.add_argument("--runs", type=int, default=24, help="default 24; scripts/check/python-fuzz draws others each time")
 options = parser.parse_args()
 
