@@ -42,7 +42,7 @@ inline constexpr int kActions = 18;
 RACEBEAM_API std::string_view name_of(Action action) noexcept;                    // "UPFIRE"
 RACEBEAM_API std::optional<Action> action_named(std::string_view name) noexcept;  // nothing: an unknown name
 
-// What both players do in one step.
+// The actions of both players in one step.
 struct Controls {
   Action a = Action::kNoop, b = Action::kNoop;
   float strength_a = 1, strength_b = 0;  // how fast a paddle is turned, where the game has paddles: 0 to 1

@@ -1,4 +1,4 @@
-// What all public headers share: the namespace with its version, and the mark of what the library exports.
+// Shared by all public headers: the namespace with its version, and the mark of what the library exports.
 // It has only macros, so that threads do not matter. Programs use the classes as racebeam::Environment:
 //
 //     racebeam::Environment environment(racebeam::Image::load("builtin:beamfall"));

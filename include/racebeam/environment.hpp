@@ -63,7 +63,7 @@ class RACEBEAM_API Environment {
   int step(const Controls& controls);
   void reset(std::optional<std::uint32_t> seed = std::nullopt);
 
-  // What the last step gave.
+  // Results of the last step.
   Rewards rewards() const;
   int lives() const;
   bool terminated() const;    // the game is over
@@ -72,7 +72,7 @@ class RACEBEAM_API Environment {
   int frames() const;         // since power-on
   int episode_frames() const;
 
-  // What the screen shows: height() rows of 160 pixels, from the top. observe() throws Error unless `out` has
+  // The screen: height() rows of 160 pixels, from the top. observe() throws Error unless `out` has
   // observation_size() bytes. Spans are valid until the next step, reset or restore.
   int height() const;
   std::size_t observation_size(Pixels pixels) const;
@@ -80,7 +80,7 @@ class RACEBEAM_API Environment {
   std::span<const std::uint8_t> screen();           // Pixels::kPalette, without a copy
   std::span<const std::uint8_t> previous_screen();  // of the frame before it; never averaged
 
-  // What else the machine shows.
+  // Other observations: memory, sound and the frames of a step.
   std::span<const std::uint8_t, kRamSize> ram() const;
   void set_ram(int index, std::uint8_t value);              // throws Error unless the index is 0 to 127
   std::span<const std::uint8_t, kAudioSize> audio() const;  // of the last frame; needs Settings::sound
@@ -94,8 +94,8 @@ class RACEBEAM_API Environment {
   // hash show the same after the same actions. Pictures, frame numbers and generators do not count.
   std::uint64_t state_hash();
 
-  // What the game offers. A mode takes effect at the next reset, a difficulty at the next frame. Both throw
-  // Error, which names what the game has.
+  // The choices of the game. A mode takes effect at the next reset, a difficulty at the next frame. Both
+  // throw Error, which names what the game has.
   const Game& game() const;
   void set_mode(int mode);
   void set_difficulty(int difficulty);

@@ -1,4 +1,4 @@
-// What is known of a game: its actions and modes, and the rule that turns memory into rewards and lives.
+// A game: its actions and modes, and the rule that turns memory into rewards and lives.
 // A Game never changes and its copies share what they hold, so that any number of threads may use one.
 //
 //     const auto image = racebeam::Image::load("builtin:beamfall");

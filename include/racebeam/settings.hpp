@@ -16,13 +16,13 @@
 
 namespace RACEBEAM_NAMESPACE {
 
-// Which rule computes rewards, lives and the end.
+// The rule that computes rewards, lives and the end.
 enum class Rules {
   kAle012,  // that of the Arcade Learning Environment 0.12, with its errors
   kFixed    // the corrected rule, where an error is known (docs/rules.md)
 };
 
-// Which screens the caller reads. A screen that was not drawn is drawn when it is read, which costs more.
+// The screens that the caller reads. Any other screen is drawn when it is read, which costs more.
 enum class Screens {
   kOnDemand,  // few: rewards and RAM are enough
   kLast,      // the one after each step
@@ -30,7 +30,7 @@ enum class Screens {
   kEvery      // those of all frames, in on_frame()
 };
 
-// What executes the game's instructions. The bytes are the same.
+// Executes the game's instructions. Results do not depend on it.
 enum class Cpu {
   kAuto,  // the translator, where the computer can run it
   kInterpreter,
@@ -38,7 +38,7 @@ enum class Cpu {
 };
 
 struct Settings {
-  // What is played. The defaults are those of the Arcade Learning Environment.
+  // The game. The defaults are those of the Arcade Learning Environment.
   std::uint32_t seed = 0;               // of sticky actions
   std::uint32_t system_seed = 4753849;  // of RAM and timer at power-on
   int frame_skip = 1;                   // frames of a step
@@ -51,12 +51,12 @@ struct Settings {
   int max_episode_frames = 0;  // 0: no limit
   bool truncate_on_life_loss = false;
 
-  // What is observed.
+  // Observations.
   int reward_min = std::numeric_limits<int>::min(), reward_max = std::numeric_limits<int>::max();
   bool color_averaging = false;  // a screen blends the last two frames
   bool sound = false;            // each step makes audio()
 
-  // What only affects the speed.
+  // Speed only; results do not depend on these.
   Screens screens = Screens::kLast;
   Cpu cpu = Cpu::kAuto;
 };

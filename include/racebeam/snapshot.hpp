@@ -26,8 +26,8 @@ class RACEBEAM_API Snapshot {
   // some milliseconds, and 70 KB; the snapshot itself takes 4 KB, and shares its pictures.
   std::vector<std::uint8_t> to_bytes() const;
 
-  // Takes any bytes. It is restore() that checks them, and throws Error if they were cut or altered, are of
-  // another version, or have a value that no machine can have.
+  // Takes any bytes. restore() checks them later. It throws Error if they were cut or altered, are of another
+  // version, or have a value that no machine can have.
   static Snapshot from_bytes(std::span<const std::uint8_t> bytes);
 
  private:

@@ -29,14 +29,14 @@
 
 namespace RACEBEAM_NAMESPACE {
 
-// What happens to a machine whose episode is over, as in Gymnasium.
+// The handling of a machine whose episode is over, as in Gymnasium.
 enum class Autoreset {
   kNextStep,  // its next step resets it and ignores the action
   kSameStep,  // the same step resets it, and final_observations has what was seen last
   kDisabled   // its steps do nothing until reset()
 };
 
-// What a lost life does, in the words of the line protocol. An episode that ends by it is terminated.
+// The effect of a lost life, in the words of the line protocol. An episode that ends by it is terminated.
 enum class LifeLoss {
   kIgnored,
   kReported,  // the step counts as terminated, and the episode continues
@@ -45,7 +45,7 @@ enum class LifeLoss {
 };
 
 struct VectorSettings {
-  // What is played. frame_skip and the limits of rewards and frames apply to a step. frame_skip_max,
+  // The game. frame_skip and the limits of rewards and frames apply to a step. frame_skip_max,
   // truncate_on_life_loss and color_averaging must not be set; `screens` of this member has no effect.
   Settings machine{
       .frame_skip = 4, .sticky = 0, .max_episode_frames = 108000, .reward_min = -1, .reward_max = 1};
@@ -56,13 +56,13 @@ struct VectorSettings {
   int noop_max = 30;          // an episode begins with fewer frames of NOOP than this, at random
   bool fire_at_reset = true;  // and with FIRE, if the game has it
 
-  // What is observed: the last screens, oldest first.
+  // Observations: the last screens, oldest first.
   int stack = 4;                // 0: no observations
   int width = 84, height = 84;  // at most twice the machine's; 0: the machine's
   bool rgb = false;             // red, green and blue of each pixel instead of one grey
   bool max_pool = true;         // each pixel is the brighter of the last two frames
 
-  // What only affects the speed.
+  // Speed only; results do not depend on these.
   std::size_t batch_size = 0;  // how many machines one receive() returns; 0: all
   unsigned threads = 0;        // 0: one for each processor that the process may use
 };

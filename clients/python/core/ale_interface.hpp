@@ -15,7 +15,7 @@
 
 namespace racebeam::python {
 
-// What an agent looks at after each step.
+// The observations of an agent after each step.
 enum class View { kRgb, kGrey, kRam, kPalette, kNone };
 
 struct StepResult {
@@ -24,7 +24,7 @@ struct StepResult {
   int lives = 0, episode_frame = 0, frame = 0;
 };
 
-// What both players do, with the strengths of their paddles.
+// The actions of both players, with the strengths of their paddles.
 struct Action {
   int a = 0, b = 18;
   float strength_a = 1.0F, strength_b = 0.0F;

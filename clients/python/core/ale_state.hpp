@@ -21,7 +21,7 @@ struct Machine {
 
 class AleState {
  public:
-  // What can be asked of a state without a machine.
+  // Values that a state has without a machine.
   struct Facts {
     int frame = 0, episode_frame = 0, difficulty = 0, mode = 0;
   };
@@ -31,7 +31,7 @@ class AleState {
   // Saves the machine's present moment; the caller holds the lock.
   AleState(std::shared_ptr<Machine> machine, bool with_random);
 
-  // What serialize() returned. Throws InvalidInput unless it begins as such bytes do; the rest is checked
+  // Takes bytes of serialize(). Throws InvalidInput unless it begins as such bytes do; the rest is checked
   // when the state is restored.
   explicit AleState(std::string bytes);
 

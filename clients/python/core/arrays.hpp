@@ -14,7 +14,7 @@ namespace nb = nanobind;
 
 using Bytes = nb::ndarray<nb::numpy, std::uint8_t>;
 
-// What a caller gives to be written into.
+// An array of the caller, for results.
 using Buffer = nb::ndarray<std::uint8_t, nb::c_contig, nb::device::cpu>;
 
 // Memory that was filled without the GIL, for one array that then owns it.

@@ -205,7 +205,7 @@ void bind_play(nb::class_<AleInterface>& interface) {
            "paddle_strength_b"_a = 0.0F,
            nb::sig("def step(self, action: int, paddle_strength: float, times: int, view: View, action_b: int = 18, "
                    "paddle_strength_b: float = 0.0) -> tuple[typing.Any, float, float, bool, bool, int, int, int]"),
-           "Acts so many times. Returns what view shows, the rewards of both players, terminated, truncated, lives, frames "
+           "Plays the action `times` times. Returns the view, the rewards of both players, terminated, truncated, lives, frames "
            "of the episode and since loading.")
       .def("reset_game", ask<&Environment::reset_game>)
       .def("game_over", game_over, "with_truncation"_a = true)

@@ -93,7 +93,7 @@ std::span<std::uint8_t> as_bytes(std::span<bool> flags) {
   return {reinterpret_cast<std::uint8_t*>(flags.data()), flags.size()};
 }
 
-// What racebeam.xla.RESULTS lists, in its order.
+// The results that racebeam.xla.RESULTS lists, in its order.
 BatchArrays results_of(const Batch& batch, std::size_t count, Reader& results) {
   BatchArrays to;
   if (batch.observation_size() > 0) {
@@ -110,7 +110,7 @@ BatchArrays results_of(const Batch& batch, std::size_t count, Reader& results) {
   return to;
 }
 
-// What racebeam.envpool.xla.RESULTS lists: after the former, what EnvPool shows besides.
+// The results that racebeam.envpool.xla.RESULTS lists: those above, then those that only EnvPool has.
 BatchArrays received_of(const Batch& batch, Reader& results) {
   const std::size_t count = batch.batch_size();
   BatchArrays to = results_of(batch, count, results);

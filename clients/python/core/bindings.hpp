@@ -1,4 +1,4 @@
-// What the module consists of; a function for each file bind_*.cpp, in the order in which they need each
+// The parts of the module: a function for each file bind_*.cpp, in the order in which they need each
 // other.
 #pragma once
 

@@ -24,7 +24,7 @@ struct Keys {
   // Throws InvalidInput for a value that no environment takes. A seed of -1 becomes one from the clock.
   Settings settings() const;
 
-  // What the keys say about the console of the image; -1 and "" say nothing. Throws the same.
+  // The console that the keys name for the image; -1 and "" say nothing. Throws the same.
   GivenProperties console() const;
 };
 

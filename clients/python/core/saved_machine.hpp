@@ -13,7 +13,7 @@ class SavedMachine {
   // Saves the slot's present moment. `cartridge` is what the slot plays. with_random: with its generators.
   SavedMachine(const Slot& slot, Cartridge cartridge, bool with_random);
 
-  // What serialize() returned. Throws InvalidInput for bytes that were cut or altered, or are of another
+  // Takes bytes of serialize(). Throws InvalidInput for bytes that were cut or altered, or are of another
   // version; the rest is checked when the state is restored.
   explicit SavedMachine(std::string bytes);
 

@@ -1,4 +1,4 @@
-// What machines are to do, as Python gives it, as what a Batch takes.
+// Converts actions from Python to those of a Batch.
 #pragma once
 
 #include <cstddef>

@@ -161,7 +161,7 @@ class Player:
         return network(key, self.envs.single_observation_space.shape, int(self.envs.single_action_space.n))
 
     def play(self, parameters, key, steps):
-        """Plays so many steps in each environment. Returns the batch."""
+        """Plays `steps` steps in each environment. Returns the batch."""
         rows = []
         for one in jax.random.split(key, steps):
             observations = self.observations

@@ -37,7 +37,7 @@ from .wire.remote import RemoteInterface
 __all__ = ["AtariEnv", "AtariEnvStepMetadata"]
 
 Rom: TypeAlias = images.Rom | bytearray | memoryview
-# What ALEInterface.step() returns: observation, rewards of A and B, ends, lives, and frame numbers.
+# Results of ALEInterface.step(): observation, rewards of A and B, ends, lives, and frame numbers.
 StepResults: TypeAlias = tuple[Any, float, float, bool, bool, int, int, int]
 
 RENDER_MODES = (None, "human", "rgb_array")

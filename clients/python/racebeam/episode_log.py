@@ -22,14 +22,14 @@ MOST_SEED = 2**32 - 2  # ALE takes the next one for the time of day
 
 
 class Episode(NamedTuple):
-    """How an episode ended.
+    """The result of an episode.
 
     Attributes:
         score: Sum of the rewards.
         frames: Frames that were played.
         decisions: Actions that were played. Those after the end of the episode are not.
         is_over: Whether the episode is over.
-        is_terminated: Whether the game is over; else a limit of frames ended the episode.
+        is_terminated: Whether the game is over. Otherwise, a limit of frames ended the episode.
         lives: Lives that are left.
         hashes: Hashes of the machine's state: after every 256 decisions, and at the end.
     """
@@ -44,7 +44,7 @@ class Episode(NamedTuple):
 
 
 class Start(NamedTuple):
-    """How an episode begins at power-on, in the words of the line protocol's `load`.
+    """The beginning of an episode at power-on, in the words of the line protocol's `load`.
 
     Attributes:
         game: Name of the game.

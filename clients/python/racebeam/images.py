@@ -3,7 +3,7 @@
 racebeam contains the images of its own games. For the others, it searches these folders in this order, without their
 subfolders: the one that RACEBEAM_ROMS names, the one that ALE_ROMS_DIR names, and the one in an installed ale_py. A
 file that ends in .bin, .a26 or .rom, optionally followed by .gz, or a .zip archive with one such file, is identified by
-its MD5; its name is ignored.
+its MD5. Its name is ignored.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ RESULTS = {
 
 
 class Environments(Protocol):
-    """What xla() needs of a vector of environments."""
+    """The parts of a vector of environments that xla() uses."""
 
     num_envs: int
     batch_size: int

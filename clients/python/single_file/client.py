@@ -1630,8 +1630,9 @@ class Session(Commands):
     `connect` and `launch` open sessions. A session ends with its block, or with the last reference to it. Several
     threads must not use a session at the same time; only `close_connection` interrupts the call of another thread.
 
-    Every method that sends a request raises Refused if the server refuses it, ConnectionError if the server is gone,
-    and TimeoutError if the server does not answer in time. Refused does not end the session; the other errors do.
+    Every method that sends a request raises one of three errors. Refused: the server refuses the request, and the
+    session continues. ConnectionError: the server is gone. TimeoutError: the server does not answer in time. The last
+    two end the session.
 
     Args:
         reader: Stream of replies.

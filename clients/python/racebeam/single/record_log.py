@@ -34,10 +34,10 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
 
     It wraps the environment directly, or what `gymnasium.make` returns: wrappers that change actions go around it. A
     game that `life_loss` splits into several episodes is one episode of the log. Without a seed, `reset` powers the
-    game on with a seed of its own, since a log says from which seed its episode can be played again.
+    game on with a seed of its own, because a log contains the seed of its episode.
 
-    An episode that was left before its end, or in which a state was restored, has no log, nor has one whose log cannot
-    be written. A warning says so.
+    An episode without a log causes a warning. That is one that was left before its end, one in which a state was
+    restored, and one whose log cannot be written.
 
     Args:
         env: The environment. Its `frameskip` is a number, its `noop_max` 0, and it does not clip rewards.

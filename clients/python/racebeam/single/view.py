@@ -1,4 +1,4 @@
-"""What AtariEnv shows: observations, screens and the window."""
+"""Observations, screens and the window of AtariEnv."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every vector of environments has: its spaces, its results, its window and its end."""
+"""The base of vectors of environments: spaces, results, the window, and closing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What AtariVectorEnv needs of the machines that play its environments."""
+"""The interface of the machines that play the environments of AtariVectorEnv."""
 
 from __future__ import annotations
 
