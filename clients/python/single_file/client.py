@@ -33,7 +33,8 @@ import subprocess
 import sys
 import time
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from types import TracebackType
 from typing import IO, Any, NamedTuple, TypeVar
 
 PROTOCOL = 1  # the version that this client speaks
@@ -165,7 +166,9 @@ def format_request(words: Iterable[object], settings: Mapping[str, object]) -> s
     Raises:
         ValueError: If the request has a line break, or is a comment.
     """
-    line = " ".join([*map(format_word, words), *key_values(**settings)])
+    line = " ".join(map(format_word, words))
+    if settings:
+        line = " ".join([line, *key_values(**settings)])
     if "\n" in line or line.lstrip(" ").startswith("#"):
         raise ValueError(f"a request is one line that does not begin with #, not {line!r}")
     return line
@@ -649,6 +652,9 @@ class SocketStream:
             OSError: If the connection is lost.
             TimeoutError: If the line takes longer than the limit.
         """
+        if (end := self._data.find(b"\n")) >= 0:
+            line, self._data = self._data[: end + 1], self._data[end + 1 :]
+            return line
         until = self._deadline()
         pieces, length = [self._data], len(self._data)
         while (end := pieces[-1].find(b"\n")) < 0 and length < most:
@@ -834,6 +840,25 @@ class Connection:
 
 
 RAW_COUNT = re.compile(r" raw=(\S+)$")
+DAMAGES = (ValueError, KeyError, IndexError, zlib.error)  # what decoding a damaged reply raises
+
+
+class FailIfDamaged:
+    """Ends a session if a reply of it is damaged. Entered for each reply, so that it is not made anew each time.
+
+    Args:
+        session: The session.
+    """
+
+    def __init__(self, session: Connection) -> None:
+        self._session = session
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
+        if isinstance(error, DAMAGES):
+            raise self._session.fail(ConnectionError(f"its reply is damaged: {error}")) from error
 
 
 class Replies(Connection):
@@ -859,6 +884,7 @@ class Replies(Connection):
     ) -> None:
         super().__init__(reader, writer, close)
         self._observations = Observations(arrays)
+        self._fail_if_damaged = FailIfDamaged(self)
         self.offered: list[str] = []
         self.unanswered: collections.deque[list[str]] = collections.deque()
 
@@ -932,9 +958,10 @@ class Replies(Connection):
         """
         words, text = self.read_status(line)
         groups = parse_groups(text)
-        with self._fail_if_damaged():
+        with self._fail_if_damaged:
             self._observations.follow(words, groups[0])
-        return words, groups, self._parse_count(groups[-1].pop("raw", "0"))
+            count = groups[-1].pop("raw", None)
+            return words, groups, parse_count(count, self.longest_reply) if count is not None else 0
 
     def read_status(self, line: str) -> tuple[list[str], str]:
         """Reads the status of a reply.
@@ -970,7 +997,7 @@ class Replies(Connection):
         Raises:
             ConnectionError: If the counts do not add up to the bytes.
         """
-        with self._fail_if_damaged():
+        with self._fail_if_damaged:
             self._observations.split_bytes(words, groups, data)
 
     def decode(self, words: list[str], groups: list[Texts]) -> list[Values]:
@@ -986,7 +1013,7 @@ class Replies(Connection):
         Raises:
             ConnectionError: If a field is damaged.
         """
-        with self._fail_if_damaged():
+        with self._fail_if_damaged:
             return self._observations.decode(words, groups)
 
     def _end(self, reason: str) -> None:
@@ -994,15 +1021,8 @@ class Replies(Connection):
         self.unanswered.clear()
 
     def _parse_count(self, text: str) -> int:
-        with self._fail_if_damaged():
+        with self._fail_if_damaged:
             return parse_count(text, self.longest_reply)
-
-    @contextlib.contextmanager
-    def _fail_if_damaged(self) -> Iterator[None]:
-        try:
-            yield
-        except (ValueError, KeyError, IndexError, zlib.error) as error:
-            raise self.fail(ConnectionError(f"its reply is damaged: {error}")) from error
 
 
 class Exchange(Replies):

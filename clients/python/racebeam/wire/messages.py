@@ -135,7 +135,9 @@ def format_request(words: Iterable[object], settings: Mapping[str, object]) -> s
     Raises:
         ValueError: If the request has a line break, or is a comment.
     """
-    line = " ".join([*map(format_word, words), *key_values(**settings)])
+    line = " ".join(map(format_word, words))
+    if settings:
+        line = " ".join([line, *key_values(**settings)])
     if "\n" in line or line.lstrip(" ").startswith("#"):
         raise ValueError(f"a request is one line that does not begin with #, not {line!r}")
     return line

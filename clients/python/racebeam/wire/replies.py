@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import collections
-import contextlib
 import re
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from types import TracebackType
 from typing import IO
 
 from .connection import Connection
@@ -15,6 +15,25 @@ from .observations import Observations
 from .transport import SocketStream
 
 RAW_COUNT = re.compile(r" raw=(\S+)$")
+DAMAGES = (ValueError, KeyError, IndexError, zlib.error)  # what decoding a damaged reply raises
+
+
+class FailIfDamaged:
+    """Ends a session if a reply of it is damaged. Entered for each reply, so that it is not made anew each time.
+
+    Args:
+        session: The session.
+    """
+
+    def __init__(self, session: Connection) -> None:
+        self._session = session
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
+        if isinstance(error, DAMAGES):
+            raise self._session.fail(ConnectionError(f"its reply is damaged: {error}")) from error
 
 
 class Replies(Connection):
@@ -40,6 +59,7 @@ class Replies(Connection):
     ) -> None:
         super().__init__(reader, writer, close)
         self._observations = Observations(arrays)
+        self._fail_if_damaged = FailIfDamaged(self)
         self.offered: list[str] = []
         self.unanswered: collections.deque[list[str]] = collections.deque()
 
@@ -113,9 +133,10 @@ class Replies(Connection):
         """
         words, text = self.read_status(line)
         groups = parse_groups(text)
-        with self._fail_if_damaged():
+        with self._fail_if_damaged:
             self._observations.follow(words, groups[0])
-        return words, groups, self._parse_count(groups[-1].pop("raw", "0"))
+            count = groups[-1].pop("raw", None)
+            return words, groups, parse_count(count, self.longest_reply) if count is not None else 0
 
     def read_status(self, line: str) -> tuple[list[str], str]:
         """Reads the status of a reply.
@@ -151,7 +172,7 @@ class Replies(Connection):
         Raises:
             ConnectionError: If the counts do not add up to the bytes.
         """
-        with self._fail_if_damaged():
+        with self._fail_if_damaged:
             self._observations.split_bytes(words, groups, data)
 
     def decode(self, words: list[str], groups: list[Texts]) -> list[Values]:
@@ -167,7 +188,7 @@ class Replies(Connection):
         Raises:
             ConnectionError: If a field is damaged.
         """
-        with self._fail_if_damaged():
+        with self._fail_if_damaged:
             return self._observations.decode(words, groups)
 
     def _end(self, reason: str) -> None:
@@ -175,12 +196,5 @@ class Replies(Connection):
         self.unanswered.clear()
 
     def _parse_count(self, text: str) -> int:
-        with self._fail_if_damaged():
+        with self._fail_if_damaged:
             return parse_count(text, self.longest_reply)
-
-    @contextlib.contextmanager
-    def _fail_if_damaged(self) -> Iterator[None]:
-        try:
-            yield
-        except (ValueError, KeyError, IndexError, zlib.error) as error:
-            raise self.fail(ConnectionError(f"its reply is damaged: {error}")) from error

@@ -141,6 +141,9 @@ class SocketStream:
             OSError: If the connection is lost.
             TimeoutError: If the line takes longer than the limit.
         """
+        if (end := self._data.find(b"\n")) >= 0:
+            line, self._data = self._data[: end + 1], self._data[end + 1 :]
+            return line
         until = self._deadline()
         pieces, length = [self._data], len(self._data)
         while (end := pieces[-1].find(b"\n")) < 0 and length < most:
