@@ -69,7 +69,7 @@ class Demo(unittest.TestCase):
             self.assertEqual(run_program(program, command, *options, "--help"), 0)
 
     def test_a_build_is_announced_before_it_begins(self):
-        self.script("scripts/setup", "[[ $1 != --check ]] && exit 9 || exit 1")  # a package is missing
+        self.script("scripts/setup", "[[ $2 != --check ]] && exit 9 || exit 1")  # a package is missing
         done = self.run_demo("</dev/null")
         self.assertEqual((done.returncode, done.stderr), (9, b""))
         self.assertRegex(done.stdout.decode(), r"^demo: racebeam is built first, which takes about \w+ minutes on two")
