@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "emulator/console.hpp"
-#include "tests/translator/random_program.hpp"
 
 namespace racebeam::test {
 namespace {
@@ -103,8 +102,9 @@ std::string difference(Console& interpreted, Console& translated) {
   return found;
 }
 
-std::string difference_in_program(std::uint32_t seed, int steps, CpuKind cpu) {
-  Program program = make_program(seed);
+std::string difference_in_program(std::uint32_t seed, int steps, CpuKind cpu,
+                                  Program (*make)(std::uint32_t)) {
+  Program program = make(seed);
   const Properties properties = properties_for(program, seed);
   const auto rom = std::make_shared<const std::vector<std::uint8_t>>(std::move(program.rom));
   Machine interpreted(rom, properties, seed, CpuKind::kInterpreter), translated(rom, properties, seed, cpu);

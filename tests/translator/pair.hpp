@@ -5,6 +5,7 @@
 #include <string>
 
 #include "emulator/translator/translator.hpp"
+#include "tests/translator/random_program.hpp"
 
 namespace racebeam {
 class Console;
@@ -16,9 +17,10 @@ namespace racebeam::test {
 // a block of sound on both.
 std::string difference(Console& interpreted, Console& translated);
 
-// Runs the program of a seed on the interpreter and on `cpu` for `steps` steps, and saves and restores states
-// on the way. Compares state, cartridge RAM, pictures and sound after each step. Returns the first
-// difference; empty if they are equal.
-std::string difference_in_program(std::uint32_t seed, int steps, CpuKind cpu = CpuKind::kTranslator);
+// Runs the program that `make` makes of a seed on the interpreter and on `cpu` for `steps` steps, and saves
+// and restores states on the way. Compares state, cartridge RAM, pictures and sound after each step. Returns
+// the first difference; empty if they are equal.
+std::string difference_in_program(std::uint32_t seed, int steps, CpuKind cpu = CpuKind::kTranslator,
+                                  Program (*make)(std::uint32_t) = make_program);
 
 }  // namespace racebeam::test

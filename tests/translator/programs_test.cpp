@@ -24,5 +24,18 @@ TEST_CASE("Random programs run translated as they run interpreted") {
   }
 }
 
+TEST_CASE("Random programs for cartridges with an ARM run translated as they run interpreted") {
+  if (Translator::obstacle()[0] != '\0') {
+    leave_out(Translator::obstacle());
+    return;
+  }
+  for (std::uint32_t seed = 1; seed <= 400; ++seed) {
+    const bool lengthy = seed % 20 == 0;
+    const std::string difference = difference_in_program(
+        seed, lengthy ? 60 : 3, lengthy ? CpuKind::kAuto : CpuKind::kTranslator, make_arm_program);
+    if (!difference.empty()) FAIL_CHECK(difference);
+  }
+}
+
 }  // namespace
 }  // namespace racebeam::test

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "emulator/base/opcodes.hpp"
+#include "tests/support/thumb_code.hpp"
 
 namespace racebeam::test {
 namespace {
@@ -21,8 +22,11 @@ constexpr Case kCases[] = {
     {"UA", 8192},   {"CV", 2048},    {"CV 4K", 4096}, {"MB", 65536},  {"MC", 131072},  {"4KSC", 4096},
     {"FA2", 28672}, {"JANE", 16384}, {"FC", 16384},   {"3E+", 16384}, {"3EX", 8192},   {"UA clone", 8192},
     {"0FA0", 8192}, {"0840", 8192},  {"03E0", 8192},  {"EF", 65536},  {"SB", 131072}};
+constexpr Case kArmCases[] = {{"DPC+", 32768}};
 
 using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::size_t kArmEntry = 3072 + 8;  // behind the driver, and two instructions of ARM code
 
 // Idioms of games that random code seldom contains.
 const std::vector<Bytes> kIdioms = {
@@ -44,10 +48,23 @@ const std::vector<Bytes> kIdioms = {
     {0xA9, 0xE6, 0x85, 0xA0, 0xA9, 0xB0, 0x85, 0xA1, 0xA9, 0x4C, 0x85, 0xA2, 0x4C, 0xA0, 0x00},
 };
 
+// And of those that an ARM helps: fast fetch on and off, reads of fetchers through it, and calls.
+const std::vector<Bytes> kArmIdioms = {
+    {0xA9, 0x00, 0x8D, 0x58, 0x10},                                // STA $1058: fast fetch on
+    {0xA9, 0x08, 0x85, 0x0D, 0xA9, 0x11, 0x85, 0x0E},              // two fetchers
+    {0xA9, 0x01, 0x8D, 0x58, 0x10, 0xA9, 0x08, 0x85, 0x0D},        // off
+    {0xA2, 0xFF, 0x8E, 0x5A, 0x10, 0xEA},                          // STX $105A: call the ARM
+    {0xA2, 0x01, 0x8E, 0x5A, 0x10, 0xAD, 0x08, 0x10, 0x85, 0x1B},  // copy, and read what was copied
+    {0xA2, 0x00, 0x8E, 0x58, 0x10, 0xA0, 0x10, 0xA9, 0x08, 0x85, 0x1B, 0x88, 0xD0, 0xF9, 0xCA, 0x8E, 0x58,
+     0x10},  // a loop of 16 reads through fast fetch
+};
+
 class Writer {
  public:
   explicit Writer(std::uint32_t seed)
       : random_(seed), case_(kCases[pick(std::size(kCases))]), rom_(case_.size) {}
+
+  Writer(std::uint32_t seed, const Case& of) : random_(seed), case_(of), rom_(case_.size) {}
 
   Program write() {
     const bool noise = chance(4);
@@ -58,8 +75,8 @@ class Writer {
       else
         at = instruction(at);
     }
-    if (!noise)
-      for (unsigned i = pick(60); i > 0; --i) put(pick(rom_.size()), kIdioms[pick(kIdioms.size())]);
+    if (!noise) scatter(kIdioms, pick(60));
+    if (&case_ == std::begin(kArmCases)) add_arm_code();
     vectors();
     return {case_.scheme, std::move(rom_)};
   }
@@ -68,6 +85,21 @@ class Writer {
   unsigned pick(std::size_t limit) { return static_cast<unsigned>(random_() % limit); }
   bool chance(unsigned percent) { return pick(100) < percent; }
   std::uint8_t byte() { return static_cast<std::uint8_t>(random_()); }
+
+  void scatter(const std::vector<Bytes>& idioms, unsigned times) {
+    for (unsigned i = times; i > 0; --i) put(pick(rom_.size()), idioms[pick(idioms.size())]);
+  }
+
+  // Most programs have code for the ARM that adds up the display data, and returns.
+  void add_arm_code() {
+    using namespace thumb;
+    scatter(kArmIdioms, 40 + pick(200));
+    if (chance(10)) return;
+    thumb::put(rom_, kArmEntry,
+               {mov_number(1, 1), lsl(1, 1, 30), mov_number(2, 3), lsl(2, 2, 10), add(1, 1, 2),
+                mov_number(2, byte()), ldrb(3, 1, 0), add(4, 4, 3), add_number(1, 1), sub_number(2, 1),
+                branch_if(kNe, -8), strb(4, 1, 0), bx(kLr)});
+  }
 
   // Seldom an opcode that halts the CPU.
   std::uint8_t opcode() {
@@ -141,5 +173,7 @@ class Writer {
 }  // namespace
 
 Program make_program(std::uint32_t seed) { return Writer(seed).write(); }
+
+Program make_arm_program(std::uint32_t seed) { return Writer(seed, kArmCases[0]).write(); }
 
 }  // namespace racebeam::test

@@ -1,4 +1,4 @@
-// Random 6507 programs for every cartridge scheme: all opcodes, with operands at addresses with effects, in
+// Random 6507 programs for the cartridge schemes: all opcodes, with operands at addresses with effects, in
 // loops, subroutines, RAM, and across banks.
 #pragma once
 
@@ -15,5 +15,8 @@ struct Program {
 
 // Returns the same program for the same seed, on every machine.
 Program make_program(std::uint32_t seed);
+
+// The same for cartridges with an ARM, which `make_program` leaves out.
+Program make_arm_program(std::uint32_t seed);
 
 }  // namespace racebeam::test
