@@ -223,9 +223,9 @@ Bytes screen(VectorMachines& self, std::int64_t machine) {
 using GivenImage = std::pair<ImageArgument, std::optional<std::string>>;
 using Console = std::map<std::string, std::string>;  // keys and values of GivenProperties
 
-Cartridge cartridge_of(const GivenImage& image, const std::optional<std::string>& game_file,
+Cartridge cartridge_of(const GivenImage& source, const std::optional<std::string>& game_file,
                        const Console& console) {
-  const auto& [where, game] = image;
+  const auto& [where, game] = source;
   GivenProperties properties;
   for (const auto& [key, value] : console) properties.give(key, value);
   auto image = image_of(where, game.value_or("bytes"));
