@@ -32,7 +32,7 @@ struct Error {
   std::string_view name, meaning;
 };
 
-inline constexpr std::array<Field, 21> kFields = {{
+inline constexpr std::array<Field, 22> kFields = {{
     {"reward", "sum over the acts of the request; each act's reward is clamped as loaded", true, ""},
     {"reward_b", "the same for player B", true, ""},
     {"raw_reward", "the same before clamping", true, ""},
@@ -47,6 +47,7 @@ inline constexpr std::array<Field, 21> kFields = {{
     {"frames", "frames that the request ran", true, ""},
     {"ram", "128 bytes", false, "hex"},
     {"tia", "53 bytes: the registers of the TIA and its collision latches; names has their names", false, "hex"},
+    {"state_hash", "8 bytes: a hash of the machine's state, without pictures, sound, counters and generators", false, "hex"},
     {"screen", "height x 160 palette indices, row by row", false, "rle"},
     {"rgb", "height x 160 x 3: red, green, blue", false, "zlib"},
     {"grey", "height x 160", false, "zlib"},

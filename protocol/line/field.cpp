@@ -62,6 +62,13 @@ constexpr std::array kFields = {
             e.tia_values(scratch);
             return scratch;
           }),
+    bytes("state_hash",
+          [](const Environment& e, ByteBuffer& scratch) -> Bytes {
+            scratch.clear();  // the highest byte first, as the digits of results.csv
+            for (int shift = 56; shift >= 0; shift -= 8)
+              scratch.push_back(static_cast<std::uint8_t>(e.state_hash() >> shift));
+            return scratch;
+          }),
     bytes(
         "screen", [](const Environment& e, ByteBuffer&) { return e.screen(); }, Drawing::kLast),
     bytes(

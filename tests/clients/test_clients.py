@@ -18,6 +18,7 @@ ENCODINGS = ("hex", "rle", "delta", "base64", "zlib", "raw")
 CONTENTS = {
     "ram": 128,
     "tia": 53,
+    "state_hash": 8,
     "screen": 33600,
     "rgb": 100800,
     "grey": 33600,

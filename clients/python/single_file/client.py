@@ -238,6 +238,7 @@ DECODERS: dict[str, Callable[[Any], bytes]] = {
 USUAL_ENCODING = {
     "ram": "hex",
     "tia": "hex",
+    "state_hash": "hex",
     "screen": "rle",
     "rgb": "zlib",
     "grey": "zlib",
@@ -247,6 +248,7 @@ USUAL_ENCODING = {
 SHAPES: dict[str, tuple[int | str, ...]] = {
     "ram": (128,),
     "tia": (53,),
+    "state_hash": (8,),
     "screen": ("height", 160),
     "rgb": ("height", 160, 3),
     "grey": ("height", 160),
