@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <span>
 
-#include "agents/experiment/phrase_seeds.hpp"
 #include "agents/experiment/plan_keys.hpp"
 #include "agents/experiment/play.hpp"
 #include "emulator/state/state_hash.hpp"
+#include "recording/phrase_seed.hpp"
 #include "system/invalid_input.hpp"
 #include "system/words.hpp"
 

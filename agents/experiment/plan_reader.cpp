@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "agents/experiment/game_sets.hpp"
-#include "agents/experiment/phrase_seeds.hpp"
 #include "agents/experiment/plan_keys.hpp"
 #include "agents/experiment/play.hpp"
 #include "games/files/toml_section.hpp"
+#include "recording/phrase_seed.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 #include "system/similar.hpp"

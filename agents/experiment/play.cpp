@@ -4,6 +4,7 @@
 
 #include "agents/base/episode_start.hpp"
 #include "games/game/actions.hpp"
+#include "recording/episode_account.hpp"
 #include "system/invalid_input.hpp"
 #include "system/words.hpp"
 
@@ -11,39 +12,27 @@ namespace racebeam {
 namespace {
 
 // Plays actions and keeps account of them.
-class Account {
+class Player {
  public:
-  Account(Environment& machine, LifeLoss life_loss) : machine_(machine), life_loss_(life_loss) {}
+  Player(Environment& machine, LifeLoss life_loss) : machine_(machine), life_loss_(life_loss) {}
 
   double act(int action) {
     const int before = machine_.frame_number();
     const int reward = machine_.act(action);
-    end_.score += machine_.raw_rewards().a;
-    end_.frames += frames_between(before, machine_.frame_number());
-    if (++end_.decisions % kDecisionsPerStretch == 0) hashes_.push_back(machine_.state_hash());
+    account_.add(machine_, frames_between(before, machine_.frame_number()));
     return reward;
   }
 
-  std::int64_t decisions() const { return end_.decisions; }
-  std::int64_t frames() const { return end_.frames; }
+  std::int64_t decisions() const { return account_.decisions(); }
+  std::int64_t frames() const { return account_.frames(); }
   bool over() const { return machine_.game_over(); }
-
-  EpisodeEnd finish() {
-    if (hashes_.size() < hashes_of(static_cast<std::size_t>(end_.decisions)))
-      hashes_.push_back(machine_.state_hash());
-    const bool terminated = ends_of(machine_, life_loss_).terminated;
-    end_.over = terminated ? EpisodeOver::kTerminated : EpisodeOver::kTruncated;
-    end_.lives = machine_.lives();
-    return end_;
-  }
-
-  std::vector<std::uint64_t>& hashes() { return hashes_; }
+  EpisodeEnd finish() { return account_.finish(machine_, life_loss_); }
+  std::vector<std::uint64_t> take_hashes() { return account_.take_hashes(); }
 
  private:
   Environment& machine_;
   const LifeLoss life_loss_;
-  EpisodeEnd end_;
-  std::vector<std::uint64_t> hashes_;
+  EpisodeAccount account_;
 };
 
 }  // namespace
@@ -74,14 +63,14 @@ void Stage::begin(std::uint32_t seed) {
 
 Episode play(Agent& agent, Stage& stage, const PlayOptions& options) {
   Environment& machine = stage.machine();
-  Account account(machine, stage.settings().life_loss);
+  Player player(machine, stage.settings().life_loss);
   Episode episode;
   for (int action = agent.begin(machine);;) {
     episode.actions.push_back(static_cast<std::uint8_t>(action));
     const int lives = machine.lives();
-    const double reward = account.act(action);
-    if (options.watch) options.watch(account.decisions(), account.frames());
-    const bool over = account.over() || account.frames() >= options.most_frames;
+    const double reward = player.act(action);
+    if (options.watch) options.watch(player.decisions(), player.frames());
+    const bool over = player.over() || player.frames() >= options.most_frames;
     const bool ends = over || (options.lives_end && machine.lives() < lives);
     if (ends) agent.end(reward);
     if (over) break;
@@ -89,8 +78,8 @@ Episode play(Agent& agent, Stage& stage, const PlayOptions& options) {
     if (agent.diverged()) break;
   }
   episode.diverged = agent.diverged();
-  episode.end = account.finish();
-  episode.hashes = std::move(account.hashes());
+  episode.end = player.finish();
+  episode.hashes = player.take_hashes();
   return episode;
 }
 
@@ -114,18 +103,18 @@ Replay Replayer::play(const EpisodeLog& log, const Cartridge& cartridge) {
   auto stage = std::make_unique<Stage>(cartridge, settings, Drawing::kNone);
   stage->begin(settings.machine.random_seed);
   const std::vector<int>& actions = actions_of(settings.action_set, *cartridge.game);
-  Account account(stage->machine(), settings.life_loss);
+  Player player(stage->machine(), settings.life_loss);
   for (const int action : log.actions) {
-    if (account.over()) break;
+    if (player.over()) break;
     if (std::ranges::find(actions, action) == actions.end())
       throw InvalidInput("its log has the action " + std::string(action_name(action)) +
                          ", which is not in the set " + std::string(name_of(settings.action_set)));
-    account.act(action);
+    player.act(action);
   }
   Replay result;
-  result.end = account.finish();
-  result.hashes = std::move(account.hashes());
-  result.over = account.over();
+  result.end = player.finish();
+  result.hashes = player.take_hashes();
+  result.over = player.over();
   keep(std::move(stage));
   return result;
 }

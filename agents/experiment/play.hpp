@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "agents/base/agent.hpp"
-#include "agents/experiment/episode_log.hpp"
 #include "environment/settings/play_settings.hpp"
 #include "games/catalogue.hpp"
+#include "recording/episode_log.hpp"
 
 namespace racebeam {
 

@@ -2,22 +2,14 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
 
-#include "agents/experiment/episode_log.hpp"
 #include "agents/experiment/plan.hpp"
+#include "recording/result_row.hpp"
 
 namespace racebeam {
-
-// The columns of results.csv: a row for each evaluation episode, in the plan's order. evaluation/ reads them.
-// A trial that diverged has one row, with end=diverged, episode 0, and no score, hash or digest.
-constexpr std::array<std::string_view, 16> kResultColumns = {
-    "unit",  "game",   "image_md5", "agent", "trial", "episode",    "environment_seed", "agent_seed",
-    "score", "frames", "decisions", "end",   "lives", "state_hash", "log_digest",       "version"};
-using ResultRow = std::array<std::string, kResultColumns.size()>;
 
 // The columns of curves.csv: a row for each training episode.
 constexpr std::array<std::string_view, 8> kCurveColumns = {"unit",    "game",  "agent",  "trial",
@@ -32,27 +24,11 @@ constexpr std::array<std::string_view, 6> kTimeColumns = {
 constexpr std::array<std::string_view, 2> kAgentColumns = {"agent", "role"};
 std::string_view name_of(Role role);  // "learner", "planner" or "baseline"
 
-template <std::size_t kSize>
-std::string line_of(const std::array<std::string_view, kSize>& columns) {
-  std::string line;
-  for (const std::string_view column : columns) (line += line.empty() ? "" : ",") += column;
-  return line + "\n";
-}
-
-std::string line_of(const ResultRow& row);
-
-// What the row of this log is. `digest` is of the log's bytes.
-ResultRow row_of(const EpisodeLog& log, const std::string& digest);
-
 // What follows of an episode's row only from the plan; the other columns are empty.
 ResultRow row_of_plan(const Plan& plan, const Unit& unit, int episode);
 ResultRow row_of_divergence(const Plan& plan, const Unit& unit);
 
 std::string curve_line(const Unit& unit, int episode, const EpisodeEnd& end);
-
-// The value of a column, by its name.
-const std::string& field(const ResultRow& row, std::string_view column);
-std::string& field(ResultRow& row, std::string_view column);
 
 // Visits the rows of results.csv, each with the number of its line. Only one row is in memory, however
 // large the file is. Throws InvalidInput for columns that lack or differ, and rows that do not fit.

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "agents/base/sealed_file.hpp"
 #include "agents/experiment/cost.hpp"
 #include "recording/atomic_file.hpp"
+#include "recording/sealed_file.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {

@@ -5,13 +5,13 @@
 #include <optional>
 #include <set>
 
-#include "agents/base/sealed_file.hpp"
 #include "agents/experiment/phrase_seeds.hpp"
 #include "agents/experiment/row_tally.hpp"
 #include "games/files/toml_section.hpp"
+#include "recording/phrase_seed.hpp"
+#include "recording/sealed_file.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
-#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
@@ -42,17 +42,6 @@ std::optional<std::string> phrase_of(const ResultsFolder& folder) {
   return phrase;
 }
 
-// The settings of a log without the seed.
-std::string settings_without_seed(const EpisodeLog& log) {
-  std::vector<std::string_view> words;
-  split(log.settings, words);
-  std::ranges::sort(words);
-  std::string text;
-  for (const std::string_view word : words)
-    if (key_value(word).key != "seed") (text += text.empty() ? "" : " ") += word;
-  return text;
-}
-
 bool is_divergence(const ResultRow& row) { return field(row, "end") == "diverged"; }
 
 class SubmissionJudge {
@@ -69,7 +58,7 @@ class SubmissionJudge {
   // All logs must have the settings of the first row's. Called before judge().
   void take_settings(const ResultRow& row) {
     try {
-      settings_ = settings_without_seed(log_of_row(row).first);
+      settings_ = settings_without_seed(log_of_row(row).first.settings);
     } catch (const std::exception&) {  // judge() says what is wrong
     }
   }
@@ -88,7 +77,7 @@ class SubmissionJudge {
     const auto [log, digest] = log_of_row(row);
     if (const std::string reason = first_difference(row, row_of(log, digest), "its log has"); !reason.empty())
       return {Judgement::kWrong, reason};
-    if (const std::string ours = settings_without_seed(log); ours != settings_)
+    if (const std::string ours = settings_without_seed(log.settings); ours != settings_)
       return {Judgement::kWrong, "its log's settings are '" + ours + "'; those of the first log are '" +
                                      settings_.value_or("") + "'"};
     return logs_.judge(row, log);

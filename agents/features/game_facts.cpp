@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "agents/base/file_lock.hpp"
-#include "agents/base/sealed_file.hpp"
 #include "recording/atomic_file.hpp"
+#include "recording/sealed_file.hpp"
 #include "system/invalid_input.hpp"
 #include "system/words.hpp"
 

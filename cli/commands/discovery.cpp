@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "agents/base/sealed_file.hpp"
 #include "cli/arguments/options.hpp"
 #include "recording/atomic_file.hpp"
+#include "recording/sealed_file.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 #include "system/similar.hpp"

@@ -9,12 +9,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "agents/experiment/episode_log.hpp"
 #include "agents/experiment/play.hpp"
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/subcommand.hpp"
 #include "cli/commands/interruption.hpp"
 #include "emulator/tia/sound.hpp"
+#include "recording/episode_log.hpp"
 #include "recording/footage.hpp"
 #include "recording/media.hpp"
 #include "system/input_file.hpp"

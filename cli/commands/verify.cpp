@@ -6,7 +6,6 @@
 #include <memory>
 #include <string>
 
-#include "agents/base/sealed_file.hpp"
 #include "agents/experiment/log_judge.hpp"
 #include "agents/experiment/rerun.hpp"
 #include "agents/experiment/verify.hpp"
@@ -15,6 +14,7 @@
 #include "cli/arguments/options.hpp"
 #include "cli/commands/interruption.hpp"
 #include "environment/settings/play_settings.hpp"
+#include "recording/sealed_file.hpp"
 #include "system/input_file.hpp"
 #include "system/printable.hpp"
 

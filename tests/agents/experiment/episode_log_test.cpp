@@ -1,8 +1,8 @@
-#include "agents/experiment/episode_log.hpp"
+#include "recording/episode_log.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "agents/base/sealed_file.hpp"
+#include "recording/sealed_file.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 #include "tests/agents/experiment/samples.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "agents/base/sealed_file.hpp"
 #include "agents/experiment/verify.hpp"
+#include "recording/sealed_file.hpp"
 #include "tests/agents/experiment/samples.hpp"
 
 namespace racebeam::test {

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "agents/experiment/phrase_seeds.hpp"
+#include "recording/phrase_seed.hpp"
 #include "system/invalid_input.hpp"
 #include "tests/agents/experiment/verified.hpp"
 

@@ -1,4 +1,4 @@
-#include "agents/base/sealed_file.hpp"
+#include "recording/sealed_file.hpp"
 
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -26,6 +26,19 @@ std::string refusal_of(const SealedKind& kind, std::string_view bytes) {
 TEST_CASE("Sealed contents come back") {
   for (const std::string& contents : {std::string(), std::string("a"), std::string(1000, 'x')})
     CHECK(unseal(kKind, "file", seal(kKind, contents)) == contents);
+}
+
+TEST_CASE("Sealing pauses between pieces, and the file is the same") {
+  SealedKind large = kKind;
+  large.most = std::size_t{1} << 20;
+  std::string contents;
+  for (std::uint32_t number = 1; contents.size() < 100'000; number = number * 1664525 + 1013904223)
+    contents += static_cast<char>(number >> 28);
+  int pauses = 0;
+  const std::string sealed = seal(large, contents, [&] { ++pauses; });
+  CHECK(pauses == 6);
+  CHECK((unseal(large, "file", sealed) == contents));
+  CHECK((seal(large, contents) == sealed));
 }
 
 TEST_CASE("Every altered bit and every cut of a sealed file is refused") {

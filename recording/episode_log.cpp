@@ -1,12 +1,12 @@
-#include "agents/experiment/episode_log.hpp"
+#include "recording/episode_log.hpp"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
 
-#include "agents/base/sealed_file.hpp"
 #include "games/game/actions.hpp"
+#include "recording/sealed_file.hpp"
 #include "system/invalid_input.hpp"
 #include "system/words.hpp"
 
@@ -129,7 +129,7 @@ std::string_view name_of(EpisodeOver over) { return word_for(kOvers, over); }
 
 std::size_t hashes_of(std::size_t decisions) { return decisions / kDecisionsPerStretch + 1; }
 
-std::string bytes_of(const EpisodeLog& log) {
+std::string bytes_of(const EpisodeLog& log, const std::function<void()>& pause) {
   std::string out = "load " + log.game + ' ' + log.settings + "\nimage " + log.image_md5 + "\nfrom";
   append_pair(out, "unit", log.origin.unit);
   append_pair(out, "agent", log.origin.agent);
@@ -146,7 +146,7 @@ std::string bytes_of(const EpisodeLog& log) {
   out += "\n\n";
   for (const std::uint64_t hash : log.hashes) append_hash(out, hash);
   out.append(log.actions.begin(), log.actions.end());
-  return seal(kKind, out);
+  return seal(kKind, out, pause);
 }
 
 EpisodeLog log_of(const std::string& name, std::string_view bytes) {
@@ -193,6 +193,16 @@ std::string words_of(const PlaySettings& settings, const Environment& machine) {
     own ? append_number(out, *value) : row.append(out, settings, machine);
   }
   return out;
+}
+
+std::string settings_without_seed(const std::string& settings) {
+  std::vector<std::string_view> words;
+  split(settings, words);
+  std::ranges::sort(words);
+  std::string text;
+  for (const std::string_view word : words)
+    if (key_value(word).key != "seed") (text += text.empty() ? "" : " ") += word;
+  return text;
 }
 
 }  // namespace racebeam

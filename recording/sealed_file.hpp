@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -17,7 +18,9 @@ struct SealedKind {
   int level;         // of deflate, 1 to 9
 };
 
-std::string seal(const SealedKind& kind, std::string_view contents);
+// `pause`, if not empty, is called about every millisecond, and may throw. Throws std::runtime_error for more
+// than kind.most bytes.
+std::string seal(const SealedKind& kind, std::string_view contents, const std::function<void()>& pause = {});
 
 // Throws InvalidInput, naming `name`, for bytes that seal() did not make: another kind or version, a file
 // that was cut or altered, contents of more than kind.most bytes.

@@ -1,8 +1,9 @@
-#include "agents/base/sealed_file.hpp"
+#include "recording/sealed_file.hpp"
 
 #include <openssl/evp.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -54,23 +55,62 @@ std::string inflated(const SealedKind& kind, const std::string& name, std::strin
   return contents;
 }
 
+// A stream of zlib that compresses.
+class Deflater {
+ public:
+  explicit Deflater(int level) {
+    if (deflateInit(&stream_, level) != Z_OK) throw std::runtime_error("zlib cannot compress");
+  }
+  ~Deflater() { deflateEnd(&stream_); }
+  Deflater(const Deflater&) = delete;
+  Deflater& operator=(const Deflater&) = delete;
+
+  std::size_t bound(std::size_t bytes) { return deflateBound(&stream_, bytes); }
+
+  // Appends to `out`, which has room for all.
+  void add(std::string_view piece, std::string& out, std::size_t& size, bool is_last) {
+    stream_.next_in = const_cast<Bytef*>(bytes_of(piece));  // zlib does not write there
+    stream_.avail_in = static_cast<uInt>(piece.size());
+    stream_.next_out = reinterpret_cast<Bytef*>(out.data()) + size;
+    stream_.avail_out = static_cast<uInt>(std::min<std::size_t>(out.size() - size, kMostOut));
+    if (deflate(&stream_, is_last ? Z_FINISH : Z_NO_FLUSH) != (is_last ? Z_STREAM_END : Z_OK))
+      throw std::runtime_error("zlib cannot compress");
+    size = static_cast<std::size_t>(reinterpret_cast<char*>(stream_.next_out) - out.data());
+  }
+
+ private:
+  static constexpr std::size_t kMostOut = std::size_t{1} << 30;  // of a piece, which is far smaller
+
+  z_stream stream_{};
+};
+
+std::string deflated(std::string_view contents, int level, const std::function<void()>& pause) {
+  constexpr std::size_t kPiece = std::size_t{1} << 14;
+  Deflater deflater(level);
+  std::string out(deflater.bound(contents.size()), '\0');
+  std::size_t size = 0;
+  while (contents.size() > kPiece) {
+    deflater.add(contents.substr(0, kPiece), out, size, false);
+    contents.remove_prefix(kPiece);
+    if (pause) pause();
+  }
+  deflater.add(contents, out, size, true);
+  out.resize(size);
+  return out;
+}
+
 }  // namespace
 
-std::string seal(const SealedKind& kind, std::string_view contents) {
+std::string seal(const SealedKind& kind, std::string_view contents, const std::function<void()>& pause) {
   if (contents.size() > kind.most)
     throw std::runtime_error(std::string("a ").append(kind.what).append(" has at most ") +
                              std::to_string(kind.most) + " bytes");
-  uLongf size = compressBound(contents.size());
-  std::string deflated(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(deflated.data()), &size, bytes_of(contents), contents.size(),
-                kind.level) != Z_OK)
-    throw std::runtime_error("zlib cannot compress");
-  deflated.resize(size);
+  const std::string body = deflated(contents, kind.level, pause);
   std::string sealed(kind.magic);
   put(sealed, kind.version);
   put(sealed, std::uint64_t{contents.size()});
-  put(sealed, checksum(sealed, deflated));
-  return sealed + deflated;
+  put(sealed, checksum(sealed, body));
+  return sealed + body;
 }
 
 std::string unseal(const SealedKind& kind, const std::string& name, std::string_view bytes) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 
 namespace racebeam {
 
+constexpr int kMostDecisions = 2'000'000;  // of an episode that has a log, which has at most two MiB
 constexpr int kDecisionsPerStretch = 256;  // after each, a log has the state's hash
 
 enum class EpisodeOver { kTerminated, kTruncated };
@@ -44,7 +46,8 @@ struct EpisodeLog {
 // Hashes that an episode of so many decisions has.
 std::size_t hashes_of(std::size_t decisions);
 
-std::string bytes_of(const EpisodeLog& log);
+// `pause` is seal()'s.
+std::string bytes_of(const EpisodeLog& log, const std::function<void()>& pause = {});
 // `name` is for errors. Throws InvalidInput for bytes that are not a log.
 EpisodeLog log_of(const std::string& name, std::string_view bytes);
 
@@ -53,5 +56,9 @@ extern const std::size_t kMostLogBytes;
 
 // The words of `load` that start this episode again. `machine` runs it.
 std::string words_of(const PlaySettings& settings, const Environment& machine);
+
+// The settings of a log in the order of their names, without the seed: those that all logs of a submission
+// have.
+std::string settings_without_seed(const std::string& settings);
 
 }  // namespace racebeam

@@ -1,0 +1,37 @@
+#include "recording/phrase_seed.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+
+#include "recording/sealed_file.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::size_t kMostPhraseBytes = 1000;
+
+}  // namespace
+
+void check_phrase(std::string_view phrase) {
+  const bool is_plain = std::ranges::none_of(phrase, [](char letter) {
+    return (letter >= 0 && letter < ' ') || letter == '\x7f' || letter == '"' || letter == '\\';
+  });
+  if (phrase.empty() || phrase.size() > kMostPhraseBytes || !is_plain)
+    throw InvalidInput("a phrase has 1 to " + std::to_string(kMostPhraseBytes) +
+                       " bytes, without quotation marks, backslashes and control characters");
+}
+
+// The first 32 bits of a digest without the highest, so that any program can use the seed.
+std::uint32_t seed_of_phrase(std::string_view phrase, std::string_view game, int trial, int episode) {
+  std::string text(phrase);
+  for (const std::string& part : {std::string(game), std::to_string(trial), std::to_string(episode)})
+    (text += '\n') += part;
+  const std::string digest = sha256_of(text);
+  std::uint32_t number = 0;
+  std::from_chars(digest.data(), digest.data() + 8, number, 16);
+  return std::max(number & 0x7fffffffU, 1U);
+}
+
+}  // namespace racebeam
