@@ -2,11 +2,11 @@
 // entries of the processor's translation buffer (TLB) then cover a whole table.
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <new>
 #include <vector>
+
+#include "system/pages.hpp"
 
 namespace racebeam {
 
@@ -22,7 +22,7 @@ class HugePages {  // an allocator
   T* allocate(std::size_t count) {
     const std::size_t size = rounded(count * sizeof(T));
     void* const memory = ::operator new(size, alignment(size));
-    if (size >= kPage) ::madvise(memory, size, MADV_HUGEPAGE);  // if it fails, pages are small
+    if (size >= kPage) prefer_large_pages(memory, size);
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t count) {

@@ -5,29 +5,26 @@
 
 #include <cstddef>
 
+#include "system/pages.hpp"
+
 namespace racebeam::translator {
 
 class CodeMemory {
  public:
   explicit CodeMemory(std::size_t size);  // throws std::system_error
-  ~CodeMemory();
-  CodeMemory(const CodeMemory&) = delete;
-  CodeMemory& operator=(const CodeMemory&) = delete;
 
   // Where to write next, and how many bytes. Null when the memory is full.
-  void* writable() const { return left() == 0 ? nullptr : base_ + used_; }
-  std::size_t left() const { return open_ - used_; }
-  std::size_t size() const { return size_; }
+  void* writable() const { return left() == 0 ? nullptr : pages_.data() + used_; }
+  std::size_t left() const { return pages_.size() - used_; }
+  std::size_t size() const { return pages_.size(); }
 
   // Makes the first `size` written bytes executable, and the rest of their last page. Returns how many these
   // are. Throws std::system_error if the system refuses that.
   std::size_t seal(std::size_t size);
 
  private:
-  char* base_ = nullptr;
-  std::size_t size_;
+  Pages pages_;
   std::size_t used_ = 0;  // executable
-  std::size_t open_ = 0;  // pages up to here are writable
 };
 
 }  // namespace racebeam::translator

@@ -1,17 +1,14 @@
 #include "environment/settings/play_settings.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <bitset>
-#include <cerrno>
 #include <cmath>
 #include <limits>
-#include <system_error>
 
 #include "emulator/cartridge/cartridge.hpp"
 #include "environment/settings/setting_tables.hpp"
+#include "system/entropy.hpp"
 #include "system/named_rows.hpp"
 
 namespace racebeam {
@@ -36,14 +33,7 @@ constexpr std::array<WordFor<LifeLoss>, 4> kLifeLosses = {{{"ignored", LifeLoss:
                                                            {"restart", LifeLoss::kResets}}};
 constexpr std::array<WordFor<Rules>, 2> kRules = {{{"ale-0.12", Rules::kAle012}, {"fixed", Rules::kFixed}}};
 
-// Returns a seed that is not 0. std::random_device would need a C library of 2022 when it is linked
-// statically, as in a wheel.
-std::uint32_t fresh_seed() {
-  std::uint32_t seed = 0;
-  if (getentropy(&seed, sizeof seed) != 0)
-    throw std::system_error(errno, std::generic_category(), "no random seed can be had");
-  return seed | 1U;
-}
+std::uint32_t fresh_seed() { return random_number() | 1U; }  // not 0
 
 int whole(std::string_view value, std::string_view what, std::int64_t least, std::int64_t most) {
   return static_cast<int>(number_within(value, what, least, most));

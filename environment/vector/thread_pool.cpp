@@ -1,15 +1,10 @@
 #include "environment/vector/thread_pool.hpp"
 
-#include <pthread.h>
-#include <sched.h>
-
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <system_error>
 
 #include "system/affinity.hpp"
-#include "system/invalid_input.hpp"
 #include "system/resources.hpp"
 
 namespace racebeam {
@@ -17,17 +12,6 @@ namespace {
 
 unsigned number_of_threads(unsigned requested) {
   return requested != 0 ? requested : static_cast<unsigned>(usable_processors().amount);
-}
-
-void bind_to(std::jthread& thread, unsigned processor) {
-  const auto free_set = [](cpu_set_t* set) { CPU_FREE(set); };
-  const std::unique_ptr<cpu_set_t, decltype(free_set)> set(CPU_ALLOC(processor + 1), free_set);
-  const std::size_t size = CPU_ALLOC_SIZE(processor + 1);
-  CPU_ZERO_S(size, set.get());
-  CPU_SET_S(processor, size, set.get());
-  if (const int error = pthread_setaffinity_np(thread.native_handle(), size, set.get()); error != 0)
-    throw InvalidInput("a thread could not be bound to processor " + std::to_string(processor) + ": " +
-                       std::generic_category().message(error));
 }
 
 }  // namespace

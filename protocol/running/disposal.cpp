@@ -1,11 +1,10 @@
 #include "protocol/running/disposal.hpp"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <system_error>
+
+#include "system/pages.hpp"
 
 namespace racebeam {
 
@@ -50,11 +49,11 @@ void Disposal::run() {
 void release_pages(std::string& text) {
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   if (text.capacity() < 4 * kPiece) return;
-  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const std::size_t page = page_size();
   const std::size_t first = (page - reinterpret_cast<std::uintptr_t>(text.data()) % page) % page;
   const std::size_t end = first + (text.capacity() - first) / page * page;
   for (std::size_t at = first; at < end; at += kPiece)
-    ::madvise(text.data() + at, std::min(kPiece, end - at), MADV_DONTNEED);
+    discard_pages(text.data() + at, std::min(kPiece, end - at));
 }
 
 }  // namespace racebeam

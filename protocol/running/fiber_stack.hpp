@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "system/pages.hpp"
+
 namespace racebeam {
 
 class FiberStack {
@@ -19,6 +21,7 @@ class FiberStack {
   static constexpr std::size_t kBytes = std::size_t{1} << 18;
 
  private:
+  Pages pages_;
   std::byte* bottom_;
 };
 

@@ -17,6 +17,9 @@ class ThisTree(unittest.TestCase):
     def test_every_include_is_allowed_and_every_row_is_used(self):
         self.assertEqual(room_table.faults(), [])
 
+    def test_no_portable_source_includes_a_header_of_the_operating_system(self):
+        self.assertEqual(room_table.system_faults(), [])
+
     def test_each_row_uses_only_rows_above_it(self):
         self.assertEqual(room_table.order_faults(), [])
 
@@ -32,6 +35,10 @@ class ThisTree(unittest.TestCase):
 
 
 TABLE = """
+[portable]
+folders = ["low", "high"]
+except = ["low/linux"]
+headers = ["zlib.h"]
 [folders]
 low = []
 high = ["low"]
@@ -72,6 +79,23 @@ class TheCheck(unittest.TestCase):
                 "low/up.cpp includes high/shared.hpp",
                 "high/first/back.cpp includes high/second/new.hpp",
                 "high/second/new.hpp includes high/shared.hpp",
+            ],
+        )
+
+    def test_a_header_of_the_operating_system_is_named(self):
+        self.write("high/first/one.hpp", "#include <vector>\n")
+        self.write("low/base.hpp", "#include <zlib.h>\n")
+        self.write("low/linux/pages.cpp", "#include <sys/mman.h>\n")
+        self.assertEqual(room_table.system_faults(self.root), [])
+        self.write("low/time.cpp", "#  include <time.h>\n")
+        self.write("high/first/pages.cpp", "#include <sys/mman.h>\n")
+        self.write("low/base.hpp", "")
+        self.assertEqual(
+            room_table.system_faults(self.root),
+            [
+                "low/time.cpp includes time.h",
+                "high/first/pages.cpp includes sys/mman.h",
+                "docs/rooms.toml: no portable source includes zlib.h",
             ],
         )
 

@@ -10,6 +10,7 @@ TABLE = "docs/rooms.toml"
 TOP = "top"  # stands for the files of a folder that are in no room
 SOURCES = (".cpp", ".hpp", ".inc")
 INCLUDE = re.compile(r'^\s*#\s*include "([^"]+)"', re.MULTILINE)
+LIBRARY = re.compile(r"^\s*#\s*include <([^>]+)>", re.MULTILINE)
 
 
 def read(root=ROOT):
@@ -85,3 +86,29 @@ def missing(root=ROOT):
         sources = [path.relative_to(root) for path in (root / folder).rglob("*.[hc]pp")]
         found |= {path.parent.as_posix() for path in sources if room_of(path) not in rows}
     return sorted(found)
+
+
+def portable_sources(root, table):
+    """The sources that may not include headers of an operating system."""
+    exempt = {root / folder for folder in table["except"]}
+    for folder in table["folders"]:
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in SOURCES and not exempt.intersection(path.parents):
+                yield path
+
+
+def system_faults(root=ROOT):
+    """A line for each include of a portable source that is neither of the C++ library, whose names have no mark, nor in
+    the table; and for each header of the table that nobody includes."""
+    table = tomllib.loads((root / TABLE).read_text())["portable"]
+    idle = set(table["headers"])
+    wrong = []
+    for path in portable_sources(root, table):
+        for name in LIBRARY.findall(path.read_text()):
+            if not re.search(r"\W", name):
+                continue
+            library = name.split("/")[0]
+            if library not in table["headers"]:
+                wrong.append(f"{path.relative_to(root)} includes {name}")
+            idle.discard(library)
+    return wrong + [f"{TABLE}: no portable source includes {name}" for name in sorted(idle)]

@@ -1,15 +1,15 @@
 #include "clients/python/core/lock.hpp"
 
-#include <pthread.h>
-
 #include <stdexcept>
+
+#include "system/forks.hpp"
 
 namespace racebeam::python {
 namespace {
 
 std::atomic<unsigned> generation{1};
 
-[[maybe_unused]] const int forks_are_counted = pthread_atfork(nullptr, nullptr, [] { ++generation; });
+[[maybe_unused]] const bool forks_are_counted = (call_in_forks([] { ++generation; }), true);
 
 }  // namespace
 

@@ -1,0 +1,11 @@
+// Clocks of the system, in nanoseconds from any beginning.
+#pragma once
+
+#include <cstdint>
+
+namespace racebeam {
+
+std::int64_t wall_time();       // never set back
+std::int64_t processor_time();  // what the calling thread has used
+
+}  // namespace racebeam

@@ -1,0 +1,9 @@
+#include "system/forks.hpp"
+
+#include <pthread.h>
+
+namespace racebeam {
+
+void call_in_forks(void (*function)()) { ::pthread_atfork(nullptr, nullptr, function); }
+
+}  // namespace racebeam

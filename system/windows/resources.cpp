@@ -1,0 +1,57 @@
+#include "system/resources.hpp"
+
+#include <windows.h>
+
+#include <io.h>
+#include <psapi.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "system/affinity.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr auto kMachine = "the machine";
+constexpr auto kAffinity = "the affinity";
+constexpr auto kAddressSpace = "the address space";
+
+}  // namespace
+
+Allowance usable_processors(const std::string&) {
+  const std::uint64_t all = std::max<DWORD>(1, GetActiveProcessorCount(ALL_PROCESSOR_GROUPS));
+  const std::uint64_t pinned = allowed_processors().size();
+  return pinned > 0 && pinned < all ? Allowance{pinned, kAffinity} : Allowance{all, kMachine};
+}
+
+Allowance usable_memory(const std::string&) {
+  MEMORYSTATUSEX memory{};
+  memory.dwLength = sizeof memory;
+  GlobalMemoryStatusEx(&memory);
+  if (memory.ullTotalVirtual < memory.ullTotalPhys) return {memory.ullTotalVirtual, kAddressSpace};
+  return {memory.ullTotalPhys, kMachine};
+}
+
+// The C library's limit of files; sockets have none.
+std::uint64_t usable_files() {
+  constexpr int kHighest = 8192;
+  _setmaxstdio(kHighest);
+  return static_cast<std::uint64_t>(_getmaxstdio());
+}
+
+void set_thread_stacks() {}  // 1 MiB unless the program's header says otherwise
+
+std::uint64_t open_files(std::uint64_t most) {
+  std::uint64_t open = 0;
+  for (std::uint64_t file = 0; file < most; ++file) open += _get_osfhandle(static_cast<int>(file)) != -1;
+  return open;
+}
+
+std::uint64_t resident_memory() {
+  PROCESS_MEMORY_COUNTERS memory{};
+  GetProcessMemoryInfo(GetCurrentProcess(), &memory, sizeof memory);
+  return memory.WorkingSetSize;
+}
+
+}  // namespace racebeam

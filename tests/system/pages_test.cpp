@@ -1,0 +1,94 @@
+#include "system/pages.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+using namespace racebeam;
+
+namespace {
+
+// Whether the system can read this byte, without a signal if not.
+bool readable(const std::byte* byte) {
+  std::array<int, 2> ends{};
+  REQUIRE(::pipe(ends.data()) == 0);
+  const bool fine = ::write(ends[1], byte, 1) == 1;
+  const int error = errno;
+  for (const int end : ends) ::close(end);
+  REQUIRE((fine || error == EFAULT));
+  return fine;
+}
+
+// Whether the system can write to this byte, without a signal if not.
+bool writable(std::byte* byte) {
+  std::array<int, 2> ends{};
+  REQUIRE(::pipe(ends.data()) == 0);
+  REQUIRE(::write(ends[1], "x", 1) == 1);
+  const bool fine = ::read(ends[0], byte, 1) == 1;
+  const int error = errno;
+  for (const int end : ends) ::close(end);
+  REQUIRE((fine || error == EFAULT));
+  return fine;
+}
+
+}  // namespace
+
+TEST_CASE("a size is rounded up to whole pages") {
+  CHECK(whole_pages(0) == 0);
+  CHECK(whole_pages(1) == page_size());
+  CHECK(whole_pages(page_size()) == page_size());
+  CHECK(whole_pages(page_size() + 1) == 2 * page_size());
+  CHECK(Pages(page_size() + 1).size() == 2 * page_size());
+}
+
+TEST_CASE("the access to pages changes for those that are named") {
+  const std::size_t page = page_size();
+  Pages pages(4 * page);
+  pages.forbid(0, page);
+  pages.make_executable(2 * page, page);
+  std::byte* const first = pages.data();
+  CHECK_FALSE(readable(first));
+  CHECK_FALSE(readable(first + page - 1));
+  CHECK(writable(first + page));
+  CHECK(writable(first + 2 * page - 1));
+  CHECK(readable(first + 2 * page));
+  CHECK_FALSE(writable(first + 2 * page));
+  CHECK_FALSE(writable(first + 3 * page - 1));
+  CHECK(writable(first + 3 * page));
+}
+
+TEST_CASE("code in executable pages runs") {
+#if defined(__x86_64__)
+  constexpr std::array<unsigned char, 6> kCode = {0xB8, 42, 0, 0, 0, 0xC3};  // mov eax, 42; ret
+  Pages pages(1);
+  std::memcpy(pages.data(), kCode.data(), kCode.size());
+  pages.make_executable(0, pages.size());
+  CHECK(reinterpret_cast<int (*)()>(pages.data())() == 42);
+#endif
+}
+
+TEST_CASE("pages that are moved are released once") {
+  Pages one(1);
+  std::byte* const first = one.data();
+  Pages two = std::move(one);
+  CHECK(two.data() == first);
+  {
+    Pages three(1);
+    two = std::move(three);
+    CHECK(readable(first));
+  }
+  CHECK_FALSE(readable(first));
+  CHECK(writable(two.data()));
+}
+
+TEST_CASE("discarded pages lose their contents") {
+  Pages pages(2 * page_size());
+  std::memset(pages.data(), 1, pages.size());
+  discard_pages(pages.data(), page_size());
+  CHECK(pages.data()[page_size() - 1] == std::byte{0});
+  CHECK(pages.data()[page_size()] == std::byte{1});
+}
