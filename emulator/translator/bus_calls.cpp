@@ -3,15 +3,18 @@
 #include "emulator/board/board.hpp"
 #include "emulator/cpu/decimal.hpp"
 #include "emulator/cpu/timer_loop.hpp"
+#include "emulator/translator/calling_convention.hpp"
 
 namespace racebeam::translator {
 namespace {
 
-std::uint32_t read_bus(Board* board, std::uint32_t address, std::uint32_t latch, std::int32_t cycle) {
+std::uint32_t RACEBEAM_SYSV_ABI read_bus(Board* board, std::uint32_t address, std::uint32_t latch,
+                                         std::int32_t cycle) {
   return board->read_device(static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch), cycle);
 }
 
-std::int32_t write_bus(Board* board, std::uint32_t address, std::uint32_t value, std::int32_t cycle) {
+std::int32_t RACEBEAM_SYSV_ABI write_bus(Board* board, std::uint32_t address, std::uint32_t value,
+                                         std::int32_t cycle) {
   const auto byte = static_cast<std::uint8_t>(value);
   board->state.cpu.latch = byte;
   if ((address & 0x1080) == 0 && board->is_plain_write(static_cast<std::uint16_t>(address), cycle)) {
@@ -21,7 +24,7 @@ std::int32_t write_bus(Board* board, std::uint32_t address, std::uint32_t value,
   return board->write_device(static_cast<std::uint16_t>(address), byte, cycle, true);
 }
 
-std::uint32_t pull(Board* board, std::int32_t cycle) {
+std::uint32_t RACEBEAM_SYSV_ABI pull(Board* board, std::int32_t cycle) {
   constexpr std::uint8_t kOpcode = 0x68;
   CpuState& cpu = board->state.cpu;
   const auto read = [&](std::uint8_t sp, std::uint8_t latch) {
@@ -33,7 +36,8 @@ std::uint32_t pull(Board* board, std::int32_t cycle) {
 }
 
 // Returns V in bit 16, the carry in bit 8, and the sum in bits 7-0.
-std::uint32_t decimal(std::uint32_t a, std::uint32_t m, std::uint32_t carry, bool subtracts) {
+std::uint32_t RACEBEAM_SYSV_ABI decimal(std::uint32_t a, std::uint32_t m, std::uint32_t carry,
+                                        bool subtracts) {
   const auto left = static_cast<std::uint8_t>(a), right = static_cast<std::uint8_t>(m);
   const auto in = static_cast<std::uint8_t>(carry);
   const DecimalResult result = subtracts ? subtract_decimal(left, right, in) : add_decimal(left, right, in);
@@ -41,12 +45,20 @@ std::uint32_t decimal(std::uint32_t a, std::uint32_t m, std::uint32_t carry, boo
   return overflow << 16 | unsigned{result.carry} << 8 | result.value;
 }
 
-std::int32_t skip_timer_loop(Board* board, const std::uint8_t* branch, std::int32_t cycle,
-                             std::int32_t period) {
+std::int32_t RACEBEAM_SYSV_ABI skip_timer_loop(Board* board, const std::uint8_t* branch, std::int32_t cycle,
+                                               std::int32_t period) {
   const std::int32_t skipped = period * sure_timer_turns(branch, board->state.riot, cycle + 4, period);
   board->translated.waited += static_cast<std::uint32_t>(skipped);
   return cycle + skipped;
 }
+
+#if defined(_WIN32)
+// Calls a reader by the compiler's convention.
+std::uint32_t RACEBEAM_SYSV_ABI read_port(CartridgeSlot* slot, std::uint32_t address, std::int32_t cycle,
+                                          PortReader reader) {
+  return reader(*slot, static_cast<std::uint16_t>(address), cycle);
+}
+#endif
 
 template <class Function>
 void call(Assembler& as, Function* function) {
@@ -70,7 +82,12 @@ void call_read(Assembler& as) {
 void call_port(Assembler& as, PortReader reader, std::uint16_t address) {
   as.lea(as.rdi, as.ptr[as.rbx + as.layout.slot]);
   as.mov(as.esi, address);
+#if defined(_WIN32)
+  as.mov(as.rcx, reinterpret_cast<std::uintptr_t>(reader));
+  call(as, read_port);
+#else
   call(as, reader);
+#endif
   as.movzx(as.eax, as.al);
 }
 

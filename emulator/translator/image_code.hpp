@@ -12,6 +12,7 @@
 #include "emulator/cartridge/memory_map.hpp"
 #include "emulator/state/state.hpp"
 #include "emulator/translator/assembler.hpp"
+#include "emulator/translator/calling_convention.hpp"
 #include "emulator/translator/code_memory.hpp"
 #include "emulator/translator/profitability.hpp"
 
@@ -64,7 +65,7 @@ class ImageCode {
   const void* translate(View& view, std::uint16_t pc, const Layout& layout);
 
   // Runs code from `entry` on. Returns the new PC, combined with kInterpretNext where that applies.
-  using Enter = std::uint32_t (*)(const void* entry, Board* board, WriteLog* log);
+  using Enter = std::uint32_t(RACEBEAM_SYSV_ABI*)(const void* entry, Board* board, WriteLog* log);
   Enter enter() const { return enter_; }
 
   // Bytes of the code of an image that has owners, with what belongs to it.
