@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <future>
 #include <iterator>
@@ -31,8 +32,7 @@ std::string file_of(const std::string& game) { return RACEBEAM_SOURCE_DIR "/test
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw std::runtime_error("cannot read " + path + "; scripts/check/golden --rebaseline writes it");
+  if (!file) throw std::runtime_error("cannot read " + path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -68,7 +68,8 @@ bool compare(const std::string& game, bool rebaseline) {
 }
 
 struct SignatureOptions {
-  bool lines = false, images = false, states = false;
+  std::string save_states, play_states;  // folders
+  bool signature = false, lines = false, images = false, states = false;
   CpuKind cpu = CpuKind::kAuto;
   int at_once = 1;
 };
@@ -84,6 +85,7 @@ std::vector<Work> works_of_signature(const std::vector<std::string>& games, cons
 
 // Runs the same work in several threads at once, each with its own machines. Returns their output.
 std::string reported_at_once(const std::vector<Work>& works, int threads, bool states) {
+  if (threads == 1) return report(works, states);
   std::vector<std::future<std::string>> reports;
   for (int i = 0; i < threads; ++i)
     reports.push_back(std::async(std::launch::async, [&works, states] { return report(works, states); }));
@@ -95,10 +97,46 @@ std::string reported_at_once(const std::vector<Work>& works, int threads, bool s
   return first;
 }
 
+std::string state_file(const std::string& folder, std::size_t number) {
+  return folder + "/" + std::to_string(number) + ".state";
+}
+
+// Exports a state of each work after half of its acts. Returns the output of the second half.
+std::string save_states(const std::vector<Work>& works, const std::string& folder) {
+  std::filesystem::create_directories(folder);
+  std::string text;
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    const Halves halves = played_in_halves(works[i]);
+    write_file(state_file(folder, i), {halves.state.begin(), halves.state.end()});
+    text += "\n[" + works[i].name + "]\n" + kColumns + halves.rest;
+  }
+  return text;
+}
+
+// Continues the states that save_states() has exported, here or on another platform, and returns the same.
+std::string play_states(const std::vector<Work>& works, const std::string& folder) {
+  std::string text;
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    const std::string path = state_file(folder, i), state = read_file(path);
+    text += "\n[" + works[i].name + "]\n" + kColumns;
+    try {
+      text += continued(works[i], {reinterpret_cast<const std::uint8_t*>(state.data()), state.size()});
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(path + ": " + error.what());
+    }
+  }
+  return text;
+}
+
+std::string output_of(const std::vector<Work>& works, const SignatureOptions& options) {
+  if (!options.save_states.empty()) return save_states(works, options.save_states);
+  if (!options.play_states.empty()) return play_states(works, options.play_states);
+  return reported_at_once(works, options.at_once, options.states);
+}
+
 // Prints one digest of all output, or its lines, which show where two builds differ.
 void print_signature(const std::vector<std::string>& games, const SignatureOptions& options) {
-  const auto works = works_of_signature(games, options);
-  const std::string text = reported_at_once(works, options.at_once, options.states);
+  const std::string text = output_of(works_of_signature(games, options), options);
   if (options.lines) std::fputs(text.c_str(), stdout);
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   std::printf("%s\n", md5_of(bytes).c_str());
@@ -107,15 +145,21 @@ void print_signature(const std::vector<std::string>& games, const SignatureOptio
 int run(int argc, char** argv) {
   CLI::App app("Compares the output of our own games with tests/golden/GAME.txt");
   std::vector<std::string> games = {"beamfall", "updraft"};
-  bool rebaseline = false, signature = false;
+  bool rebaseline = false;
   SignatureOptions options;
   const std::map<std::string, CpuKind> cpus = {
       {"auto", CpuKind::kAuto}, {"interpreter", CpuKind::kInterpreter}, {"translator", CpuKind::kTranslator}};
   app.add_option("GAME", games, "Built-in games")->check(CLI::IsMember(games));
   app.add_flag("--rebaseline", rebaseline, "Write the files instead of comparing");
-  app.add_flag("--signature", signature,
+  app.add_flag("--signature", options.signature,
                "Print one digest of all games and of programs in every cartridge scheme");
   const auto with_signature = [](CLI::Option* option) { option->needs("--signature"); };
+  CLI::Option* const save =
+      app.add_option("--save-states", options.save_states,
+                     "Export states to this folder, play on, and print the digest of that");
+  app.add_option("--play-states", options.play_states,
+                 "Print the digest of playing on from the states in this folder")
+      ->excludes(save);
   with_signature(app.add_flag("--lines", options.lines, "Also print the lines that the digest is made from"));
   with_signature(app.add_flag("--images", options.images, "Include all games with a cartridge image"));
   with_signature(app.add_flag("--states", options.states, "Include the bytes of each final state"));
@@ -125,7 +169,7 @@ int run(int argc, char** argv) {
                                 "Number of threads that do the work at once, and must agree")
                      ->check(CLI::Range(1, 64)));
   CLI11_PARSE(app, argc, argv);
-  if (signature) {
+  if (options.signature || !options.save_states.empty() || !options.play_states.empty()) {
     print_signature(games, options);
     return 0;
   }

@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <random>
-#include <span>
 
 #include "environment/saved/saved_state_format.hpp"
 
@@ -38,10 +37,10 @@ std::string line(int acts, const Fold& fold, int lives) {
   return text;
 }
 
-std::string state_sum(const Environment& environment) {
+std::string state_line(const Environment& environment) {
   const auto bytes = to_bytes(*environment.save(true), environment);
-  char text[16];
-  std::snprintf(text, sizeof text, "%08lx\n", crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
+  char text[24];
+  std::snprintf(text, sizeof text, "state %08lx\n", crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
   return text;
 }
 
@@ -54,26 +53,48 @@ Environment switched_on(const Work& work) {
   return environment;
 }
 
+// Plays random actions, and returns the lines.
+std::string play(Environment& environment, const Work& work, int acts, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto& legal = work.game->legal_actions;
+  std::string text;
+  Fold fold;
+  for (int act = 1; act <= acts; ++act) {
+    const int reward = environment.act(legal[random() % legal.size()]);
+    fold.add(environment, reward);
+    if (environment.game_over()) environment.reset_game();
+    if (act % work.acts_a_line != 0 && act != acts) continue;
+    text += line(act, fold, environment.lives());
+    fold = {};
+  }
+  return text;
+}
+
+std::string second_half(Environment& environment, const Work& work) {
+  return play(environment, work, work.acts - work.acts / 2, 2) + state_line(environment);
+}
+
 }  // namespace
 
 const std::string kColumns = "  acts   screen      ram    audio reward lives ends\n";
 
 std::string played(const Work& work, bool with_state) {
   Environment environment = switched_on(work);
-  std::mt19937 random(1);
-  const auto& legal = work.game->legal_actions;
-  std::string text;
-  Fold fold;
-  for (int act = 1; act <= work.acts; ++act) {
-    const int reward = environment.act(legal[random() % legal.size()]);
-    fold.add(environment, reward);
-    if (environment.game_over()) environment.reset_game();
-    if (act % work.acts_a_line != 0) continue;
-    text += line(act, fold, environment.lives());
-    fold = {};
-  }
-  if (with_state) text += "state " + state_sum(environment);
-  return text;
+  const std::string text = play(environment, work, work.acts, 1);
+  return with_state ? text + state_line(environment) : text;
+}
+
+Halves played_in_halves(const Work& work) {
+  Environment environment = switched_on(work);
+  play(environment, work, work.acts / 2, 1);
+  std::vector<std::uint8_t> state = to_bytes(*environment.save(true), environment);
+  return {std::move(state), second_half(environment, work)};
+}
+
+std::string continued(const Work& work, std::span<const std::uint8_t> state) {
+  Environment environment(work.image, work.game, work.settings);
+  environment.restore(*from_bytes(state, environment));
+  return second_half(environment, work);
 }
 
 }  // namespace racebeam::test

@@ -1,0 +1,60 @@
+"""States that one process exports are continued by another: golden --save-states, --play-states."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+GOLDEN = sys.argv.pop()
+
+
+def golden(*options):
+    """Runs the program. Returns its status, its output, and its errors."""
+    done = subprocess.run([GOLDEN, *map(str, options)], capture_output=True, text=True)
+    return done.returncode, done.stdout.strip(), done.stderr.strip()
+
+
+class States(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.states = pathlib.Path(folder.name, "states")
+        cls.saved = golden("--save-states", cls.states)
+
+    def test_another_process_continues_them_with_the_same_digest(self):
+        status, digest, errors = self.saved
+        self.assertEqual((status, errors), (0, ""))
+        self.assertRegex(digest, "^[0-9a-f]{32}$")
+        self.assertEqual(golden("--play-states", self.states), self.saved)
+        self.assertEqual(golden("--signature", "--cpu", "interpreter", "--play-states", self.states), self.saved)
+
+    def test_a_state_of_another_moment_has_another_digest(self):
+        swapped = pathlib.Path(self.states.parent, "swapped")
+        swapped.mkdir()
+        files = sorted(self.states.iterdir())
+        for path in files:
+            (swapped / path.name).write_bytes(path.read_bytes())
+        # The last works are settings of one game, whose states its machines accept.
+        one, other = (swapped / f"{len(files) - number}.state" for number in (5, 6))
+        one.write_bytes(other.read_bytes())
+        status, digest, errors = golden("--play-states", swapped)
+        self.assertEqual((status, errors), (0, ""))
+        self.assertNotEqual(digest, self.saved[1])
+
+    def test_a_state_that_is_altered_or_missing_is_named(self):
+        altered = pathlib.Path(self.states.parent, "altered")
+        altered.mkdir()
+        status, _, errors = golden("--play-states", altered)
+        self.assertEqual((status, errors), (1, f"golden: cannot read {altered}/0.state"))
+        state = bytearray((self.states / "0.state").read_bytes())
+        state[-1] ^= 1
+        (altered / "0.state").write_bytes(state)
+        status, _, errors = golden("--play-states", altered)
+        self.assertEqual(status, 1)
+        self.assertRegex(errors, f"^golden: {altered}/0.state: .*altered")
+
+
+if __name__ == "__main__":
+    unittest.main()
