@@ -44,7 +44,8 @@ class Racebeam(ConanFile):
 
     def generate(self):
         toolchain = CMakeToolchain(self)
-        toolchain.cache_variables["RACEBEAM_LIBRARY_ONLY"] = True
+        toolchain.cache_variables["RACEBEAM_PROGRAM"] = False
+        toolchain.cache_variables["BUILD_TESTING"] = False
         toolchain.cache_variables["RACEBEAM_SHARED"] = bool(self.options.shared)
         toolchain.generate()
 

@@ -5,7 +5,8 @@ string(COMPARE EQUAL "${VCPKG_LIBRARY_LINKAGE}" "dynamic" shared)
 vcpkg_cmake_configure(
   SOURCE_PATH "${SOURCE_PATH}"
   OPTIONS
-    -DRACEBEAM_LIBRARY_ONLY=ON
+    -DRACEBEAM_PROGRAM=OFF
+    -DBUILD_TESTING=OFF
     -DRACEBEAM_SHARED=${shared})
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/racebeam)
