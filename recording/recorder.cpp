@@ -53,6 +53,16 @@ std::shared_ptr<Recording> Recorder::begin(std::vector<MediaKind> kinds, const s
   return {recording.get(), [recording](Recording* one) { one->finish(); }};
 }
 
+std::shared_ptr<LogWriter> Recorder::begin_log(const std::string& name, SubmissionOrder order,
+                                               std::size_t most_bytes) {
+  auto claim = std::make_unique<Claim>(claims_, std::vector{name + '/' + order.unit});
+  order.path = folder_ + '/' + name;
+  const auto writer = std::make_shared<LogWriter>(std::move(order), most_bytes, std::move(claim),
+                                                  threads_->strand(), given_up_);
+  writer->begin();
+  return {writer.get(), [writer](LogWriter* one) { one->finish(); }};
+}
+
 bool Recorder::wait(std::chrono::milliseconds patience) const {
   const auto end = std::chrono::steady_clock::now() + patience;
   while (!idle() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(1ms);

@@ -1,4 +1,4 @@
-// The threads that encode and write recordings, for a whole server or any number of sessions.
+// The threads that encode and write recordings and logs, for a whole server or any number of sessions.
 #pragma once
 
 #include <atomic>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "recording/log_writer.hpp"
 #include "recording/recording.hpp"
 
 namespace racebeam {
@@ -27,6 +28,11 @@ class Recorder {
   std::shared_ptr<Recording> begin(std::vector<MediaKind> kinds, const std::string& name,
                                    std::size_t most_bytes, const Environment& machine,
                                    const Charge& charge = {});
+
+  // Begins a unit of the submission in the folder `name`. The path of the order is set here. All else is as
+  // with begin().
+  std::shared_ptr<LogWriter> begin_log(const std::string& name, SubmissionOrder order,
+                                       std::size_t most_bytes);
 
   bool idle() const;  // all recordings have finished; thread-safe
 

@@ -125,6 +125,7 @@ void Slot::run_act(const Act& act) {
   add_outcome(environment_.raw_rewards(), frames);
   progress_.blends = frames > 1;
   if (stack_) show(progress_.blends);
+  if (watcher_ != nullptr) watcher_->played(act, frames);
 }
 
 void Slot::add_outcome(Environment::RawRewards rewards, int frames) {
@@ -219,6 +220,11 @@ Slot::Saved Slot::save(bool with_random, bool with_noops) const {
 }
 
 void Slot::restore(const Saved& saved) {
+  put_back(saved);
+  if (watcher_ != nullptr) watcher_->restored();
+}
+
+void Slot::put_back(const Saved& saved) {
   environment_.restore(*saved.machine);
   progress_ = saved.progress;
   next_seed_.reset();

@@ -82,6 +82,16 @@ struct Outcome {
   bool over = false;       // nothing was run, because the episode had ended before
 };
 
+// Is told what a slot plays. For logs of episodes, which begin at power-on.
+class SlotWatcher {
+ public:
+  virtual ~SlotWatcher() = default;
+  virtual std::uint32_t next_seed() = 0;  // of a reset that begins a game and is given none
+  virtual void began() = 0;               // a reset powered the machine on anew, and began an episode
+  virtual void played(const Act& act, int frames) = 0;  // one step of acts
+  virtual void restored() = 0;                          // a state
+};
+
 class Slot {
  public:
   // Powers on and begins an episode. `pace` may be null, and must outlive the slot. Throws InvalidInput for
@@ -114,6 +124,9 @@ class Slot {
   void set_outcome(const Outcome& outcome) { outcome_ = outcome; }
   // The frames of the longest reset so far, as the pace counts; 0 without a pace.
   std::int64_t reset_frames() const { return reset_frames_; }
+
+  // With Steps::kActs. Null: none; the watcher outlives the slot, or is taken away before.
+  void set_watcher(SlotWatcher* watcher) { watcher_ = watcher; }
 
   // Which screens the caller will read beside the stack. Affects only the speed.
   void set_drawing(Drawing drawing);
@@ -166,6 +179,8 @@ class Slot {
   void show(bool pooled);
   bool pools() const { return settings_.max_pool && settings_.machine.frame_skip > 1; }
 
+  void put_back(const Saved& saved);
+
   // slot_start.cpp
   void set_up();
   Environment reload(std::uint32_t seed);  // returns the one that it replaces
@@ -190,6 +205,7 @@ class Slot {
   Progress progress_;
   std::optional<ScreenStack> stack_;
   Drawing drawing_ = Drawing::kNone;
+  SlotWatcher* watcher_ = nullptr;
   std::int64_t reset_frames_ = 0;
   int begins_ = 0;  // depth of begin_episode() and begin_life()
 };

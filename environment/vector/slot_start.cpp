@@ -42,17 +42,19 @@ void Slot::reset(std::optional<std::uint32_t> seed) {
   const std::optional<std::uint32_t> next_seed = next_seed_;
   std::optional<Environment> replaced;
   if (!seed) seed = next_seed;
+  if (!seed && watcher_ != nullptr && !progress_.goes_on) seed = watcher_->next_seed();
   try {
     if (seed) replaced = reload(*seed);
     progress_.goes_on && !seed ? begin_life() : begin_episode();
   } catch (...) {
     if (replaced) environment_ = std::move(*replaced);
-    if (before) restore(*before);
+    if (before) put_back(*before);
     next_seed_ = next_seed;
     outcome_ = outcome;
     throw;
   }
   next_seed_.reset();
+  if (seed && watcher_ != nullptr) watcher_->began();
 }
 
 Environment Slot::reload(std::uint32_t seed) {

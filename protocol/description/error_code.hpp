@@ -19,6 +19,7 @@ enum class ErrorCode {
   kNoState,
   kBadState,
   kRecording,
+  kNoLog,
   kLimit,
   kUnauthorized,
   kBusy,

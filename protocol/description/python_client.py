@@ -96,12 +96,15 @@ def docstring(command):
 
 
 def argument_line(word):
-    """An argument of a call on a line of its own, or on three."""
+    """An argument of a call on a line of its own, or a call in it on several: all its arguments on one, or one each."""
     line = f"            {word},\n"
     if len(line) <= WIDTH:
         return line
     name, _, inner = word.removesuffix(")").partition("(")
-    return f"            {name}(\n                {inner}\n            ),\n"
+    indent = " " * 16
+    if len(indent + inner) > WIDTH:
+        inner = inner.replace(", ", f",\n{indent}") + ","
+    return f"            {name}(\n{indent}{inner}\n            ),\n"
 
 
 def call(name, words):

@@ -57,7 +57,7 @@ inline constexpr std::array<Field, 22> kFields = {{
     {"audio", "512 samples of the last act; needs sound=1", false, "hex"},
 }};
 
-inline constexpr std::array<Choice, 17> kChoices = {{
+inline constexpr std::array<Choice, 20> kChoices = {{
     {"life_loss", "ignored", "a lost life has no effect"},
     {"life_loss", "reported", "the act or step that loses a life is `terminated`; the episode continues"},
     {"life_loss", "end", "a lost life ends the episode, `terminated`; the next one continues with the next life, as in DQN"},
@@ -75,6 +75,9 @@ inline constexpr std::array<Choice, 17> kChoices = {{
     {"stack", "repeats", "it begins with copies of the first screen, and is kept when the next life continues the game"},
     {"pool", "1", "each screen of a stack is the brighter of a step's last two frames"},
     {"pool", "0", "each screen of a stack is the last frame"},
+    {"role", "learner", "it was trained"},
+    {"role", "planner", "it searches in the emulator"},
+    {"role", "baseline", "neither"},
 }};
 
 inline constexpr std::array<OldWord, 14> kOldWords = {{
@@ -103,7 +106,7 @@ inline constexpr std::array<Encoding, 6> kEncodings = {{
     {"raw", "how many bytes; they follow the line of the reply, as they are"},
 }};
 
-inline constexpr std::array<std::string_view, 74> kReplyKeys = {{
+inline constexpr std::array<std::string_view, 80> kReplyKeys = {{
     "action",
     "action_set",
     "actions",
@@ -138,6 +141,9 @@ inline constexpr std::array<std::string_view, 74> kReplyKeys = {{
     "left",
     "legal",
     "lives",
+    "log",
+    "log_ended",
+    "logged",
     "machines",
     "max_idle",
     "max_line",
@@ -164,6 +170,7 @@ inline constexpr std::array<std::string_view, 74> kReplyKeys = {{
     "rewards",
     "rewards_b",
     "right",
+    "row",
     "rule",
     "scheme",
     "score",
@@ -176,11 +183,13 @@ inline constexpr std::array<std::string_view, 74> kReplyKeys = {{
     "tia_names",
     "truncated",
     "two_player_modes",
+    "unit",
+    "unlogged",
     "watchers",
     "width",
 }};
 
-inline constexpr std::array<Error, 20> kErrors = {{
+inline constexpr std::array<Error, 21> kErrors = {{
     {"bad-line", "the line is empty, or has a byte that is not printable ASCII"},
     {"line-too-long", "the line is longer than `hello` allows"},
     {"half-line", "the input ended within a line, which was not executed"},
@@ -195,6 +204,7 @@ inline constexpr std::array<Error, 20> kErrors = {{
     {"no-state", "no state of that name was saved"},
     {"bad-state", "the bytes that were sent are not a state of this game"},
     {"recording", "recordings are off, one is running, or the files cannot be written"},
+    {"no-log", "logs are off, one is running, none is running, or this episode or game can have none"},
     {"limit", "more than `hello` allows, or than the server has memory for"},
     {"unauthorized", "this server requires a token: `hello token=TOKEN`"},
     {"busy", "the server has reached its limit of sessions or of memory; it closes this one"},

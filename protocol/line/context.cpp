@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "protocol/line/session_log.hpp"
 #include "protocol/line/session_recording.hpp"
 #include "protocol/request_error.hpp"
 
@@ -63,7 +64,13 @@ void Context::count(const Outcome& outcome) {
 }
 
 void Context::stop_recording_machines() {
-  if (media.recording && !media.recording->shows(game.loaded->slot())) media.recording.reset();
+  const Slot& loaded = game.loaded->slot();
+  if (media.recording && !media.recording->shows(loaded)) media.recording.reset();
+  if (media.log && !media.log->shows(loaded)) media.log.reset();
+}
+
+void Context::spoil_log(std::string why) {
+  if (media.log && media.log->shows(game.loaded->slot())) media.log->spoil(std::move(why));
 }
 
 void Context::run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const {
@@ -97,7 +104,8 @@ void Context::rest() {
 }
 
 bool Context::waits_for_disk() const {
-  return (media.recording && media.recording->is_behind()) || (media.picture && media.picture->is_behind());
+  return (media.recording && media.recording->is_behind()) || (media.picture && media.picture->is_behind()) ||
+         (media.log && media.log->is_awaited());
 }
 
 std::size_t Context::footprint() const {
@@ -105,6 +113,7 @@ std::size_t Context::footprint() const {
   std::size_t bytes = game.states.footprint() + machines.footprint() +
                       scratch.actions.capacity() * sizeof(Action) + scratch.acts.capacity() * sizeof(Act);
   if (game.own_image) bytes += game.cartridge.image->bytes->size() + game.own_image->bytes();
+  if (media.log) bytes += media.log->footprint();
   if (sharing) bytes += kShare;
   for (const auto& [name, watched] : watching) bytes += watched.footprint();
   return bytes;

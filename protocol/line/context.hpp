@@ -20,6 +20,7 @@
 namespace racebeam {
 
 class Recording;
+class SessionLog;
 class SessionRecording;
 
 // Frames that a machine may run beyond those of the request. Power-on and an ordinary reset take about 130.
@@ -49,6 +50,7 @@ struct LoadedGame {
 struct SessionMedia {
   std::unique_ptr<SessionRecording> recording;  // null if nothing is being recorded
   std::shared_ptr<Recording> picture;           // that the request writes; null if it writes none
+  std::unique_ptr<SessionLog> log;              // null if no episodes are logged
 };
 
 struct Scratch {  // of the current request; members to reuse their memory
@@ -87,7 +89,8 @@ class Context {
     dispose(service.disposal, service.memory, bytes, std::exchange(object, T()));
   }
   void discard(std::string& text);
-  void stop_recording_machines();  // stops a recording of machines of `open`, which are about to go
+  void stop_recording_machines();   // ends a recording or a log of machines of `open`, which are about to go
+  void spoil_log(std::string why);  // of the loaded machine's episode, which something else than acts changed
   void run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
 
   // These act on the session, not on a request:

@@ -9,6 +9,7 @@
 #include "environment/settings/play_settings.hpp"
 #include "protocol/line/context.hpp"
 #include "protocol/line/reply.hpp"
+#include "protocol/line/session_log.hpp"
 #include "protocol/line/session_recording.hpp"
 #include "protocol/request_error.hpp"
 
@@ -166,6 +167,7 @@ void Machines::step(std::span<const Act> acts, Reply& reply) {
   opened_->vector.step(acts);
   reply.add("machines", static_cast<std::int64_t>(size()));
   add_cut(context_, reply);
+  add_log_cut(context_, reply);
   add_texts(reply);
   for (std::size_t number = 0; number < size(); ++number)
     context_.count(opened_->vector.slot(number).outcome());

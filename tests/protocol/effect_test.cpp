@@ -254,6 +254,7 @@ TEST_CASE("Each error code is reported") {
       {"no-state", kLoadDuel + "\nrestore a\n"},
       {"bad-state", kLoadDuel + "\nimport a AAAA\n"},
       {"recording", kLoadDuel + "\nrecord gif a\n"},
+      {"no-log", kLoadDuel + "\nlog stop\n"},
       {"limit", kLoadDuel + "\nopen 1000\n"},
       {"unauthorized", "hello token=guess\n"},
   };

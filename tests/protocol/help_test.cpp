@@ -71,8 +71,9 @@ std::multimap<std::string, std::string> all_names() {
   add("grey84x4", "a stack of N screens");
   add("rgb100x50x4", "the same in colour");
   for (const Command& row : commands()) {
-    const bool shares = row.name == "share" || row.name == "watch";  // NAME of a session
-    if (row.arguments.starts_with("NAME") && !shares) add("states", row.summary);
+    // NAME of a session, or of a folder
+    const bool is_other = row.name == "share" || row.name == "watch" || row.name == "log";
+    if (row.arguments.starts_with("NAME") && !is_other) add("states", row.summary);
   }
   return names;
 }

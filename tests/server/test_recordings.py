@@ -1,4 +1,4 @@
-"""Recordings on a running server: what they contain at a limit, and that they block no client."""
+"""Recordings and logs on a running server: what they contain at a limit, and that they block no client."""
 
 import os
 import re
@@ -110,6 +110,59 @@ class Limits(unittest.TestCase):
             self.assertIn(b"error recording the recording has reached its limit of 30 bytes", lines[1])
             self.assertEqual(lines[3], b"error recording nothing is being recorded")
             self.assertEqual(os.listdir(folder), [])
+
+
+class Logs(unittest.TestCase):
+    PLAY = b"load beamfall seed=7 frame_skip=5 max_episode_frames=500\nlog mine\n" + b"reset\nact FIRE*50 UP*50\n" * 20
+
+    def serve(self, folder, limit, data):
+        done = subprocess.run(
+            [BINARY, "serve", "--stdio", "--record-dir", folder],
+            input=data,
+            capture_output=True,
+            timeout=PATIENCE,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+        )
+        self.assertEqual(done.returncode, 0)
+        return done.stdout.splitlines()
+
+    def test_a_full_disk_ends_them_and_the_session_goes_on(self):
+        for limit, logged in ((200, 0), (900, 3)):  # a row has some 190 bytes, and their columns 149
+            with self.subTest(limit=limit), tempfile.TemporaryDirectory() as folder:
+                lines = self.serve(folder, limit, self.PLAY + b"log stop\nact NOOP\n")
+                self.assertEqual(sum(b"log_ended=disk" in line for line in lines[:-2]), 1, lines)
+                count, unlogged = map(int, re.match(rb"ok logged=(\d+) unlogged=(\d+) ", lines[-2]).groups())
+                self.assertLessEqual(count, logged)
+                self.assertEqual(count + unlogged, 20)
+                self.assertTrue(lines[-2].endswith(b" complete=0 log_ended=disk"), lines[-2])
+                self.assertTrue(lines[-1].startswith(b"ok "))
+                with open(os.path.join(folder, "mine/results.csv")) as file:
+                    self.assertEqual(len(file.read().splitlines()), 1 + count)
+                logs = [name for _, _, names in os.walk(folder) for name in names if name.endswith(".episode")]
+                self.assertEqual(len(logs), count)
+
+    def test_where_nothing_fits_there_is_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            lines = self.serve(folder, 10, b"load beamfall seed=7\nlog mine\nact NOOP\n")
+            self.assertRegex(lines[1], b"^error no-log cannot write agent.toml: File too large$")
+            self.assertTrue(lines[2].startswith(b"ok "))
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_two_servers_share_a_folder_but_no_unit(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.serve(folder, LIMIT, self.PLAY + b"log stop\n")
+            again = self.serve(folder, LIMIT, self.PLAY + b"log stop\n")
+            self.assertRegex(again[1], b"^error no-log mine has the unit beamfall-agent-1 already; ")
+            other = self.serve(folder, LIMIT, self.PLAY.replace(b"mine", b"mine trial=2") + b"log stop\n")
+            self.assertRegex(other[-1], b"^ok logged=20 unlogged=0 ")
+            done = subprocess.run([BINARY, "verify", os.path.join(folder, "mine")], capture_output=True)
+            self.assertIn(b"40 rows confirmed, 0 wrong", done.stdout)
+
+    def test_what_a_client_that_left_has_played_is_kept(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.serve(folder, LIMIT, self.PLAY)
+            done = subprocess.run([BINARY, "verify", os.path.join(folder, "mine")], capture_output=True)
+            self.assertIn(b"20 rows confirmed, 0 wrong", done.stdout)
 
 
 class Others(unittest.TestCase):

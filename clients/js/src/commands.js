@@ -80,6 +80,10 @@ export class Commands {
     return (await this.request("record", kinds, name, keyed("machine", machine)))[0];
   }
 
+  async log(name, settings = {}) {
+    return (await this.request("log", name, settings))[0];
+  }
+
   async shot(name, machine) {
     return (await this.request("shot", name ?? [], keyed("machine", machine)))[0];
   }

@@ -171,6 +171,30 @@ export class Session {
    */
   record(kinds: string, name: string, machine?: number | { machine?: number }): Promise<Group>;
   /**
+   * Log each episode from the next reset on, into the server's folder or to be handed over, so that it can be verified.
+   * name: a name for the submission, or inline
+   * agent: the agent's name (default: agent)
+   * version: the agent's version (default: 1)
+   * agent_seed: the agent's seed (default: 0)
+   * trial: the number of the trial (default: 1)
+   * training_frames: frames that the agent was trained on (default: 0)
+   * phrase: the phrase that the episodes' seeds follow from, with _ for a blank
+   * role: what the agent is
+   * link: a page about the agent
+   * machine: one of those of open, 0 the first
+   */
+  log(name: string, settings?: {
+    agent?: string;
+    version?: string;
+    agent_seed?: number;
+    trial?: number;
+    training_frames?: number;
+    phrase?: string;
+    role?: "learner" | "planner" | "baseline";
+    link?: string;
+    machine?: number;
+  }): Promise<Group>;
+  /**
    * Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
    * name: a name for the file, without .png
    * machine: one of those of open, 0 the first

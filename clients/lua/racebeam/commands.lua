@@ -150,6 +150,21 @@ function methods:record(kinds, name, machine)
   return first(self, "record", kinds, name, keyed("machine", machine))
 end
 
+-- Log each episode from the next reset on, into the server's folder or to be handed over, so that it can be verified.
+-- name: a name for the submission, or inline.
+-- agent: the agent's name (default: agent).
+-- version: the agent's version (default: 1).
+-- agent_seed: the agent's seed (default: 0).
+-- trial: the number of the trial (default: 1).
+-- training_frames: frames that the agent was trained on (default: 0).
+-- phrase: the phrase that the episodes' seeds follow from, with _ for a blank.
+-- role: what the agent is.
+-- link: a page about the agent.
+-- machine: one of those of open, 0 the first.
+function methods:log(name, settings)
+  return first(self, "log", name, settings or "")
+end
+
 -- Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
 -- name: a name for the file, without .png.
 -- machine: one of those of open, 0 the first.

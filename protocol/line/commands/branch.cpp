@@ -5,6 +5,7 @@
 #include "environment/vector/branch.hpp"
 #include "protocol/line/context.hpp"
 #include "protocol/line/reply.hpp"
+#include "protocol/line/session_log.hpp"
 #include "protocol/line/session_recording.hpp"
 
 namespace racebeam {
@@ -14,11 +15,13 @@ namespace {
 class Loan {
  public:
   explicit Loan(Context& context) : context_(context), undisturbed_(context.game.loaded->slot().save(true)) {
-    context.game.loaded->machine().watch({});  // no recording of what did not happen
+    context.game.loaded->machine().watch({});  // no recording of what did not happen, and no log
+    context.game.loaded->slot().set_watcher(nullptr);
   }
   ~Loan() {
     context_.game.loaded->slot().restore(undisturbed_);
     if (context_.media.recording) context_.media.recording->watch();
+    if (context_.media.log) context_.media.log->watch();
   }
   Loan(const Loan&) = delete;
   Loan& operator=(const Loan&) = delete;

@@ -8,6 +8,7 @@
 #include "protocol/encoding/base64.hpp"
 #include "protocol/line/context.hpp"
 #include "protocol/line/reply.hpp"
+#include "protocol/line/session_log.hpp"
 #include "protocol/line/session_recording.hpp"
 #include "protocol/request_error.hpp"
 #include "system/invalid_input.hpp"
@@ -184,6 +185,7 @@ void run_load(Context& context, Words arguments, Reply& reply) {
                        with_wished_mode(error.what(), settings, cartridge));
   }
   context.media.recording.reset();
+  context.media.log.reset();
   context.machines.close();
   context.discard(context.game.states, context.game.states.footprint());
   context.game.loaded = std::move(loaded);
@@ -218,6 +220,7 @@ void run_set(Context& context, Words arguments, Reply& reply) {
     machine.set_mode(mode);
     throw;
   }
+  context.spoil_log("set changed it");
   if (changed.mode) context.game.settings.mode = changed.mode;
   if (changed.difficulty) context.game.settings.difficulty = changed.difficulty;
   reply.add("mode", machine.mode());

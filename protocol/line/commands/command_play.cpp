@@ -4,6 +4,7 @@
 
 #include "protocol/line/context.hpp"
 #include "protocol/line/reply.hpp"
+#include "protocol/line/session_log.hpp"
 #include "protocol/line/session_recording.hpp"
 
 namespace racebeam {
@@ -102,7 +103,7 @@ void run_reset(Context& context, Words arguments, Reply& reply) {
   if (!arguments.empty()) seed = parse_seed(value_of(arguments[0], "seed", "reset"));
   context.allow_resets(1);
   loaded.slot().reset(seed);
-  if (seed) context.game.settings.machine.random_seed = *seed;
+  context.game.settings.machine.random_seed = loaded.machine().settings().random_seed;
   ++context.game.episode;
   loaded.slot().begin_request();
   add_view(loaded, reply);
@@ -140,7 +141,8 @@ void run_act(Context& context, Words arguments, Reply& reply) {
   context.check_frames(acts, frames_of_reset(loaded.slot(), autoreset));
   if (autoreset == Autoreset::kNextStep && loaded.slot().finished()) {
     run_reset(context, {}, reply);
-    return add_cut(context, reply);
+    add_cut(context, reply);
+    return add_log_cut(context, reply);
   }
   // Only a restored state can have ended before.
   if (autoreset == Autoreset::kSameStep && loaded.slot().finished()) loaded.slot().reset();
@@ -149,6 +151,7 @@ void run_act(Context& context, Words arguments, Reply& reply) {
   if (loaded.slot().outcome().acts > 0) context.game.last_action = actions.back().act.a;
   context.count(loaded.slot().outcome());
   add_cut(context, reply);
+  add_log_cut(context, reply);
   if (autoreset == Autoreset::kSameStep && loaded.slot().finished()) begin_next_episode(context, reply);
   add_view(loaded, reply);
 }
@@ -170,6 +173,7 @@ void run_poke(Context& context, Words arguments, Reply& reply) {
                                                  std::to_string(index) + " on there is room for 1 to " +
                                                  std::to_string(kRamSize - index));
   }
+  context.spoil_log("poke wrote RAM in it");
   for (std::size_t i = 0; i < bytes.size(); ++i)
     context.game.loaded->machine().set_ram(index + static_cast<int>(i), bytes[i]);
   add_bytes_of(context, index, bytes.size(), reply);

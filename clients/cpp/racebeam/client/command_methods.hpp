@@ -136,6 +136,14 @@ class CommandMethods {
     return ask(first, "record", kinds, name, settings...);
   }
 
+  /// Log each episode from the next reset on, into the server's folder or to be handed over, so that it can be verified. Returns Group.
+  /// @param name a name for the submission, or inline
+  /// @param settings `Setting("agent", AGENT)`: the agent's name (default: agent); `Setting("version", VERSION)`: the agent's version (default: 1); `Setting("agent_seed", N)`: the agent's seed (default: 0); `Setting("trial", N)`: the number of the trial (default: 1); `Setting("training_frames", N)`: frames that the agent was trained on (default: 0); `Setting("phrase", PHRASE)`: the phrase that the episodes' seeds follow from, with _ for a blank; `Setting("role", VALUE)`: what the agent is; `Setting("link", URL)`: a page about the agent; `Setting("machine", N)`: one of those of open, 0 the first
+  template <class... Words>
+  auto log(std::string_view name, const Words&... settings) {
+    return ask(first, "log", name, settings...);
+  }
+
   /// Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64. Returns Group.
   /// @param settings a name for the file, without .png; `Setting("machine", N)`: one of those of open, 0 the first
   template <class... Words>

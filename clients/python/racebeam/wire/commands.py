@@ -380,6 +380,53 @@ class Commands(Exchange):
         """
         return self._first("record", kinds, name, *key_values(machine=machine))
 
+    def log(
+        self,
+        name: str,
+        agent: str | None = None,
+        version: str | None = None,
+        agent_seed: int | None = None,
+        trial: int | None = None,
+        training_frames: int | None = None,
+        phrase: str | None = None,
+        role: str | None = None,
+        link: str | None = None,
+        machine: int | None = None,
+    ) -> Values:
+        """Log each episode from the next reset on, into the server's folder or to be handed over, so that it can be
+        verified.
+
+        Args:
+            name: A name for the submission, or inline.
+            agent: The agent's name (default: agent).
+            version: The agent's version (default: 1).
+            agent_seed: The agent's seed (default: 0).
+            trial: The number of the trial (default: 1).
+            training_frames: Frames that the agent was trained on (default: 0).
+            phrase: The phrase that the episodes' seeds follow from, with _ for a blank.
+            role: What the agent is.
+            link: A page about the agent.
+            machine: One of those of open, 0 the first.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first(
+            "log",
+            name,
+            *key_values(
+                agent=agent,
+                version=version,
+                agent_seed=agent_seed,
+                trial=trial,
+                training_frames=training_frames,
+                phrase=phrase,
+                role=role,
+                link=link,
+                machine=machine,
+            ),
+        )
+
     def shot(self, name: str | None = None, machine: int | None = None) -> Values:
         """Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
 

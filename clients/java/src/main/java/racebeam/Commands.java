@@ -350,6 +350,29 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
+   * Log each episode from the next reset on, into the server's folder or to be handed over, so that it can be verified.
+   *
+   * @param name a name for the submission, or inline
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group log(String name) throws IOException {
+    return request("log" + " " + name).first();
+  }
+
+  /**
+   * Log each episode from the next reset on, into the server's folder or to be handed over, so that it can be verified.
+   *
+   * @param name a name for the submission, or inline
+   * @param settings agent: the agent's name (default: agent); version: the agent's version (default: 1); agent_seed: the agent's seed (default: 0); trial: the number of the trial (default: 1); training_frames: frames that the agent was trained on (default: 0); phrase: the phrase that the episodes' seeds follow from, with _ for a blank; role: what the agent is; link: a page about the agent; machine: one of those of open, 0 the first
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group log(String name, Map<String, ?> settings) throws IOException {
+    return request("log" + " " + name + Racebeam.pairs(settings)).first();
+  }
+
+  /**
    * Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
    *
    * @return the first group of the reply

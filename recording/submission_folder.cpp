@@ -1,0 +1,205 @@
+#include "recording/submission_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "recording/result_row.hpp"
+#include "recording/sealed_file.hpp"
+#include "system/input_file.hpp"
+#include "system/words.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What a log counts beside its bytes, so that the budget also limits the number of files.
+constexpr std::size_t kBytesBesideLog = 4096;
+constexpr std::size_t kMostAgentBytes = std::size_t{1} << 16, kMostLineBytes = std::size_t{1} << 16;
+
+[[noreturn]] void fail(const std::string& what, const std::string& path) {
+  const std::string reason = std::generic_category().message(errno);
+  throw std::runtime_error("cannot " + what + " " + fs::path(path).filename().string() + ": " + reason);
+}
+
+// Returns false if something of this name is there.
+bool make_folder(const std::string& path) {
+  if (::mkdir(path.c_str(), 0755) == 0) return true;
+  if (errno != EEXIST) fail("make", path);
+  return false;
+}
+
+// A table that several programs append to.
+class SharedTable {
+ public:
+  explicit SharedTable(std::string path) : path_(std::move(path)) {
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+    if (descriptor_ < 0) fail("open", path_);
+    while (::flock(descriptor_, LOCK_EX) != 0) {
+      if (errno == EINTR) continue;
+      ::close(descriptor_);
+      fail("lock", path_);
+    }
+  }
+  ~SharedTable() { ::close(descriptor_); }
+  SharedTable(const SharedTable&) = delete;
+  SharedTable& operator=(const SharedTable&) = delete;
+
+  off_t size() const {
+    struct stat facts {};
+    if (::fstat(descriptor_, &facts) != 0) fail("read", path_);
+    return facts.st_size;
+  }
+
+  // All of the text, or nothing.
+  void append(std::string_view text) const {
+    const off_t before = size();
+    while (!text.empty()) {
+      const ssize_t written = ::write(descriptor_, text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) {
+        const int reason = errno;
+        const bool is_cut = ::ftruncate(descriptor_, before) == 0;
+        errno = is_cut ? reason : errno;
+        fail("write", path_);
+      }
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
+ private:
+  const std::string path_;
+  int descriptor_ = -1;
+};
+
+void append_text(std::string& out, std::string_view key, std::string_view text) {
+  if (!text.empty()) out.append(key).append(" = \"").append(text).append("\"\n");
+}
+
+// The presets of evaluation, with the words of a log that make them (docs/experiments.md).
+struct Preset {
+  std::string_view name, words;
+};
+constexpr std::array<Preset, 4> kPresets = {{
+    {"paper2013", "frame_skip=5 sticky=0 action_set=full max_episode_frames=18000 noop_max=0"},
+    {"machado2018", "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000 noop_max=0"},
+    {"atari100k", "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=108000 noop_max=30"},
+    {"dqn2015", "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=18000 noop_max=30"},
+}};
+constexpr std::string_view kOfAllPresets = "rules=ale-0.12 life_loss_ends=0";
+
+std::string_view preset_of(std::string_view settings) {
+  std::vector<std::string_view> words, expected;
+  split(settings, words);
+  for (const Preset& preset : kPresets) {
+    const std::string all = std::string(preset.words).append(" ").append(kOfAllPresets);
+    split(all, expected);
+    const auto has = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };
+    if (std::ranges::all_of(expected, has)) return preset.name;
+  }
+  return "other";
+}
+
+std::string text_of(const AboutAgent& about, std::string_view preset) {
+  std::string text;
+  append_text(text, "agent", about.agent);
+  append_text(text, "version", about.version);
+  append_text(text, "preset", preset);
+  text += "training_frames = " + std::to_string(about.training_frames) + "\n";
+  append_text(text, "phrase", about.phrase);
+  append_text(text, "role", about.role);
+  append_text(text, "link", about.link);
+  return text;
+}
+
+void write_file(const std::string& path, std::string_view text, DiskBudget& budget) {
+  AtomicFile file(path, budget);
+  file.write(text);
+  file.commit();
+}
+
+std::string first_log(const std::string& folder) {
+  std::string path;
+  std::size_t number = 0;
+  each_line("results", folder + "/results.csv", kMostLineBytes, [&](std::string_view line, bool) {
+    if (++number != 2) return;
+    const ResultRow row = row_of_line(line);
+    path = folder + "/logs/" + row[0] + '/' + field(row, "episode") + ".episode";
+  });
+  return path;
+}
+
+}  // namespace
+
+SubmissionFolder::SubmissionFolder(SubmissionOrder order, DiskBudget& budget)
+    : order_(std::move(order)), budget_(budget) {
+  is_new_ = make_folder(order_.path);
+  try {
+    make();
+  } catch (...) {
+    std::error_code ignored;
+    if (is_new_) fs::remove_all(order_.path, ignored);
+    throw;
+  }
+}
+
+SubmissionFolder::~SubmissionFolder() { ::rmdir(unit_path().c_str()); }
+
+void SubmissionFolder::make() {
+  const std::string name = fs::path(order_.path).filename().string(), about = order_.path + "/agent.toml",
+                    text = text_of(order_.about, preset_of(order_.settings));
+  if (is_new_) {
+    write_file(about, text, budget_);
+  } else if (fs::is_symlink(order_.path) || !fs::exists(about)) {
+    throw std::runtime_error(name + " exists, and has no agent.toml; choose another name");
+  } else if (read_input_file("description of the agent", about, kMostAgentBytes) != text) {
+    throw std::runtime_error(name + " has another agent.toml; choose another name, or the same words");
+  }
+  {
+    const SharedTable table(table_path());
+    if (table.size() == 0) table.append(line_of(kResultColumns));
+  }
+  if (!is_new_) check_settings();
+  make_folder(order_.path + "/logs");
+  if (!make_folder(unit_path()))
+    throw std::runtime_error(name + " has the unit " + order_.unit +
+                             " already; another trial= makes another");
+}
+
+void SubmissionFolder::check_settings() const {
+  const std::string path = first_log(order_.path);
+  if (path.empty()) return;
+  const std::string bytes = read_input_file("episode log", path, kMostLogBytes);
+  const std::string settings =
+      settings_without_seed(log_of(fs::path(path).filename().string(), bytes).settings);
+  if (settings != order_.settings)
+    throw std::runtime_error("the logs of " + fs::path(order_.path).filename().string() +
+                             " have the settings '" + settings + "', not '" + order_.settings +
+                             "'; choose another name");
+}
+
+void SubmissionFolder::add(const EpisodeLog& log) {
+  const std::string bytes = bytes_of(log);
+  const std::string path = unit_path() + '/' + std::to_string(log.origin.episode) + ".episode";
+  budget_.take(kBytesBesideLog);
+  write_file(path, bytes, budget_);
+  try {
+    SharedTable(table_path()).append(line_of(row_of(log, sha256_of(bytes))));
+  } catch (...) {
+    ::unlink(path.c_str());
+    throw;
+  }
+}
+
+}  // namespace racebeam

@@ -1,0 +1,53 @@
+// A submission: a folder with logs of episodes and their table, which `racebeam verify` confirms
+// (docs/evaluation.md, "Submissions and the board").
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "recording/atomic_file.hpp"
+#include "recording/episode_log.hpp"
+
+namespace racebeam {
+
+struct AboutAgent {  // agent.toml
+  std::string agent = "agent", version = "1";
+  std::int64_t training_frames = 0;
+  std::string phrase, role, link;  // empty: agent.toml lacks the key
+  bool operator==(const AboutAgent&) const = default;
+};
+
+// The unit whose episodes are added.
+struct SubmissionOrder {
+  std::string path;  // of the folder
+  AboutAgent about;
+  std::string unit;      // GAME-AGENT-TRIAL
+  std::string settings;  // of its logs, without the seed: settings_without_seed()
+};
+
+// Several units, of several programs, may be added to a folder at the same time.
+class SubmissionFolder {
+ public:
+  // Makes the folder, or continues one that has the same agent.toml and logs with the same settings. The unit
+  // must be new. Throws BudgetSpent, or std::runtime_error with a sentence; a folder that it made is then
+  // gone.
+  SubmissionFolder(SubmissionOrder order, DiskBudget& budget);
+  ~SubmissionFolder();  // a unit without logs is removed
+  SubmissionFolder(const SubmissionFolder&) = delete;
+  SubmissionFolder& operator=(const SubmissionFolder&) = delete;
+
+  // Writes the log and its row, or neither. Throws as the constructor.
+  void add(const EpisodeLog& log);
+
+ private:
+  void make();
+  void check_settings() const;
+  std::string unit_path() const { return order_.path + "/logs/" + order_.unit; }
+  std::string table_path() const { return order_.path + "/results.csv"; }
+
+  const SubmissionOrder order_;
+  DiskBudget& budget_;
+  bool is_new_ = false;  // the folder
+};
+
+}  // namespace racebeam
