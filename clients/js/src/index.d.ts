@@ -171,7 +171,7 @@ export class Session {
    */
   record(kinds: string, name: string, machine?: number | { machine?: number }): Promise<Group>;
   /**
-   * Log each episode from the next reset on, into the server's folder or to be handed over, so that it can be verified.
+   * Log the episodes from the next reset on, so that anybody can verify them.
    * name: a name for the submission, or inline
    * agent: the agent's name (default: agent)
    * version: the agent's version (default: 1)

@@ -150,7 +150,7 @@ function methods:record(kinds, name, machine)
   return first(self, "record", kinds, name, keyed("machine", machine))
 end
 
--- Log each episode from the next reset on, into the server's folder or to be handed over, so that it can be verified.
+-- Log the episodes from the next reset on, so that anybody can verify them.
 -- name: a name for the submission, or inline.
 -- agent: the agent's name (default: agent).
 -- version: the agent's version (default: 1).

@@ -1595,8 +1595,7 @@ class Commands(Exchange):
         link: str | None = None,
         machine: int | None = None,
     ) -> Values:
-        """Log each episode from the next reset on, into the server's folder or to be handed over, so that it can be
-        verified.
+        """Log the episodes from the next reset on, so that anybody can verify them.
 
         Args:
             name: A name for the submission, or inline.

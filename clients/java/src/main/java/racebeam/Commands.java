@@ -350,7 +350,7 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * Log each episode from the next reset on, into the server's folder or to be handed over, so that it can be verified.
+   * Log the episodes from the next reset on, so that anybody can verify them.
    *
    * @param name a name for the submission, or inline
    * @return the first group of the reply
@@ -361,7 +361,7 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * Log each episode from the next reset on, into the server's folder or to be handed over, so that it can be verified.
+   * Log the episodes from the next reset on, so that anybody can verify them.
    *
    * @param name a name for the submission, or inline
    * @param settings agent: the agent's name (default: agent); version: the agent's version (default: 1); agent_seed: the agent's seed (default: 0); trial: the number of the trial (default: 1); training_frames: frames that the agent was trained on (default: 0); phrase: the phrase that the episodes' seeds follow from, with _ for a blank; role: what the agent is; link: a page about the agent; machine: one of those of open, 0 the first
