@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 # Games that only two can play. ale_py registers no id for them.
-FOR_TWO = frozenset({"combat", "joust", "maze_craze", "warlords"})
+TWO_PLAYER = frozenset({"combat", "joust", "maze_craze", "warlords"})
 
 # All games, in the order of ale_py.roms.get_all_rom_ids().
-EVERY = """
+ALL = """
     adventure air_raid alien amidar assault asterix asteroids atlantis2 atlantis backgammon bank_heist basic_math
     battle_zone beam_rider berzerk blackjack bowling boxing breakout carnival casino centipede chopper_command
     combat crazy_climber crossbow darkchambers defender demon_attack donkey_kong double_dunk earthworld
@@ -21,7 +21,7 @@ EVERY = """
 """.split()
 
 # Games that have ids of the versions 0 and 4 of Gym.
-OF_OLD = """
+OLD = """
     adventure air_raid alien amidar assault asterix asteroids atlantis bank_heist battle_zone beam_rider berzerk
     bowling boxing breakout carnival centipede chopper_command crazy_climber defender demon_attack double_dunk
     elevator_action enduro fishing_derby freeway frostbite gopher gravitar hero ice_hockey jamesbond journey_escape

@@ -94,7 +94,7 @@ def member(name: str, word: object, kind: type[Member]) -> Member:
     return by_word[str(word)]
 
 
-def whole(name: str, value: Any, low: int, high: int) -> int:
+def integer(name: str, value: Any, low: int, high: int) -> int:
     """Checks a whole number.
 
     Args:
@@ -119,7 +119,7 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
     return number
 
 
-def optional_whole(name: str, value: Any) -> int | None:
+def optional_integer(name: str, value: Any) -> int | None:
     """Checks a whole number from 0, or None.
 
     Args:
@@ -133,7 +133,7 @@ def optional_whole(name: str, value: Any) -> int | None:
         WrongType: If `value` is neither a whole number nor None.
         WrongValue: If `value` is negative or above 2**31 - 1.
     """
-    return None if value is None else whole(name, value, 0, MOST)
+    return None if value is None else integer(name, value, 0, MOST)
 
 
 def flag(name: str, value: Any) -> bool:

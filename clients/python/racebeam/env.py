@@ -16,7 +16,8 @@ from .arguments import (
     console_of,
     flag,
     image,
-    optional_whole,
+    integer,
+    optional_integer,
     path_of,
     real,
     renamed,
@@ -24,7 +25,6 @@ from .arguments import (
     share,
     value_or,
     warn_of,
-    whole,
 )
 from .interface import ALEInterface
 from .presets import preset as preset_of
@@ -187,10 +187,13 @@ class AtariEnv(EnvWithView):
             raise WrongValue("two_player and continuous are both True; a game for two takes only indices of actions")
         self._game, self._rom, self._game_file = game, image(rom), path_of(game_file)
         check_source(game, self._rom, self._game_file, server)
-        self._game_mode, self._game_difficulty = optional_whole("mode", mode), optional_whole("difficulty", difficulty)
+        self._game_mode, self._game_difficulty = (
+            optional_integer("mode", mode),
+            optional_integer("difficulty", difficulty),
+        )
         self._obs_type, self._view = obs_type, VIEWS[obs_type]
         self._frameskip = frameskip_of(value_or(frameskip, defaults.frameskip))
-        self._noop_max = whole("noop_max", value_or(noop_max, defaults.noop_max), 0, MOST)
+        self._noop_max = integer("noop_max", value_or(noop_max, defaults.noop_max), 0, MOST)
         self._reward_range: tuple[float, float] | None = value_or(reward_range, defaults.reward_range)
         self._two_player = two_player
         self.continuous = continuous
@@ -205,7 +208,7 @@ class AtariEnv(EnvWithView):
         sticky = share(
             "repeat_action_probability", value_or(repeat_action_probability, defaults.repeat_action_probability)
         )
-        limit = optional_whole(
+        limit = optional_integer(
             "max_num_frames_per_episode", value_or(max_num_frames_per_episode, defaults.max_num_frames_per_episode)
         )
         truncates = flag(
@@ -221,7 +224,7 @@ class AtariEnv(EnvWithView):
         self._set_keys(rules, sticky, limit, truncates or word == "restart")
         self._set_console(
             console_of(scheme=scheme, left=left, right=right, format=format),
-            {"ystart": optional_whole("ystart", ystart), "height": optional_whole("height", height)},
+            {"ystart": optional_integer("ystart", ystart), "height": optional_integer("height", height)},
         )
         self.seed_game()
         self.load_game()

@@ -116,7 +116,7 @@ def register(game_file: str | os.PathLike[str], rom: images.Rom, name: str | Non
 
 def _v5_ids() -> dict[str, str]:
     """Returns the game of each id of version 5."""
-    return {f"ALE/{rom_id_to_name(game)}-v5": game for game in ale_games.EVERY if game not in ale_games.FOR_TWO}
+    return {f"ALE/{rom_id_to_name(game)}-v5": game for game in ale_games.ALL if game not in ale_games.TWO_PLAYER}
 
 
 def register_v5_envs(package: str = ALE_PACKAGE) -> None:
@@ -136,7 +136,7 @@ def register_v0_v4_envs(package: str = ALE_PACKAGE) -> None:
         package: The package that has the classes.
     """
     for pattern, (sticky, frameskip) in OLD_IDS.items():
-        for game in ale_games.OF_OLD:
+        for game in ale_games.OLD:
             _register_as_ale(pattern.format(rom_id_to_name(game)), package, False, game, sticky, frameskip)
 
 
@@ -179,7 +179,7 @@ class _AleLoader(importlib.abc.Loader):
         module.__loader__ = self._loader
         if module.__spec__ is not None:
             module.__spec__.loader = self._loader
-        old_ids = (pattern.format(rom_id_to_name(game)) for pattern in OLD_IDS for game in ale_games.OF_OLD)
+        old_ids = (pattern.format(rom_id_to_name(game)) for pattern in OLD_IDS for game in ale_games.OLD)
         for env_id in (*_v5_ids(), *old_ids):
             gymnasium.registry.pop(env_id, None)  # else ale_py warns that it overrides the id
         self._loader.exec_module(module)

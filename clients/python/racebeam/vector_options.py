@@ -7,7 +7,7 @@ import secrets
 from typing import Any
 
 from . import _core
-from .arguments import MOST, WrongType, WrongValue, check_choice, flag, join, member, optional_whole, share, whole
+from .arguments import MOST, WrongType, WrongValue, check_choice, flag, integer, join, member, optional_integer, share
 from .vector.autoreset import AutoresetMode
 
 __all__ = ["SEEDS", "VectorOptions", "autoreset_of", "life_loss_of", "merge_life_flags"]
@@ -19,7 +19,7 @@ SEEDS = (0, 2**32 - 1)
 MOST_ENVS = 10**7  # the memory sets a lower limit
 MOST_THREADS = 1024
 
-WHOLE_NUMBERS = {
+INTEGERS = {
     "num_envs": (1, MOST_ENVS),
     "num_threads": (0, MOST),
     "thread_affinity_offset": (-1, MOST),
@@ -156,18 +156,18 @@ class VectorOptions:
 
     def __post_init__(self) -> None:
         """Checks all options, and converts them to the types that the fields declare."""
-        for name, (low, high) in WHOLE_NUMBERS.items():
-            self._set(name, whole(name, getattr(self, name), low, high))
+        for name, (low, high) in INTEGERS.items():
+            self._set(name, integer(name, getattr(self, name), low, high))
         for name in FLAGS:
             self._set(name, flag(name, getattr(self, name)))
         for name in ("mode", "difficulty"):
-            self._set(name, optional_whole(name, getattr(self, name)))
+            self._set(name, optional_integer(name, getattr(self, name)))
         for name, kind in WORDS.items():
             member(name, getattr(self, name), kind)
         for name, choices in CHOICES.items():
             check_choice(name, getattr(self, name), choices)
         self._set("repeat_action_probability", share("repeat_action_probability", self.repeat_action_probability))
-        self._set("batch_size", whole("batch_size", self.batch_size, 0, self.num_envs) or self.num_envs)
+        self._set("batch_size", integer("batch_size", self.batch_size, 0, self.num_envs) or self.num_envs)
         self._set("autoreset_mode", autoreset_of(self.autoreset_mode))
 
     def _set(self, name: str, value: object) -> None:

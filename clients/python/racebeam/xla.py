@@ -19,7 +19,7 @@ from .errors import InvalidInput
 from .extras import install_hint
 from .vector.machines import Machines
 
-__all__ = ["RESULTS", "call", "check_shape", "functions", "handle_of", "import_jax", "whole"]
+__all__ = ["RESULTS", "call", "check_shape", "functions", "handle_of", "import_jax", "integers"]
 
 SEEDS = 2**31 - 1  # the largest seed that a custom call takes
 Shapes: TypeAlias = Sequence[tuple[tuple[int, ...], Any]]  # a shape and a dtype for each array
@@ -122,7 +122,7 @@ def functions(envs: Environments, infos: tuple[str, ...]) -> tuple[Any, Callable
             threshold = np.float32(envs.continuous_action_threshold).reshape(1)
             handle, observations, results = play("step_joysticks", handle, sticks, threshold)
         else:
-            indices = whole("actions", actions)
+            indices = integers("actions", actions)
             check_shape("actions", indices, (count,))
             handle, observations, results = play("step", handle, indices)
         ends = results["terminated"], results["truncated"]
@@ -189,7 +189,7 @@ def _register() -> None:
         import_jax().ffi.register_ffi_target(_target(name), target, platform="cpu")
 
 
-def whole(name: str, values: Any) -> Any:
+def integers(name: str, values: Any) -> Any:
     """Converts whole numbers to int32.
 
     Args:

@@ -12,7 +12,7 @@ __all__ = ["get_all_rom_ids", "get_rom_path"]
 
 def get_all_rom_ids() -> list[str]:
     """Returns the names of all games of ale_py."""
-    return list(ale_games.EVERY)
+    return list(ale_games.ALL)
 
 
 def get_rom_path(name: str) -> pathlib.Path | None:
@@ -27,7 +27,7 @@ def get_rom_path(name: str) -> pathlib.Path | None:
     Raises:
         MissingImage: If no image is found; a FileNotFoundError.
     """
-    if name not in ale_games.EVERY:
+    if name not in ale_games.ALL:
         warnings.warn(f"Rom {name} not supported.", stacklevel=2)
         return None
     return pathlib.Path(images.find(name))

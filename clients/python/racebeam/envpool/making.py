@@ -49,7 +49,7 @@ def make_gymnasium(task_id: str, **config: Any) -> GymnasiumEnvPool:
     Raises:
         InvalidSetting: If the task is unknown, or a setting is wrong.
     """
-    _check_info_wanted("gymnasium", config)
+    _check_reset_info("gymnasium", config)
     return GymnasiumEnvPool(*_pool_arguments(task_id, config, True))
 
 
@@ -82,7 +82,7 @@ def make_dm(task_id: str, **config: Any) -> DMEnvPool:
     Raises:
         InvalidSetting: If the task is unknown, or a setting is wrong.
     """
-    _check_info_wanted("dm", config)
+    _check_reset_info("dm", config)
     return DMEnvPool(*_pool_arguments(task_id, config, True))
 
 
@@ -104,7 +104,7 @@ def _pool_arguments(task_id: str, config: dict[str, Any], returns_info: bool) ->
     return spec, config.get("render_env_id", 0), config.get("render_mode")
 
 
-def _check_info_wanted(env_type: str, config: dict[str, Any]) -> None:
+def _check_reset_info(env_type: str, config: dict[str, Any]) -> None:
     value = config.get("gym_reset_return_info")
     if value is not None and not checked(flag, "gym_reset_return_info", value):
         raise InvalidSetting(

@@ -11,7 +11,7 @@ import numpy as np
 from gymnasium import error, spaces
 
 from .. import ale_games, images
-from ..arguments import MOST, flag, join, share, whole
+from ..arguments import MOST, flag, integer, join, share
 from ..errors import InvalidInput, UnknownGame
 from ..extras import install_hint
 from ..interface import ALEInterface
@@ -109,7 +109,7 @@ def checked(check: Callable[..., Value], *arguments: Any) -> Value:
 
 def games() -> dict[str, str]:
     """Returns the name of the game of each task."""
-    return {_task_of(game): game for game in images.titles() if game not in ale_games.FOR_TWO}
+    return {_task_of(game): game for game in images.titles() if game not in ale_games.TWO_PLAYER}
 
 
 def _task_of(game: str) -> str:
@@ -153,7 +153,7 @@ def _checked_config(config: Iterable[Any]) -> Any:
         if not _equals(values[name], value):
             raise InvalidSetting(f"{name} is {values[name]!r}; racebeam has only {value!r}")
     for name, (low, high) in LIMITS.items():
-        values[name] = checked(whole, name, values[name], low, high)
+        values[name] = checked(integer, name, values[name], low, high)
     for name, value in CONFIG.items():
         if isinstance(value, bool):
             values[name] = checked(flag, name, values[name])
@@ -161,7 +161,7 @@ def _checked_config(config: Iterable[Any]) -> Any:
         share, "repeat_action_probability", values["repeat_action_probability"]
     )
     values["batch_size"] = (
-        checked(whole, "batch_size", values["batch_size"], 0, values["num_envs"]) or values["num_envs"]
+        checked(integer, "batch_size", values["batch_size"], 0, values["num_envs"]) or values["num_envs"]
     )
     return Config(**values)
 
@@ -181,13 +181,13 @@ def seeds_of(config: Any) -> np.ndarray[Any, np.dtype[np.int64]]:
     name = "env_seed" if np.size(config.env_seed) else "seed"
     seed_setting = getattr(config, name)
     if np.ndim(seed_setting) == 0 and not isinstance(seed_setting, str):
-        seeds = checked(whole, name, seed_setting, INT.min, INT.max) + np.arange(config.num_envs, dtype=np.int64)
+        seeds = checked(integer, name, seed_setting, INT.min, INT.max) + np.arange(config.num_envs, dtype=np.int64)
         return seeds % 2**32
     if len(seed_setting) != config.num_envs:
         raise InvalidSetting(
             f"{name} has {len(seed_setting)} seeds; accepted: {config.num_envs}, one for each environment"
         )
-    return np.array([checked(whole, name, seed, INT.min, INT.max) for seed in seed_setting], np.int64) % 2**32
+    return np.array([checked(integer, name, seed, INT.min, INT.max) for seed in seed_setting], np.int64) % 2**32
 
 
 class ArraySpec(NamedTuple):

@@ -55,8 +55,8 @@ def functions(
             raise InvalidInput(
                 "env_id is None; with batch_size below num_envs, it takes the environments of the actions"
             )
-        ids = xla.whole("env_id", envs.every if env_id is None else env_id)
-        actions = xla.whole("actions", action)
+        ids = xla.integers("env_id", envs.every if env_id is None else env_id)
+        actions = xla.integers("actions", action)
         xla.check_shape("env_id", ids, (ids.size,))
         xla.check_shape("actions", actions, ids.shape)
         return xla.call("send", [], handle, actions, ids)[0]

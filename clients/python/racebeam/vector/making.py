@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 
 from .. import _core, images
-from ..arguments import WrongType, WrongValue, value_or, whole
+from ..arguments import WrongType, WrongValue, integer, value_or
 from ..vector_options import MOST_ENVS, VectorOptions
 from ..wire.remote_machines import RemoteMachines
 from ..wire.spread_machines import SpreadMachines
@@ -42,12 +42,12 @@ def parse_games(
     if isinstance(game, str) or game is None:
         if game is not None and is_local:
             check(game)
-        return [game], np.zeros(whole("num_envs", value_or(num_envs, 1), 1, MOST_ENVS), np.int32)
+        return [game], np.zeros(integer("num_envs", value_or(num_envs, 1), 1, MOST_ENVS), np.int32)
     if not isinstance(game, Sequence):
         raise WrongType(f"game is {game!r}; it takes a name, or a list of names")
     if num_envs is not None and num_envs != len(game):
         raise WrongValue(f"game has {len(game)} names, but num_envs is {num_envs!r}")
-    whole("num_envs", len(game), 1, MOST_ENVS)
+    integer("num_envs", len(game), 1, MOST_ENVS)
     for name in game:
         if not isinstance(name, str):
             raise WrongType(f"game has {name!r} in its list; it takes names of games")
