@@ -141,12 +141,12 @@ export class Deck {
   #facts(step: number, lives: number): string {
     const track = this.#track!;
     const act = track.steps[step - 1];
-    const checked = this.#outcome?.asLogged;
+    const differences = this.#outcome?.differences;
     return [
       `score ${track.score(step)} of ${track.score(track.length)}`,
       `lives ${lives}`,
       act === undefined ? "start" : spoken(act),
-      ...(checked === undefined ? [] : [checked ? "score, lives and end as logged" : "does not play as logged"]),
+      ...(differences ? [differences.length ? `does not play as logged: ${differences.join(", ")}` : "plays as logged"] : []),
     ].join(" · ");
   }
 }

@@ -10,6 +10,8 @@ export interface Episode {
   acts: readonly string[];
   /** What the log says of its end. An episode of this page lacks it. */
   ended?: { score: number; frames: number; decisions: number; end: string; lives: number };
+  /** Hashes of the machine's state, in hexadecimal digits: after every HASH_EVERY decisions, and at the end. */
+  hashes?: readonly string[];
   md5?: string;
 }
 
@@ -18,7 +20,7 @@ const VERSION = 1;
 const HEADER = 24; // bytes before the contents
 const LARGEST = 2 * 1024 * 1024; // bytes, of the file and of its contents
 const LAST_ACTION = 17;
-const HASH_EVERY = 256; // decisions
+export const HASH_EVERY = 256; // decisions
 const HASH_SIZE = 8;
 
 const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, byte) => {
@@ -90,6 +92,16 @@ function pairs(words: readonly string[]): Record<string, string> {
   }));
 }
 
+/** The digits of hashes, whose lowest byte comes first. */
+function digits(hashes: Uint8Array): string[] {
+  return Array.from({ length: hashes.length / HASH_SIZE }, (_, number) => hexOf(hashes.slice(number * HASH_SIZE, (number + 1) * HASH_SIZE).reverse()));
+}
+
+/** Bytes in hexadecimal digits. */
+export function hexOf(bytes: Uint8Array): string {
+  return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
+}
+
 /** The end of the lines of text: the place after the empty line. */
 function endOfText(contents: Uint8Array): number {
   for (let at = 1; at < contents.length; ++at) {
@@ -110,7 +122,8 @@ export async function readLog(file: Uint8Array, name: string): Promise<Episode> 
     throw new Error("the log's text does not begin with load, image, from and ended");
   }
   const { score, frames, decisions, end = "", lives } = pairs(ended);
-  const actions = contents.subarray(start + HASH_SIZE * (Math.floor(Number(decisions) / HASH_EVERY) + 1));
+  const hashes = contents.subarray(start, start + HASH_SIZE * (Math.floor(Number(decisions) / HASH_EVERY) + 1));
+  const actions = contents.subarray(start + hashes.length);
   if (actions.length !== Number(decisions) || actions.some((action) => action > LAST_ACTION)) {
     throw new Error(`the log has ${actions.length} actions; its text says ${decisions}, from 0 to ${LAST_ACTION}`);
   }
@@ -120,6 +133,7 @@ export async function readLog(file: Uint8Array, name: string): Promise<Episode> 
     settings: pairs(load.slice(2)),
     acts: Array.from(actions, String),
     ended: { score: Number(score), frames: Number(frames), decisions: Number(decisions), end, lives: Number(lives) },
+    hashes: digits(hashes),
     ...(image[1] ? { md5: image[1] } : {}),
   };
 }

@@ -1,6 +1,6 @@
 import type { Group, Session } from "racebeam";
 import { joined } from "../input/actions.js";
-import type { Episode } from "./log.js";
+import { HASH_EVERY, hexOf, type Episode } from "./log.js";
 
 const MOST_STATES = 240;
 const SENT_AHEAD = 500; // requests
@@ -9,8 +9,8 @@ const FIELDS = ["reward", "terminated", "truncated", "lives", "screen:delta", "a
 
 /** What an episode came to when it was played again. */
 export interface Outcome {
-  /** Whether that is what the log says; undefined if it says nothing. */
-  asLogged: boolean | undefined;
+  /** What is not as in the log, such as "the score"; undefined if the log says nothing of its end. */
+  differences: readonly string[] | undefined;
   /** Steps at which there was a reward, with it. */
   rewards: { step: number; reward: number }[];
 }
@@ -71,7 +71,7 @@ export class Track {
   async prepare(progress: (part: number) => void): Promise<Outcome> {
     const skip = Number(this.#episode.settings.frame_skip ?? 1);
     const frames = Number.isInteger(skip) && skip > 1 ? await this.#attempt(skip, progress) : undefined;
-    if (frames?.asLogged) {
+    if (frames?.differences?.length === 0) {
       return frames;
     }
     return this.#attempt(1, progress);
@@ -123,6 +123,8 @@ export class Track {
 
   async #play(progress: (part: number) => void): Promise<Outcome> {
     const rewards: Outcome["rewards"] = [];
+    const hashes: Promise<Group>[] = [];
+    const stretch = HASH_EVERY * (this.#steps.length / this.#episode.acts.length || 1);
     let frames = 0;
     let last: Group = {};
     this.#scores = [0];
@@ -134,6 +136,9 @@ export class Track {
         }
         if (step < this.#steps.length) {
           sent.push(this.#session.act(this.#steps[step]!));
+          if ((step + 1) % stretch === 0) {
+            hashes.push(this.#session.look("state_hash"));
+          }
         }
       }
       for (const group of await Promise.all(sent)) {
@@ -146,13 +151,25 @@ export class Track {
       }
       progress(Math.min(1, (at + SENT_AHEAD) / (this.#steps.length + 1)));
     }
-    return { rewards, asLogged: this.#compare(frames, last) };
+    hashes.push(this.#session.look("state_hash"));
+    const found = (await Promise.all(hashes)).map(({ state_hash }) => hexOf(state_hash));
+    return { rewards, differences: this.#compare(frames, last, found) };
   }
 
-  #compare(frames: number, last: Group): boolean | undefined {
-    const { ended } = this.#episode;
-    return ended && ended.frames === frames && ended.score === this.score(this.length) && ended.lives === last.lives
-      && last[ended.end] === 1;
+  #compare(frames: number, last: Group, hashes: readonly string[]): string[] | undefined {
+    const { ended, hashes: logged = [] } = this.#episode;
+    if (!ended) {
+      return undefined;
+    }
+    const stretch = logged.findIndex((hash, number) => hash !== hashes[number]);
+    const differs: Record<string, boolean> = {
+      [`the state in decisions ${stretch * HASH_EVERY + 1} to ${Math.min((stretch + 1) * HASH_EVERY, ended.decisions)}`]: stretch >= 0,
+      "the score": ended.score !== this.score(this.length),
+      "the lives": ended.lives !== last.lives,
+      "the frames": ended.frames !== frames,
+      "the end": last[ended.end] !== 1,
+    };
+    return Object.keys(differs).filter((what) => differs[what]);
   }
 }
 

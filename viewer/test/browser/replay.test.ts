@@ -2,8 +2,22 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { after, afterEach, before, describe, test } from "node:test";
+import { deflateSync, inflateSync } from "node:zlib";
 import type { Page } from "playwright-core";
+import { crc32 } from "../../src/replay/log.js";
 import { measured, paused, recordedEpisodes, Server, Tabs, until } from "./harness.js";
+
+const HEADER = 24; // bytes of a log before its contents
+
+/** A log, sealed anew, one of whose hashes of states has another bit. */
+function withAnotherHash(log: Buffer): Buffer {
+  const contents = inflateSync(log.subarray(HEADER));
+  contents[contents.indexOf("\n\n") + 2]! ^= 1;
+  const header = Buffer.from(log.subarray(0, HEADER));
+  const packed = deflateSync(contents);
+  header.writeUInt32LE(crc32(header.subarray(0, HEADER - 4), packed), HEADER - 4);
+  return Buffer.concat([header, packed]);
+}
 
 describe("the view Replay", () => {
   const server = new Server();
@@ -35,7 +49,7 @@ describe("the view Replay", () => {
 
   test("a log plays as it says, frame by frame", async () => {
     await page.locator("#log").setInputFiles(logs[0]!);
-    await until(async () => /score, lives and end as logged/.test(await facts() ?? ""), "the episode");
+    await until(async () => / plays as logged$/.test(await facts() ?? ""), "the episode");
     assert.match(await page.locator("#place").textContent() ?? "", /^frame 0 of \d{3,}$/);
   });
 
@@ -113,7 +127,7 @@ describe("the view Replay", () => {
 
   test("an episode with sticky actions stands beside the other", async () => {
     await page.locator("#log").setInputFiles(logs[2]!);
-    await until(async () => /score, lives and end as logged/.test(await facts(1) ?? ""), "the second episode");
+    await until(async () => / plays as logged$/.test(await facts(1) ?? ""), "the second episode");
     await scrub(400);
     await Promise.all([settled(0), settled(1)]);
     assert.notEqual(await screen(0), await screen(1));
@@ -127,6 +141,12 @@ describe("the view Replay", () => {
     const whole = readFileSync(logs[0]!);
     await page.locator("#log").setInputFiles({ name: "cut.episode", mimeType: "", buffer: whole.subarray(0, whole.length - 9) });
     await page.locator("#log-problem").filter({ hasText: "altered or cut off" }).waitFor();
+  });
+
+  test("a log of other states does not play as logged, although its score does", async () => {
+    await page.getByRole("button", { name: "Close" }).click();
+    await page.locator("#log").setInputFiles({ name: "other.episode", mimeType: "", buffer: withAnotherHash(readFileSync(logs[0]!)) });
+    await until(async () => / does not play as logged: the state in decisions 1 to 256$/.test(await facts() ?? ""), "what differs");
   });
 
   test("the episode that was just played is replayed", async () => {

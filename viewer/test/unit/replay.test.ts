@@ -12,7 +12,7 @@ ended score=40 frames=15 decisions=3 end=terminated lives=0
 `;
 
 function contents(text = TEXT, hashes = 1, actions = [1, 0, 17]): Uint8Array {
-  return Uint8Array.from([...new TextEncoder().encode(text), ...new Uint8Array(8 * hashes).fill(10), ...actions]);
+  return Uint8Array.from([...new TextEncoder().encode(text), ...Array.from({ length: 8 * hashes }, (_, at) => 10 + at % 8), ...actions]);
 }
 
 /** A log as docs/episodes.md describes it. `change` alters the header before the checksum is made. */
@@ -40,6 +40,7 @@ test("a log is read", async () => {
     settings: { seed: "7", frame_skip: "5", sticky: "0" },
     acts: ["1", "0", "17"],
     ended: { score: 40, frames: 15, decisions: 3, end: "terminated", lives: 0 },
+    hashes: ["11100f0e0d0c0b0a"],
     md5: "8b96297bc95db74738674ce177f501c1",
   });
 });
