@@ -31,6 +31,23 @@ def simulate(*words):
     return done.stdout.splitlines()[-1].split()
 
 
+class Memory(unittest.TestCase):
+    def test_the_prose_has_the_largest_session_of_one_game_of_the_table(self):
+        table = TEXT.partition("<!-- scripts/check/memory --write: begin -->")[2].partition("<!-- end -->")[0]
+        rows = re.findall(r"^\| (\S.*?) \| ([\d,]+) \| ([\d,]+) \|", table, re.MULTILINE)
+        self.assertEqual(len(rows), 7)
+        largest = max(number(resident) for name, _, resident in rows if "open" not in name)
+        rounded = -(-largest // 10) * 10
+        for page in (TEXT, (ROOT / "server/README.md").read_text()):
+            self.assertIn(f"A session of one game takes up to {rounded} KiB", " ".join(page.split()))
+        self.assertIn(f"10,000 acting sessions take up to {rounded / 100:.1f} GB", " ".join(TEXT.split()))
+
+    def test_counted_and_resident_memory_differ_by_less_than_the_factor_of_the_check(self):
+        table = TEXT.partition("<!-- scripts/check/memory --write: begin -->")[2].partition("<!-- end -->")[0]
+        for counted, resident in re.findall(r"\| ([\d,]+) \| ([\d,]+) \| [\d,]+ \| [\d,]+ \|$", table, re.MULTILINE):
+            self.assertTrue(1 / 1.5 <= number(counted) / number(resident) <= 1.5, (counted, resident))
+
+
 class Paper(unittest.TestCase):
     def claim(self, pattern):
         found = re.search(pattern, PAPER)
