@@ -56,6 +56,7 @@ class Trial {
   void diverge();
   void keep_log(const Episode& episode, int number);
   void resume();
+  void check_account() const;
   void write_checkpoint() const;
   void finish();
 

@@ -4,10 +4,13 @@
 #include <bit>
 #include <utility>
 
+#include "system/invalid_input.hpp"
+
 namespace racebeam {
 namespace {
 
 constexpr std::uint32_t kNoFeature = 0xFFFFFFFF;
+
 }  // namespace
 
 FeatureGroups::FeatureGroups(std::size_t most)
@@ -95,8 +98,27 @@ void FeatureGroups::read(StateReader& in) {
   in.get(seen_);
   in.get(slots_);
   in.get(sizes_);
+  if (!is_sound()) throw InvalidInput("its groups of features are invalid");
   active_.assign(count(), 0);
   successor_.assign(count(), 0);
+}
+
+// Whether the table can be searched, and each group has the features that the table says.
+bool FeatureGroups::is_sound() {
+  if (!std::has_single_bit(slots_.size()) || slots_.size() < kLeastBytes / sizeof(Slot)) return false;
+  if (seen_ > std::min(most_, slots_.size() / 2)) return false;
+  std::size_t seen = 0;
+  std::vector<std::uint32_t> sizes(count());
+  for (const Slot& slot : slots_) {
+    if (slot.feature == kNoFeature && slot.group == 0) continue;
+    if (slot.feature == kNoFeature || slot.group >= count()) return false;
+    ++seen;
+    ++sizes[slot.group];
+  }
+  const auto is_found = [&](const Slot& slot) {
+    return slot.feature == kNoFeature || &slot_of(slot.feature) == &slot;
+  };
+  return seen == seen_ && sizes == sizes_ && std::ranges::all_of(slots_, is_found);
 }
 
 }  // namespace racebeam

@@ -36,7 +36,7 @@ class FeatureGroups {
   static constexpr std::size_t kLeastBytes = 8192, kMostSlotBytes = 32, kGroupBytes = 12;
 
   void write(StateWriter& out) const;
-  void read(StateReader& in);
+  void read(StateReader& in);  // throws InvalidInput unless write() wrote this
 
  private:
   using Number = std::uint32_t;
@@ -52,6 +52,7 @@ class FeatureGroups {
   void find_groups(const std::vector<std::uint32_t>& features);
   void split_groups();
   Number add_group(std::uint32_t size);
+  bool is_sound();
 
   std::size_t most_, seen_ = 0;
   HugeTable<Slot> slots_;              // a power of two, at most half full

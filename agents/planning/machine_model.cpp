@@ -1,5 +1,6 @@
 #include "agents/planning/machine_model.hpp"
 
+#include "environment/saved/saved_state_check.hpp"
 #include "environment/saved_state.hpp"
 
 namespace racebeam {
@@ -64,7 +65,9 @@ void MachineModel::write(StateWriter& out) const {
 void MachineModel::read(StateReader& in) {
   if (!sticky_) return;
   Environment::Saved state(*machine_.save());
-  in.get(state.random.emplace());
+  MersenneTwister& random = state.random.emplace();
+  in.get(random);
+  check_generator(random.words(), random.position());
   machine_.restore(state);
 }
 

@@ -1,5 +1,6 @@
 #include "agents/experiment/experiment.hpp"
 
+#include <array>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <map>
@@ -30,6 +31,17 @@ std::map<std::string, std::string> files_of(const ResultsFolder& folder) {
       files[path] = contents(entry.path().string());
   }
   return files;
+}
+
+// A checkpoint of Random, as trial.cpp writes it.
+std::string random_checkpoint(std::int32_t trained, std::int32_t evaluated, std::int64_t frames) {
+  StateWriter out;
+  for (const std::int32_t episodes : {trained, evaluated}) out.put(episodes);
+  out.put(std::array<std::int64_t, 6>{0, frames});
+  for (const std::string_view table : {"", ""}) out.put(table);
+  out.put(Random(1));
+  return seal({.what = "checkpoint", .magic = "RBCHECKP", .version = 2, .most = 1000, .level = 1},
+              out.bytes());
 }
 
 // Their searches draw numbers, from one episode to the next.
@@ -113,6 +125,21 @@ TEST_CASE("A unit that another process runs is named, and the rest is done") {
   CHECK(rows_of(contents(folder.results())).size() == 38);
   run(plan, folder);
   CHECK(verified(folder).verdict.confirmed == 40);
+}
+
+TEST_CASE("A checkpoint with counts that its trial cannot have is refused") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan = bound_plan(kPlan);
+  fs::create_directories(folder.work());
+  for (const auto& [trained, evaluated, frames] :
+       {std::tuple{-1, 0, 0}, {0, -1, 0}, {0, 1000, 0}, {1000, 0, 0}, {0, 0, -1}}) {
+    write(folder.checkpoint("beamfall-random-1"), random_checkpoint(trained, evaluated, frames));
+    CHECK_THROWS_WITH(run(plan, folder),
+                      Catch::Contains("its counts of episodes, frames and times are invalid"));
+  }
+  write(folder.checkpoint("beamfall-random-1"), random_checkpoint(0, 0, 0));
+  CHECK_NOTHROW(run(plan, folder));
 }
 
 TEST_CASE("A damaged checkpoint, and a background of another game, are refused") {

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "agents/learning/sarsa.hpp"
+#include "system/invalid_input.hpp"
 
 using namespace racebeam;
 
@@ -141,5 +142,31 @@ TEST_CASE("Groups and their learner that were written go on as those that wrote 
     CHECK(sarsa.begin(one) == other.begin(two));
     for (int action = 0; action < kActions; ++action)
       CHECK(sarsa.value(one, action) == other.value(two, action));
+  }
+}
+
+TEST_CASE("Groups of a checkpoint that lead beyond their tables are refused") {
+  FeatureGroups groups(100);
+  group(groups, {1, 2, 3});
+  group(groups, {1, 4});
+  StateWriter out;
+  groups.write(out);
+  const std::string written = out.bytes();
+  const auto is_refused = [](const std::string& bytes) {
+    StateReader in(bytes);
+    FeatureGroups others(100);
+    try {
+      others.read(in);
+    } catch (const InvalidInput&) {
+      return true;
+    }
+    return false;
+  };
+  CHECK(!is_refused(written));
+  for (std::size_t byte = 0; byte < written.size(); ++byte) {
+    std::string altered = written;
+    altered[byte] = static_cast<char>(altered[byte] ^ 0x40);
+    INFO(byte);
+    CHECK(is_refused(altered));
   }
 }
