@@ -20,16 +20,24 @@ readonly step_names=(clang address thread fuzz)
 # A target of fuzz/, and the paths that it reads the inputs of.
 declare -A fuzz_paths=(
   [access]='^server/(access|web/origin)'
+  [announce]='^(server/operation/(announcement|published_file)|clients/cpp/racebeam/client/address)'
+  [background_csv]='^agents/features/background'
+  [checkpoint]='^agents/(base|experiment/trial|learning|planning)'
   [classic_session]='^protocol/classic/'
   [config]='^cli/arguments/'
   [encodings]='^(protocol/encoding|system)/'
+  [episode_log]='^agents/(base/sealed_file|experiment/(episode_log|play))'
   [game_file]='^games/(files|language|game)/'
+  [http]='^server/web/(exchange|http|origin|page_files|site)'
   [image]='^(games/(rom_image|zip_archive)|emulator/cartridge/)'
   [line_session]='^protocol/line/'
   [media]='^recording/'
   [plan]='^agents/(experiment|kinds)/'
   [rl_glue]='^protocol/classic/rl_glue'
   [state]='^(environment/saved|emulator/state)/'
+  [submission]='^agents/experiment/(results|row_tally|log_judge|phrase_seeds|verify)'
+  [tls]='^server/(access/tls|web/byte_stream)'
+  [web_socket]='^server/web/(byte_stream|replies|web_socket)'
 )
 readonly fuzz_targets=(fuzz/corpora/*)
 

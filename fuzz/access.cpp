@@ -8,8 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fuzz/memory_file.hpp"
-#include "fuzz/target.hpp"
+#include "fuzz/support/memory_file.hpp"
+#include "fuzz/support/target.hpp"
 #include "server/access/address.hpp"
 #include "server/access/tokens.hpp"
 #include "server/web/origin.hpp"

@@ -1,6 +1,6 @@
 // A session of the classic protocol. The first byte selects options; the rest is the client's input.
-#include "fuzz/keep_code.hpp"
-#include "fuzz/target.hpp"
+#include "fuzz/support/keep_code.hpp"
+#include "fuzz/support/target.hpp"
 #include "games/catalogue.hpp"
 #include "protocol/classic/classic.hpp"
 

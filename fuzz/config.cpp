@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "cli/arguments/subcommand.hpp"
-#include "fuzz/memory_file.hpp"
-#include "fuzz/target.hpp"
+#include "fuzz/support/memory_file.hpp"
+#include "fuzz/support/target.hpp"
 
 namespace racebeam::fuzz {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "fuzz/target.hpp"
+#include "fuzz/support/target.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/encoding/text.hpp"
 #include "protocol/line/action.hpp"

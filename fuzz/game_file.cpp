@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "fuzz/target.hpp"
+#include "fuzz/support/target.hpp"
 #include "games/game/mode_program.hpp"
 #include "games/game/rule.hpp"
 

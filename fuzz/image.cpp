@@ -6,7 +6,7 @@
 
 #include "emulator/cartridge/cartridge.hpp"
 #include "emulator/console.hpp"
-#include "fuzz/target.hpp"
+#include "fuzz/support/target.hpp"
 #include "tests/translator/pair.hpp"
 
 namespace racebeam::fuzz {

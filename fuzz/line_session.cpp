@@ -6,9 +6,9 @@
 #include <thread>
 #include <vector>
 
-#include "fuzz/folder.hpp"
-#include "fuzz/keep_code.hpp"
-#include "fuzz/target.hpp"
+#include "fuzz/support/folder.hpp"
+#include "fuzz/support/keep_code.hpp"
+#include "fuzz/support/target.hpp"
 #include "recording/recorder.hpp"
 
 namespace racebeam::fuzz {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "emulator/tia/sound.hpp"
-#include "fuzz/folder.hpp"
-#include "fuzz/gif_reader.hpp"
-#include "fuzz/target.hpp"
+#include "fuzz/support/folder.hpp"
+#include "fuzz/support/gif_reader.hpp"
+#include "fuzz/support/target.hpp"
 #include "recording/lzw.hpp"
 
 namespace racebeam::fuzz {

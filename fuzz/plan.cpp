@@ -1,7 +1,7 @@
 // The plan of an experiment. If it is accepted, the plan that is written with every default must be the same.
 #include "agents/experiment/plan.hpp"
 
-#include "fuzz/target.hpp"
+#include "fuzz/support/target.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam::fuzz {

@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 
-#include "fuzz/keep_code.hpp"
-#include "fuzz/target.hpp"
+#include "fuzz/support/keep_code.hpp"
+#include "fuzz/support/target.hpp"
 
 namespace racebeam::fuzz {
 namespace {

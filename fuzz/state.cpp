@@ -8,8 +8,8 @@
 
 #include "environment/saved/saved_state_format.hpp"
 #include "environment/saved_state.hpp"
-#include "fuzz/keep_code.hpp"
-#include "fuzz/target.hpp"
+#include "fuzz/support/keep_code.hpp"
+#include "fuzz/support/target.hpp"
 #include "games/catalogue.hpp"
 #include "system/printable.hpp"
 #include "tests/support/random_image.hpp"

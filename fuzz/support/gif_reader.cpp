@@ -1,4 +1,4 @@
-#include "fuzz/gif_reader.hpp"
+#include "fuzz/support/gif_reader.hpp"
 
 namespace racebeam::fuzz {
 namespace {

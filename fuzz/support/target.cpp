@@ -1,4 +1,4 @@
-#include "fuzz/target.hpp"
+#include "fuzz/support/target.hpp"
 
 #include <cstdio>
 #include <cstdlib>

@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "fuzz/target.hpp"
+#include "fuzz/support/target.hpp"
 
 namespace fs = std::filesystem;
 

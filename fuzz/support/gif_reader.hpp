@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fuzz/target.hpp"
+#include "fuzz/support/target.hpp"
 
 namespace racebeam::fuzz {
 

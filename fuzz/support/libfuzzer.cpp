@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "fuzz/target.hpp"
+#include "fuzz/support/target.hpp"
 
 namespace {
 
