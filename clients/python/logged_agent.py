@@ -14,7 +14,7 @@ parser.add_argument("folder", help="a name below the server's --record-dir")
 parser.add_argument("--address", help="the server's, such as tcp://127.0.0.1:7800 (default: RACEBEAM_ADDRESS)")
 parser.add_argument("--game", default="beamfall", help="(default: %(default)s)")
 parser.add_argument("--episodes", type=int, default=3, help="(default: %(default)s)")
-parser.add_argument("--seed", type=int, default=5, help="of the agent (default: %(default)s)")
+parser.add_argument("--seed", type=int, default=5, help="seed of the agent (default: %(default)s)")
 options = parser.parse_args()
 
 

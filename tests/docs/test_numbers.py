@@ -62,7 +62,7 @@ class Numbers(unittest.TestCase):
         [limits] = (
             node.value
             for node in source.body
-            if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "WHOLE_NUMBERS"
+            if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "INTEGERS"
         )
         limits = {key.value: ast.unparse(value) for key, value in zip(limits.keys, limits.values)}
         figures = {
