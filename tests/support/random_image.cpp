@@ -17,6 +17,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr unsigned kCartridge = 4096, kStarpathLoad = 8448, kStarpathPages = 24;
 constexpr unsigned kDpcPlusDriver = 3072, kDpcPlusBanks = 6 * 4096, kDpcPlusOthers = 5120;
+constexpr unsigned kCdfDriver = 2048, kCdfCode = 2048, kCdfBanks = 7 * 4096;
 
 struct Range {
   unsigned first, size;
@@ -30,6 +31,9 @@ struct Recipe {
   std::vector<Range> lively;  // addresses with an effect
   Bytes first{};              // instructions that the program begins with
 };
+
+// Fast fetch by a bit of RAM, and a call of the ARM.
+const Bytes kStartOfCdf = {0xA5, 0x80, 0x29, 0x01, 0x8D, 0xF2, 0x1F, 0xA2, 0xFF, 0x8E, 0xF3, 0x1F};
 
 const std::vector<Recipe>& recipes() {
   static const std::vector<Recipe> all = {
@@ -80,6 +84,8 @@ const std::vector<Recipe>& recipes() {
        4096,
        {{0x1FF6, 6}, {0x1000, 0x28}, {0x1028, 0x58}, {0x1058, 3}},
        {0xA5, 0x80, 0x29, 0x01, 0x8D, 0x58, 0x10, 0xA9, 0xFF, 0x8D, 0x5A, 0x10}},
+      {"CDFJ", 32768, 4096, {{0x1FF5, 7}, {0x1FF0, 4}}, kStartOfCdf},
+      {"CDFJ+", 32768, 4096, {{0x1FF4, 7}, {0x1FF0, 4}}, kStartOfCdf},
   };
   return all;
 }
@@ -120,6 +126,8 @@ class Writer {
       bytes_[vector + 1] = static_cast<std::uint8_t>(begin() >> 8);
     }
     if (recipe_.scheme == "AR") return starpath_load();
+    if (recipe_.scheme == "CDFJ") return cdf(false);
+    if (recipe_.scheme == "CDFJ+") return cdf(true);
     return recipe_.scheme == "DPC+" ? dpcplus() : units(recipe_.size);
   }
 
@@ -205,6 +213,26 @@ class Writer {
   Bytes random_bytes(std::size_t size) {
     Bytes all(size);
     for (std::uint8_t& byte : all) byte = static_cast<std::uint8_t>(below(256));
+    return all;
+  }
+
+  // The banks begin behind the driver, or behind the ARM's program. That adds to bytes of the display data.
+  // Streams read all of it, step by step.
+  Bytes cdf(bool is_plus) {
+    using namespace thumb;
+    Bytes driver = random_bytes(kCdfDriver), arm = random_bytes(kCdfCode);
+    std::fill(driver.begin() + 0x124, driver.begin() + 0x1B0, std::uint8_t{0});
+    for (std::size_t increment = 0x124; increment < 0x1B0; increment += 4) driver[increment + 1] = 1;
+    thumb::put(arm, is_plus ? 0 : 8,
+               {mov_number(1, 1), lsl(1, 1, 30), mov_number(2, 8), lsl(2, 2, 8), add(1, 1, 2), ldrb(3, 1, 0),
+                add_number(3, 1), strb(3, 1, 0), add_number(1, 16), ldr(4, 1, 0), add(4, 4, 3), str(4, 1, 0),
+                bx(kLr)});
+    const Bytes banks = units(kCdfBanks);
+    Bytes all = driver;
+    for (const Bytes* part : {is_plus ? &banks : &arm, is_plus ? &arm : &banks})
+      all.insert(all.end(), part->begin(), part->end());
+    constexpr std::uint8_t kStackAndEntry[] = {0xDC, 0x1F, 0, 0x40, 0x01, 0x78, 0, 0};
+    if (is_plus) std::copy(std::begin(kStackAndEntry), std::end(kStackAndEntry), all.begin() + 0x17F4);
     return all;
   }
 

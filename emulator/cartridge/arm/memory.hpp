@@ -16,6 +16,7 @@ constexpr std::uint32_t kFlashEnd = 0x8000, kRamBegin = 0x40000000;
 struct Memory {
   std::span<const std::uint8_t> flash;
   std::span<std::uint8_t> ram;
+  std::uint32_t code_begin = 0;  // code in front of it is not executed
 
   // The bytes from `address` on; null unless `size` of them are in one of the two.
   const std::uint8_t* find(std::uint32_t address, std::size_t size) const {

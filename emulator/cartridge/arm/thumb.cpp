@@ -390,7 +390,7 @@ constexpr auto kHandlers = [] {
 void execute_next(Core& core) {
   --core.left;
   const std::uint8_t* bytes = core.memory.find(core.next, kHalf);
-  if (bytes == nullptr) return core.end(Ending::kFault);
+  if (bytes == nullptr || core.next < core.memory.code_begin) return core.end(Ending::kFault);
   const Code code = bytes[0] | Code{bytes[1]} << 8;
   core.r[kPc] = core.next + 2 * kHalf;
   core.next += kHalf;

@@ -6,7 +6,6 @@
 #include <new>
 #include <span>
 
-#include "emulator/base/opcodes.hpp"
 #include "emulator/cartridge/arm/thumb.hpp"
 
 namespace racebeam::dpcplus {
@@ -14,12 +13,10 @@ namespace {
 
 constexpr unsigned kReadRegisters = 0x28, kPorts = 0x80, kHotPage = 0xFC0;
 constexpr unsigned kMostPointer = kDisplaySize - 1;
-constexpr unsigned kPartsPerCycle = 2400;
 constexpr unsigned kWave = 32, kWaveBits = 5;  // bytes of a waveform
 constexpr std::uint32_t kFirstRandom = 0x2B435044, kTaps = 0x10ADAB1E;
 constexpr int kRandomStep = 11;
 constexpr std::uint8_t kLoadNumber = 0xA9;  // the opcode of LDA #
-constexpr std::uint16_t kAddressBits = 0x1FFF;
 
 Chip& chip_of(CartridgeSlot& slot) { return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data())); }
 
@@ -47,30 +44,11 @@ std::uint16_t moved(std::uint16_t pointer, unsigned distance) {
   return static_cast<std::uint16_t>((pointer + distance) & kMostPointer);
 }
 
-void add_instructions(Chip& chip, std::int64_t cycles) {
-  const auto all = chip.instructions + kInstructionsPerCycle * static_cast<std::uint64_t>(cycles);
-  chip.instructions = static_cast<std::uint32_t>(std::min<std::uint64_t>(kMostInstructions, all));
-}
-
-// Time: the phases of the voices, and the instructions that the ARM may execute.
-void pass_time(CartridgeSlot& slot, std::int32_t cycle) {
-  Chip& chip = chip_of(slot);
-  const auto before = static_cast<std::int32_t>(slot.machine.frame.cartridge_clock);
-  slot.machine.frame.cartridge_clock = static_cast<std::uint32_t>(cycle);
-  if (cycle <= before) return;
-  add_instructions(chip, std::int64_t{std::min(cycle, kCyclesOfFrame)} - std::min(before, kCyclesOfFrame));
-  const std::uint64_t parts =
-      chip.into_sample + kPartsPerCycle * static_cast<std::uint64_t>(std::int64_t{cycle} - before);
-  chip.into_sample = static_cast<std::uint32_t>(parts % kSampleParts);
-  for (Voice& voice : chip.voice)
-    voice.phase += voice.frequency * static_cast<std::uint32_t>(parts / kSampleParts);
-}
-
 std::uint8_t amplitude(CartridgeSlot& slot) {
   const Chip& chip = chip_of(slot);
   unsigned sum = 0;
-  for (std::size_t i = 0; i < chip.voice.size(); ++i)
-    sum += displayed(slot, kWave * chip.waveform[i] + (chip.voice[i].phase >> (32 - kWaveBits)));
+  for (std::size_t i = 0; i < chip.clock.voice.size(); ++i)
+    sum += displayed(slot, kWave * chip.waveform[i] + (chip.clock.voice[i].phase >> (32 - kWaveBits)));
   return static_cast<std::uint8_t>(sum);
 }
 
@@ -121,7 +99,7 @@ std::uint8_t read_number(CartridgeSlot& slot, unsigned index, std::int32_t cycle
     case 2:
     case 3:
     case 4: return byte_of(chip.random, index - 1);
-    case 5: pass_time(slot, cycle); return amplitude(slot);
+    case 5: chip.clock.pass(slot.machine, cycle); return amplitude(slot);
     default: return 0;
   }
 }
@@ -140,17 +118,10 @@ std::uint8_t read_register(CartridgeSlot& slot, unsigned offset, std::int32_t cy
 
 // Fast fetch: `value` was read at `address`. Returns what the CPU gets.
 std::uint8_t follow(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value, std::int32_t cycle) {
-  Chip& chip = chip_of(slot);
-  const auto place = static_cast<std::uint16_t>(address & kAddressBits);
-  const bool continues = chip.missing > 0 && place == chip.next;
-  chip.next = static_cast<std::uint16_t>((place + 1) & kAddressBits);
-  if (continues) {
-    --chip.missing;
-    return chip.loads && value < kReadRegisters ? read_register(slot, value, cycle) : value;
-  }
-  chip.missing = static_cast<std::uint8_t>(kOpcodes[value].length - 1);
-  chip.loads = value == kLoadNumber;
-  return value;
+  harmony::Follower& follower = chip_of(slot).follower;
+  const bool exchanged = follower.continues(address, value, bank(slot)[(address - 2U) % kBankSize]) &&
+                         follower.opcode == kLoadNumber;
+  return exchanged && value < kReadRegisters ? read_register(slot, value, cycle) : value;
 }
 
 // The registers and the stack that the library's ARM code at $C00 leaves.
@@ -169,7 +140,7 @@ void finish_call(CartridgeSlot& slot) {
   Chip& chip = chip_of(slot);
   arm::Registers registers = at_call();
   const arm::Memory memory{slot.rom, slot.ram};
-  chip.stopped = arm::run(memory, registers, chip.instructions) != arm::Ending::kReturned;
+  chip.stopped = arm::run(memory, registers, chip.clock.instructions) != arm::Ending::kReturned;
 }
 
 // Copies bytes of the banks, or one byte, to the display data.
@@ -200,7 +171,7 @@ void call(CartridgeSlot& slot, std::uint8_t function) {
 
 void set_fast_fetch(CartridgeSlot& slot, bool on) {
   slot.state.bank[kFastFetch] = on;
-  chip_of(slot).missing = 0;
+  chip_of(slot).follower = {};
   map(slot);
 }
 
@@ -230,7 +201,7 @@ void set_number(CartridgeSlot& slot, unsigned index, std::uint8_t value) {
   else if (index < 5)
     set_byte(chip.random, index - 1, value);
   else
-    std::memcpy(&chip.voice[index - 5].frequency, &slot.ram[kDriver + kDisplaySize + 4 * value], 4);
+    std::memcpy(&chip.clock.voice[index - 5].frequency, &slot.ram[kDriver + kDisplaySize + 4 * value], 4);
 }
 
 void write_register(CartridgeSlot& slot, unsigned offset, std::uint8_t value) {
@@ -272,9 +243,8 @@ bool can_be(const Chip& chip) {
          std::ranges::all_of(chip.fractional, has_pointer) &&
          std::ranges::all_of(chip.waveform, [](std::uint8_t number) { return number <= 0x7F; }) &&
          std::ranges::all_of(chip.spare, [](std::uint8_t byte) { return byte == 0; }) &&
-         chip.instructions <= kMostInstructions && chip.into_sample < kSampleParts &&
-         chip.parameters <= chip.parameter.size() && chip.next <= kAddressBits && chip.missing <= 2 &&
-         chip.loads <= 1 && chip.stopped <= 1;
+         chip.clock.can_be() && chip.follower.can_be() && chip.parameters <= chip.parameter.size() &&
+         chip.stopped <= 1;
 }
 
 }  // namespace
@@ -283,7 +253,6 @@ bool can_be(const Chip& chip) {
 void reset(CartridgeSlot& slot) {
   Chip& chip = chip_of(slot) = Chip{};
   chip.random = kFirstRandom;
-  chip.instructions = kMostInstructions;
   slot.state.bank = {slot.scheme.initial};
   const std::span image = slot.rom;
   const auto driver = image.first(image.size() - kLeastImage),
@@ -309,7 +278,7 @@ bool admits(const CartridgeSlot&, const CartridgeState& state) {
 
 std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycle) {
   if (slot.state.bank[kCalled]) {
-    pass_time(slot, cycle);
+    chip_of(slot).clock.pass(slot.machine, cycle);
     finish_call(slot);
   }
   select(slot, address);

@@ -21,6 +21,7 @@ constexpr std::size_t kAnySize = ~std::size_t{0};
 constexpr Text kTexts[] = {
     {"DPC+", 1, 8192, kAnySize, "DPC+"},
     {"PLUSCDFJ", 1, 8192, kAnySize, "CDFJ+"},
+    {"CDFJ", 2, 8192, kAnySize, "CDFJ"},
     {"CDF", 2, 8192, kAnySize, "CDF"},
     {"BUS", 2, 32768, kAnySize, "BUS"},
     {"EFEF", 1, 65536, 65536, "EF"},

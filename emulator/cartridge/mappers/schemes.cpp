@@ -9,6 +9,7 @@
 #include "emulator/cartridge/mappers/activision.hpp"
 #include "emulator/cartridge/mappers/amiga.hpp"
 #include "emulator/cartridge/mappers/atari.hpp"
+#include "emulator/cartridge/mappers/cdf.hpp"
 #include "emulator/cartridge/mappers/coleco.hpp"
 #include "emulator/cartridge/mappers/commavid.hpp"
 #include "emulator/cartridge/mappers/dpc.hpp"
@@ -46,6 +47,7 @@ constexpr MapperOps kE7       = {mnetwork::reset,        mnetwork::map,       mn
 constexpr MapperOps kFe       = {activision::reset,      activision::map,     no_hidden_page, kIgnore,               no_banks};
 constexpr MapperOps kDpc      = {dpc::reset,             dpc::map,            dpc::read,      dpc::write,            dpc::admits, dpc::power_on, dpc::port_reader};
 constexpr MapperOps kDpcPlus  = {dpcplus::reset,         dpcplus::map,        dpcplus::read,  dpcplus::write,        dpcplus::admits, nullptr, dpcplus::port_reader};
+constexpr MapperOps kCdf      = {cdf::reset,             cdf::map,            cdf::read,      cdf::write,            cdf::admits};
 constexpr MapperOps k3f       = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write,    tigervision::admits};
 constexpr MapperOps k3e       = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e, tigervision::admits_3e};
 constexpr MapperOps kJane     = {atari::reset,           atari::map,          coleco::read,   coleco::write,         atari::admits};
@@ -66,6 +68,7 @@ constexpr MapperOps kMb       = {atari::reset,           atari::map,          dy
 constexpr MapperOps kMc       = {megacart::reset,        megacart::map,       megacart::read, megacart::write,       megacart::admits};
 
 constexpr unsigned kChip = sizeof(dpc::Chip), kDpcPlusChip = sizeof(dpcplus::Chip);
+constexpr unsigned kCdfChip = sizeof(cdf::Chip);
 constexpr unsigned kDpcPlusLeast = dpcplus::kLeastImage, kDpcPlusMost = dpcplus::kMostImage;
 
 constexpr Scheme kSchemes[] = {
@@ -89,6 +92,8 @@ constexpr Scheme kSchemes[] = {
     {kFe,       "FE",           8192, 0,        0, 0,     0, false, false},
     {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false, false},
     {kDpcPlus,  "DPC+", kDpcPlusLeast, 0xFF6,   6, 5, dpcplus::kRam, false, false, false, kDpcPlusChip, kDpcPlusMost},
+    {kCdf,      "CDFJ", cdf::kImage, cdf::kFirstHotSpot, cdf::kBanks, cdf::kFirstBank, cdf::kRam, false, false, false, kCdfChip, cdf::kImage},
+    {kCdf,      "CDFJ+", cdf::kImage, cdf::kFirstHotSpotPlus, cdf::kBanks, cdf::kFirstBankPlus, cdf::kRam, false, false, false, kCdfChip, cdf::kImage},
     {k3f,       "3F",           2048, 0,        0, 0,     0, false, true},
     {k3e,       "3E",           2048, 0,        0, 0, 32768, true,  true},
     {k3e,       "3EX",          2048, 0,        0, 0, 262144, false, true},

@@ -192,6 +192,21 @@ TEST_CASE("An unsuitable image is refused with the reason") {
   CHECK_THROWS_WITH(scheme_of(mixed(8192), "WD"), Catch::Contains("unsupported cartridge scheme 'WD'"));
 }
 
+TEST_CASE("A scheme whose image has one size refuses another, which the image's text shows") {
+  const auto refusal = [](const Rom& rom) {
+    try {
+      scheme_of(rom);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(refusal(mixed(65536, {{388, {'P', 'L', 'U', 'S', 'C', 'D', 'F', 'J'}}})) ==
+        "the cartridge scheme CDFJ+ needs an image of at most 32768 bytes; this one has 65536 bytes");
+  CHECK(refusal(mixed(16384, {{372, {'C', 'D', 'F', 'J', 'C', 'D', 'F', 'J'}}})) ==
+        "the cartridge scheme CDFJ needs an image of at least 32768 bytes; this one has 16384 bytes");
+}
+
 // An image with `text` at three places.
 Rom with_text(std::size_t size, const std::string& text) {
   const Bytes bytes(text.begin(), text.end());
@@ -226,6 +241,9 @@ TEST_CASE("Schemes are found by the text that their tools write") {
          {"EF's text in a larger image", with_text(131072, "EFEF"), "MC"},
          {"3E+", with_text(32768, "TJ3E"), "3E+"},
          {"3EX", with_text(32768, "3EX"), "3EX"},
+         {"CDFJ", with_text(32768, "CDFJ"), "CDFJ"},
+         {"CDFJ once, CDF twice", mixed(32768, {{700, {'C', 'D', 'F', 'J'}}, {900, {'C', 'D', 'F'}}}), "CDF"},
+         {"CDFJ+", with_text(32768, "PLUSCDFJ"), "CDFJ+"},
          {"DPC+", with_text(32768, "DPC+"), "DPC+"},
          {"DPC+ without a driver", with_text(29696, "DPC+"), "DPC+"}});
 }

@@ -21,7 +21,7 @@ std::map<std::string, std::string> documented() {
     std::istringstream cells(line);
     std::string empty, scheme, runs;
     if (std::getline(cells, empty, '|') && std::getline(cells, scheme, '|') && std::getline(cells, runs, '|'))
-      rows[scheme.substr(1, scheme.size() - 2)] = runs.substr(1, runs.size() - 2);
+      rows[scheme.substr(1, scheme.size() - 2)] = runs.substr(1, runs.find_first_of(" ,", 1) - 1);
   }
   rows.erase("Scheme");
   rows.erase("--");

@@ -136,6 +136,22 @@ TEST_CASE("DPC+: fast fetch knows opcodes from operands and data, and leaves RAM
                    bench.state.cartridge.ram.begin()));
 }
 
+// RTS ends with a read of the third byte of JSR, here $F1, which would be an opcode of two bytes.
+TEST_CASE("DPC+: fast fetch exchanges the operand of LDA # behind a subroutine") {
+  const Bytes code = {0x20, 0x08, 0xF1,                                // JSR $F108
+                      0xA9, 0x08, 0xAA, 0xEA, 0xEA, 0x20, 0x80, 0x00,  // JSR $0080, which has RTS
+                      0x60};
+  Bench bench = start(code);
+  bench.write_at(0, 0x1058, 0);
+  bench.write_at(0, 0x1068, 0x7);  // display[$700] = $70
+  bench.cpu.SP = 0xFF;
+  bench.state.riot.ram[0] = 0x60;
+  bench.run_program(4);
+  CHECK(unsigned{bench.cpu.PC} == 0x1103);
+  bench.run_program(2);
+  CHECK(unsigned{bench.cpu.X} == 0x70);
+}
+
 // R1 = the display data. Then a word there is R0, SP or LR.
 TEST_CASE("DPC+: a call runs the ARM at the next access, with the registers of the library's start") {
   const Bytes code = {0xA9, 0xFF, 0x8D, 0x5A, 0x10,  // LDA #$FF; STA $105A

@@ -8,6 +8,7 @@
 
 #include "tests/emulator/bench.hpp"
 #include "tests/emulator/reference/reference_cartridges.hpp"
+#include "tests/emulator/reference/reference_cdf.hpp"
 #include "tests/emulator/reference/reference_dpcplus.hpp"
 
 namespace racebeam::test {
@@ -42,6 +43,38 @@ void prepare_dpcplus(Rom& rom) {
 const std::vector<Range> kDpcPlusPorts = {{0x1000, 0x28}, {0x1005, 1}, {0x1028, 0x58}, {0x1058, 3},
                                           {0x105A, 1},    {0x1059, 1}, {0x1068, 8},    {0x1FF6, 6},
                                           {0x1010, 8},    {0x1020, 4}, {0x1040, 16}};
+
+void keep_below(std::uint8_t& byte, unsigned limit) { byte = static_cast<std::uint8_t>(byte % limit); }
+
+// Many LDA #, LDX #, LDY # and JMP that fast fetch exchanges, pointers within the display data, waveforms in
+// it and in the image, and a program for the ARM.
+template <bool kPlus>
+void prepare_cdf(Rom& rom) {
+  constexpr std::array<std::uint8_t, 4> kOpcodes = {0xA9, 0xA2, 0xA0, 0x4C};
+  for (std::size_t i = 0x800; i + 2 < rom.size(); i += 4 + rom[i] % 4U) {
+    rom[i] = kOpcodes[rom[i] % 4U];
+    const bool jumps = rom[i] == 0x4C;
+    keep_below(rom[i + 1], jumps ? 3 : 0x40);
+    if (jumps) keep_below(rom[i + 2], 2);
+  }
+  for (unsigned i = 0; i < 35; ++i) {
+    keep_below(rom[0x98 + 4 * i + 3], kPlus ? 0x18 : 0xFF);
+    keep_below(rom[0x124 + 4 * i + 1], 3);
+    rom[0x124 + 4 * i + 2] = rom[0x124 + 4 * i + 3] = 0;
+  }
+  for (unsigned v = 0; v < 3; ++v) {
+    rom[0x1B0 + 4 * v + 1] = 0x09;
+    rom[0x1B0 + 4 * v + 2] = 0;
+    rom[0x1B0 + 4 * v + 3] = rom[0x1B0 + 4 * v] % 4U == 0 ? 0 : 0x40;
+  }
+  const bool has_choices = rom[0x1B0] % 2U == 0;
+  rom[0x34C] = has_choices ? 0xA2 : 0xA9;
+  rom[0x350] = rom[0x1B4] % 2U == 0 ? 0xA0 : 0xA9;
+  rom[0x3E0] = has_choices ? 8 : 0xE0;
+  put_counting_cdf_program(rom, kPlus);
+}
+
+const std::vector<Range> kCdfPorts = {{0x1FF0, 4}, {0x1FF0, 1}, {0x1FF2, 1}, {0x1FF3, 1}, {0x1FF4, 8}};
 
 const std::vector<Case> kCases = {
     {"4KSC", 4096, make<Model4ksc>, {{0x1000, 0x100}}},
@@ -84,6 +117,8 @@ const std::vector<Case> kCases = {
     {"DPC+", 32768, make<ModelDpcPlus>, kDpcPlusPorts, prepare_dpcplus},
     {"DPC+", 29696, make<ModelDpcPlus>, kDpcPlusPorts, prepare_dpcplus},
     {"DPC+", 30001, make<ModelDpcPlus>, kDpcPlusPorts, prepare_dpcplus},
+    {"CDFJ", 32768, make<ModelCdf<false>>, kCdfPorts, prepare_cdf<false>},
+    {"CDFJ+", 32768, make<ModelCdf<true>>, kCdfPorts, prepare_cdf<true>},
 };
 
 Properties asking_for(const char* scheme) {

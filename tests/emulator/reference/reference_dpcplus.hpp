@@ -28,6 +28,14 @@ inline unsigned length_of(unsigned opcode) {
   return low == 0x02 && (odd || opcode < 0x80) ? 1 : 2;
 }
 
+inline bool is_jump(unsigned opcode) { return opcode == 0x4C || opcode == 0x6C || opcode % 32 == 0x10; }
+
+// Whether the byte at `a` is the third one of JSR. The last byte was in front of `next`, in an instruction
+// with `opcode`. `before` is the byte two addresses in front.
+inline bool ends_call(unsigned a, unsigned next, unsigned opcode, unsigned before) {
+  return a == next ? opcode == 0x20 : before == 0x20 && !is_jump(opcode);
+}
+
 struct ModelDpcPlus : Copyable<ModelDpcPlus> {
   explicit ModelDpcPlus(Image bytes) : Copyable(std::move(bytes)), base(image.size() - 29696) {
     for (std::size_t i = 0; i < 4096; ++i) display[i] = image[base + 24576 + i];
@@ -40,8 +48,7 @@ struct ModelDpcPlus : Copyable<ModelDpcPlus> {
   std::uint32_t random = 0x2B435044;
   unsigned bank = 5, parameters = 0;
   bool fast = false, waits = false, stands = false;
-  unsigned next = 0, rest = 0;
-  bool is_lda = false;
+  unsigned next = 0, rest = 0, opcode = 0;
   std::int64_t counted = 0;  // cycles
 
   void arm() {
@@ -118,16 +125,18 @@ struct ModelDpcPlus : Copyable<ModelDpcPlus> {
       arm();
     }
     touch(a);
-    unsigned value = a < 0x1028 ? reg(a - 0x1000, cycle) : image[base + 4096 * bank + (a & 0xFFF)];
+    const auto in_bank = [&](unsigned place) { return image[base + 4096 * bank + (place & 0xFFF)]; };
+    const unsigned value = a < 0x1028 ? reg(a - 0x1000, cycle) : in_bank(a);
     if (!fast) return value;
-    const bool continues = rest > 0 && a == next;
-    next = a + 1;
-    if (continues) {
+    if (rest > 0 && a == next) {
+      next = (a + 1) & 0x1FFF;
       --rest;
-      return is_lda && value < 0x28 ? reg(value, cycle) : value;
+      return opcode == 0xA9 && value < 0x28 ? reg(value, cycle) : value;
     }
-    rest = length_of(value) - 1;
-    is_lda = value == 0xA9;
+    const bool ends = ends_call(a, next, opcode, in_bank(a - 2));
+    rest = ends ? 0 : length_of(value) - 1;
+    opcode = ends ? 0xEA : value;
+    next = (a + 1) & 0x1FFF;
     return value;
   }
 
@@ -145,7 +154,7 @@ struct ModelDpcPlus : Copyable<ModelDpcPlus> {
   void control(unsigned i, unsigned v) {
     if (i == 0) {
       fast = v == 0;
-      rest = 0;
+      next = rest = opcode = 0;
     } else if (i == 1 && parameters < 8) {
       parameter[parameters++] = v;
     } else if (i == 2) {

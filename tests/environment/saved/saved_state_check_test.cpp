@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "emulator/cartridge/mappers/cdf.hpp"
 #include "emulator/cartridge/mappers/dpc.hpp"
 #include "emulator/cartridge/mappers/dpcplus.hpp"
 #include "environment/saved/saved_state_format.hpp"
@@ -179,27 +180,55 @@ TEST_CASE("Registers that DPC+'s chip can't have are refused") {
   const auto highest = [](Chip& chip) {
     chip.fetcher.fill({4095, 255, 255});
     chip.fractional.fill({4095, 255, 255});
-    chip.voice.fill({0xFFFFFFFF, 0xFFFFFFFF});
+    chip.clock.voice.fill({0xFFFFFFFF, 0xFFFFFFFF});
     chip.waveform.fill(127);
     chip.random = 0xFFFFFFFF;
-    chip.instructions = dpcplus::kMostInstructions;
-    chip.into_sample = dpcplus::kSampleParts - 1;
+    chip.clock.instructions = harmony::kMostInstructions;
+    chip.clock.into_sample = harmony::kSampleParts - 1;
     chip.parameters = 8;
-    chip.next = 0x1FFF, chip.missing = 2, chip.loads = 1, chip.stopped = 1;
+    chip.follower = {0x1FFF, 2, 0xFF};
+    chip.stopped = 1;
   };
   CHECK(refusal_of_chip<Chip>(environment, highest).empty());
   const std::function<void(Chip&)> spoilt[] = {
       [](Chip& chip) { chip.fetcher[3].pointer = 4096; },
       [](Chip& chip) { chip.fractional[7].pointer = 4096; },
       [](Chip& chip) { chip.waveform[2] = 128; },
-      [](Chip& chip) { chip.instructions = dpcplus::kMostInstructions + 1; },
-      [](Chip& chip) { chip.into_sample = dpcplus::kSampleParts; },
+      [](Chip& chip) { chip.clock.instructions = harmony::kMostInstructions + 1; },
+      [](Chip& chip) { chip.clock.into_sample = harmony::kSampleParts; },
       [](Chip& chip) { chip.parameters = 9; },
-      [](Chip& chip) { chip.next = 0x2000; },
-      [](Chip& chip) { chip.missing = 3; },
-      [](Chip& chip) { chip.loads = 2; },
+      [](Chip& chip) { chip.follower.next = 0x2000; },
+      [](Chip& chip) { chip.follower.missing = 3; },
       [](Chip& chip) { chip.stopped = 2; },
       [](Chip& chip) { chip.spare[2] = 1; }};
+  for (const auto& spoil : spoilt)
+    CHECK_THAT(refusal_of_chip(environment, spoil), Catch::Contains("has no such banks or registers"));
+}
+
+TEST_CASE("Registers that CDFJ's chip can't have are refused") {
+  using cdf::Chip;
+  Environment environment = random_machine("CDFJ");
+  const auto highest = [](Chip& chip) {
+    chip.clock.voice.fill({0xFFFFFFFF, 0xFFFFFFFF});
+    chip.clock.instructions = harmony::kMostInstructions;
+    chip.clock.into_sample = harmony::kSampleParts - 1;
+    chip.follower = {0x1FFF, 2, 0xFF};
+    chip.wave.fill(31);
+    chip.plays_waves = 1, chip.jump = 0x22, chip.stopped = 1;
+  };
+  CHECK(refusal_of_chip<Chip>(environment, highest).empty());
+  const std::function<void(Chip&)> spoilt[] = {
+      [](Chip& chip) { chip.clock.instructions = harmony::kMostInstructions + 1; },
+      [](Chip& chip) { chip.clock.into_sample = harmony::kSampleParts; },
+      [](Chip& chip) { chip.follower.next = 0x2000; },
+      [](Chip& chip) { chip.follower.missing = 3; },
+      [](Chip& chip) { chip.wave[0] = 19; },
+      [](Chip& chip) { chip.wave[2] = 32; },
+      [](Chip& chip) { chip.plays_waves = 2; },
+      [](Chip& chip) { chip.jump = 0x20; },
+      [](Chip& chip) { chip.jump = 0x23; },
+      [](Chip& chip) { chip.stopped = 2; },
+      [](Chip& chip) { chip.spare[1] = 1; }};
   for (const auto& spoil : spoilt)
     CHECK_THAT(refusal_of_chip(environment, spoil), Catch::Contains("has no such banks or registers"));
 }

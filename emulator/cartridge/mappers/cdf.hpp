@@ -1,0 +1,44 @@
+// CDFJ and CDFJ+, of homebrew games since 2017: seven banks of 4K, 35 streams that read display data in RAM,
+// jumps through two of them, three voices or a sample, and an ARM, whose Thumb code the program calls
+// (docs/spec/cartridges.md, 15).
+//
+// While "fast fetch" is on, the cartridge follows each instruction. All its pages are then hidden, and while
+// a call of the ARM waits, too. In between, code is plain memory, as in other schemes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "emulator/cartridge/cartridge.hpp"
+#include "emulator/cartridge/mappers/harmony.hpp"
+
+namespace racebeam::cdf {
+
+constexpr unsigned kBanks = 7, kBankSize = 4096, kImage = 32768, kRam = 8192;
+constexpr unsigned kFirstBank = 6, kFirstBankPlus = 0;                // the initial ones
+constexpr unsigned kFirstHotSpot = 0xFF5, kFirstHotSpotPlus = 0xFF4;  // that select banks
+constexpr std::uint8_t kLeastWave = 20, kMostWave = 31;               // sizes
+
+// Stored and used in the bytes of the state in which other schemes have RAM. Pointers, increments and
+// waveforms are in the RAM of the ARM.
+struct Chip {
+  harmony::Clock clock;
+  harmony::Follower follower;
+  std::array<std::uint8_t, 3> wave;  // the bits of a phase that are behind the byte of the wave
+  std::uint8_t plays_waves;          // else a sample
+  std::uint8_t jump;                 // the stream that gives the second byte of a jump's address; 0: none
+  std::uint8_t stopped;              // the ARM stands still
+  std::uint8_t spare[2];
+};
+static_assert(sizeof(Chip) <= kRamInState && std::has_unique_object_representations_v<Chip>);
+static_assert(alignof(Chip) <= alignof(CartridgeState));
+
+enum Bank { kShown, kFastFetch, kCalled };  // among the state's banks
+
+void reset(CartridgeSlot& slot);
+void map(CartridgeSlot& slot);
+bool admits(const CartridgeSlot& slot, const CartridgeState& state);
+std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycle);
+Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value);
+
+}  // namespace racebeam::cdf

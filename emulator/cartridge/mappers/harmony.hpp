@@ -1,0 +1,87 @@
+// What the schemes of the Harmony cartridge share, whose ARM plays the part of a chip: DPC+ and CDFJ. Time
+// gives the ARM instructions, and moves three voices on. A follower knows the opcodes among the bytes that
+// the CPU fetches (docs/spec/cartridges.md, 14).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "emulator/base/opcodes.hpp"
+#include "emulator/cartridge/cartridge.hpp"
+
+namespace racebeam::harmony {
+
+// The ARM's time. An endless call ends when all is used up. A frame that does not end gives no more of it.
+constexpr std::uint32_t kInstructionsPerCycle = 16, kMostInstructions = 1U << 19;
+constexpr std::int32_t kCyclesOfFrame = 32768;
+
+// 3579575 / 3 / 20000 cycles are a sample, or 143183 / 2400.
+constexpr unsigned kSampleParts = 143183, kPartsPerCycle = 2400;
+
+constexpr std::uint16_t kAddressBits = 0x1FFF;
+
+struct Voice {
+  std::uint32_t frequency, phase;
+};
+
+struct Clock {
+  std::array<Voice, 3> voice;
+  std::uint32_t instructions = kMostInstructions;  // that the ARM may execute
+  std::uint32_t into_sample;                       // kSampleParts are a sample
+
+  bool can_be() const { return instructions <= kMostInstructions && into_sample < kSampleParts; }
+
+  void pass(State& machine, std::int32_t cycle) {
+    const auto before = static_cast<std::int32_t>(machine.frame.cartridge_clock);
+    machine.frame.cartridge_clock = static_cast<std::uint32_t>(cycle);
+    if (cycle <= before) return;
+    add_instructions(std::int64_t{std::min(cycle, kCyclesOfFrame)} - std::min(before, kCyclesOfFrame));
+    const std::uint64_t parts =
+        into_sample + kPartsPerCycle * static_cast<std::uint64_t>(std::int64_t{cycle} - before);
+    into_sample = static_cast<std::uint32_t>(parts % kSampleParts);
+    for (Voice& one : voice) one.phase += one.frequency * static_cast<std::uint32_t>(parts / kSampleParts);
+  }
+
+ private:
+  void add_instructions(std::int64_t cycles) {
+    const auto all = instructions + kInstructionsPerCycle * static_cast<std::uint64_t>(cycles);
+    instructions = static_cast<std::uint32_t>(std::min<std::uint64_t>(kMostInstructions, all));
+  }
+};
+
+// Bytes of one instruction follow each other. Any other byte that is read begins an instruction, but for the
+// third byte of JSR, which the CPU reads when it jumps, and again when it returns.
+struct Follower {
+  std::uint16_t next;    // address of the byte behind the last one
+  std::uint8_t missing;  // how many bytes the instruction has from there on
+  std::uint8_t opcode;
+
+  bool can_be() const { return next <= kAddressBits && missing <= 2; }
+
+  // Whether the byte at `address` belongs to the instruction that has begun, and is not its opcode. `before`
+  // is the byte two addresses in front of it.
+  bool continues(std::uint16_t address, std::uint8_t value, std::uint8_t before) {
+    const auto place = static_cast<std::uint16_t>(address & kAddressBits);
+    const bool behind = place == next, continued = behind && missing > 0;
+    next = static_cast<std::uint16_t>((place + 1) & kAddressBits);
+    if (continued) {
+      --missing;
+    } else if (behind ? opcode == kCall : before == kCall && !jumps()) {
+      missing = 0;
+      opcode = kNothing;
+    } else {
+      missing = static_cast<std::uint8_t>(kOpcodes[value].length - 1);
+      opcode = value;
+    }
+    return continued;
+  }
+
+ private:
+  static constexpr std::uint8_t kCall = 0x20, kNothing = 0xEA, kJump = 0x4C, kJumpIndirect = 0x6C;
+
+  // JMP, and branches.
+  bool jumps() const { return opcode == kJump || opcode == kJumpIndirect || (opcode & 0x1F) == 0x10; }
+};
+
+}  // namespace racebeam::harmony
