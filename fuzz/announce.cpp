@@ -1,5 +1,5 @@
 // The file that tells clients of a server, as the C++ client reads it. After an even first byte the input is
-// the file. Else it is what a server announces, a line each: its token, and addresses.
+// the file. Otherwise it is what a server announces, a line each: its token, and addresses.
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
