@@ -71,7 +71,8 @@ std::string play(Environment& environment, const Work& work, int acts, unsigned 
 }
 
 std::string second_half(Environment& environment, const Work& work) {
-  return play(environment, work, work.acts - work.acts / 2, 2) + state_line(environment);
+  const std::string text = play(environment, work, work.acts - work.acts / 2, 2);
+  return text + state_line(environment);
 }
 
 }  // namespace
