@@ -22,6 +22,7 @@ from .arguments import (
 )
 from .presets import vector_preset
 from .vector.autoreset import AutoresetMode, check_supported
+from .vector.logs import VectorLogs
 from .vector.making import Rom, make_local_machines, make_remote_machines, parse_games
 from .vector.play import PlayedVector
 from .vector_options import VectorOptions, life_loss_of, merge_life_flags
@@ -104,6 +105,10 @@ class AtariVectorEnv(PlayedVector):
         token: Token that the server asks for.
         timeout: Seconds to wait for each reply of the server. Default: no limit.
         lives: Old name of `life_loss`.
+        log: The arguments of `RecordLog` but `env` and `phrase`, as a dict with "folder". Each game is then logged into
+            this new folder, a submission; environment i plays the trial `trial` + i. Each game begins at power-on, with
+            a seed of its own. Needs NEXT_STEP or DISABLED, `noop_max=0`, `use_fire_reset=False`, and another
+            `life_loss` than "end".
 
     Raises:
         gymnasium.error.Error: If an argument is wrong; also a TypeError or a ValueError.
@@ -186,6 +191,7 @@ class AtariVectorEnv(PlayedVector):
         token: str | None = None,
         timeout: float | None = None,
         lives: str | None = None,
+        log: dict[str, Any] | None = None,
     ) -> None:
         check_supported("AtariVectorEnv")
         rom, own_file = image(rom), path_of(game_file)
@@ -237,6 +243,10 @@ class AtariVectorEnv(PlayedVector):
             machines = make_remote_machines(names, rom, options, server, token, seconds("timeout", timeout))
         warn_of(machines.doubts())
         self._use(machines, names, game_of_env, options, None if seed is None else options.seed)
+        if log is not None:
+            if own := [*console, *(["game_file"] if own_file else []), *(["server"] if server else [])]:
+                raise WrongValue(f"{' and '.join(own)} cannot be given with log")
+            self._logs = VectorLogs(log, options, [names[game] for game in game_of_env], rom, machines)
 
     def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
         """Makes functions that programs compiled by JAX call. Results stay on the processor.

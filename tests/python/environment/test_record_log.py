@@ -19,7 +19,7 @@ import numpy as np
 import racebeam.program
 from racebeam import InvalidInput, RecordLog
 from racebeam.episode_log import Origin, Start, log_of, play
-from racebeam.single.record_log import COLUMNS
+from racebeam.single.submission import COLUMNS
 
 
 def play_games(env, games, seed=None):

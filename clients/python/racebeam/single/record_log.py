@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import os
-import pathlib
-import re
 import warnings
 from typing import Any, SupportsFloat
 
@@ -14,19 +11,11 @@ import gymnasium
 import numpy as np
 
 from ..env import AtariEnv
-from ..episode_log import MOST_SEED, Episode, Origin, Start, log_of, play
+from ..episode_log import MOST_SEED, Origin, Start, play
 from ..errors import InvalidInput
+from .submission import Submission
 
 __all__ = ["RecordLog"]
-
-NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
-COLUMNS = (
-    "unit,game,image_md5,agent,trial,episode,environment_seed,agent_seed,score,frames,decisions,end,lives,state_hash,"
-    "log_digest,version"
-)
-# The presets of evaluation: frame_skip, sticky, action_set and max_episode_frames. Those with no-ops are missing, since
-# no-ops that an environment plays are not in a log.
-PRESETS = {"paper2013": (5, 0.0, "full", 18000), "machado2018": (5, 0.25, "full", 18000)}
 
 
 class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
@@ -87,8 +76,6 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         about: dict[str, str] | None = None,
     ) -> None:
         super().__init__(env)
-        if not NAME.fullmatch(agent):
-            raise InvalidInput(f"agent is {agent!r}; it takes 1 to 64 letters, digits, '_', '.' and '-'")
         self._base = _checked(env)
         self._template = _template_of(self._base)
         self._origin, self._phrase = Origin(agent, trial, 1, agent_seed), phrase
@@ -96,21 +83,15 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         self._start: Start | None = None  # of the episode that is played
         self._actions: list[int] = []
         self.logged = self.unlogged = 0
-        self._folder = pathlib.Path(folder)
-        self._folder.mkdir()
-        words: dict[str, object] = {
-            "agent": agent,
-            "version": version,
-            "preset": _preset_of(self._template),
-            "training_frames": training_frames,
-            **({} if phrase is None else {"phrase": phrase}),
-            **(about or {}),
-        }
-        _write(
-            self._folder / "agent.toml",
-            "".join(f"{key} = {json.dumps(word, ensure_ascii=False)}\n" for key, word in words.items()),
+        self._submission = Submission(
+            folder,
+            self._template,
+            agent=agent,
+            version=version,
+            training_frames=training_frames,
+            phrase=phrase,
+            about=about,
         )
-        _write(self._folder / "results.csv", COLUMNS + "\n")
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Begins an episode, at power-on if the game is over or has not begun.
@@ -181,40 +162,14 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
             episode = play(start, actions)
             if not episode.is_over or episode.hashes[-1] != self._base.ale.state_hash():
                 return self._skip("the same actions lead to another state; a state was restored in it, or RAM was set")
-            self._keep(start, actions, episode)
+            self._submission.add(start, actions, episode, self._origin._replace(episode=self.logged + 1))
+            self.logged += 1
         except (InvalidInput, OSError) as error:
             self._skip(str(error))
 
     def _skip(self, why: str) -> None:
         self.unlogged += 1
         warnings.warn(f"an episode of {self._template.game} has no log: {why}", stacklevel=4)
-
-    def _keep(self, start: Start, actions: list[int], episode: Episode) -> None:
-        log, row = log_of(start, actions, episode, self._origin._replace(episode=self.logged + 1))
-        unit = self._folder / "logs" / row["unit"]
-        unit.mkdir(parents=True, exist_ok=True)
-        path, table = unit / f"{row['episode']}.episode", self._folder / "results.csv"
-        size = table.stat().st_size
-        _write(path, log)
-        try:
-            with open(table, "a", encoding="utf-8") as file:
-                file.write(",".join(row[column] for column in COLUMNS.split(",")) + "\n")
-        except OSError:
-            os.truncate(table, size)
-            path.unlink()
-            raise
-        self.logged += 1
-
-
-def _write(path: pathlib.Path, contents: bytes | str) -> None:
-    """Writes a whole file or none."""
-    aside = path.with_name(f".{path.name}.part")
-    try:
-        aside.write_bytes(contents.encode() if isinstance(contents, str) else contents)
-        aside.replace(path)
-    except OSError:
-        aside.unlink(missing_ok=True)
-        raise
 
 
 def _checked(env: gymnasium.Env[Any, Any]) -> AtariEnv:
@@ -251,10 +206,3 @@ def _template_of(base: AtariEnv) -> Start:
         base._game_mode,
         rom=base._rom,
     )
-
-
-def _preset_of(start: Start) -> str:
-    if start.rules != "ale-0.12" or start.life_loss != "ignored":
-        return "other"
-    settings = (start.frame_skip, start.sticky, start.action_set, start.max_episode_frames)
-    return next((name for name, preset in PRESETS.items() if preset == settings), "other")

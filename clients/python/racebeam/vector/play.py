@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, SupportsIndex, TypeAlias
+from typing import TYPE_CHECKING, Any, SupportsIndex, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,9 @@ from .inputs import indices_of, joysticks_of, mask_of, seeds_of
 from .machines import Actions, Joysticks
 from .machines import Seeds as SeedArray
 from .results import Bools, Info, Numbers, Pixels, Step
+
+if TYPE_CHECKING:
+    from .logs import VectorLogs
 
 __all__ = ["PlayedVector", "Seeds"]
 
@@ -36,6 +39,7 @@ class PlayedVector(VectorOfEach):
     """
 
     continuous_action_threshold: float
+    _logs: VectorLogs | None = None
 
     def reset(
         self, *, seed: Seeds | None = None, options: dict[str, Any] | None = None, out: Pixels | None = None
@@ -72,11 +76,15 @@ class PlayedVector(VectorOfEach):
             raise InvalidInput("reset_mask is given with batch_size < num_envs; it needs batch_size to be num_envs")
         self._drop_pending()
         self._first_seed = None
+        if self._logs is not None:
+            seeds = self._logs.seeds_of_reset(seeds, mask)
         if self.batch_size == self.num_envs:
             self._machines.reset(mask, seeds, results)
         else:
             self._machines.send_resets(seeds)
             self._machines.receive(results)
+        if self._logs is not None and seeds is not None:
+            self._logs.began(seeds, mask)
         observations, *_, info = self._format_step(results)
         return observations, info
 
@@ -120,6 +128,8 @@ class PlayedVector(VectorOfEach):
             self._machines.step_joysticks(parsed, self.continuous_action_threshold, results)
         else:
             self._machines.step(parsed, results)
+        if self._logs is not None:
+            self._logs.stepped(parsed, results)
         return self._format_step(results)
 
     def send(self, actions: npt.ArrayLike) -> None:

@@ -1,0 +1,114 @@
+"""The folder of a submission, which `racebeam verify` confirms (docs/evaluation.md)."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import re
+
+from ..episode_log import Episode, Origin, Start, log_of
+from ..errors import InvalidInput
+
+__all__ = ["Submission"]
+
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
+COLUMNS = (
+    "unit,game,image_md5,agent,trial,episode,environment_seed,agent_seed,score,frames,decisions,end,lives,state_hash,"
+    "log_digest,version"
+)
+# The presets of evaluation: frame_skip, sticky, action_set and max_episode_frames. Those with no-ops are missing, since
+# no-ops that an environment plays are not in a log.
+PRESETS = {"paper2013": (5, 0.0, "full", 18000), "machado2018": (5, 0.25, "full", 18000)}
+
+
+class Submission:
+    """A new folder that logs are added to.
+
+    Args:
+        folder: Path of the folder, which does not exist yet.
+        start: How the episodes begin, but for the seed.
+        agent: Name of the agent: letters, digits, "_", "." and "-".
+        version: Version of the agent.
+        training_frames: Frames of training that the agent had.
+        phrase: The phrase that the seeds of the episodes follow from, or None.
+        about: Other keys of agent.toml: "words", "link" and "role".
+
+    Raises:
+        InvalidInput: If the name of the agent is wrong.
+        FileExistsError: If the folder exists.
+        OSError: If it cannot be made.
+    """
+
+    def __init__(
+        self,
+        folder: str | os.PathLike[str],
+        start: Start,
+        *,
+        agent: str = "agent",
+        version: str = "1",
+        training_frames: int = 0,
+        phrase: str | None = None,
+        about: dict[str, str] | None = None,
+    ) -> None:
+        if not NAME.fullmatch(agent):
+            raise InvalidInput(f"agent is {agent!r}; it takes 1 to 64 letters, digits, '_', '.' and '-'")
+        self._folder = pathlib.Path(folder)
+        self._folder.mkdir()
+        words: dict[str, object] = {
+            "agent": agent,
+            "version": version,
+            "preset": _preset_of(start),
+            "training_frames": training_frames,
+            **({} if phrase is None else {"phrase": phrase}),
+            **(about or {}),
+        }
+        _write(
+            self._folder / "agent.toml",
+            "".join(f"{key} = {json.dumps(word, ensure_ascii=False)}\n" for key, word in words.items()),
+        )
+        _write(self._folder / "results.csv", COLUMNS + "\n")
+
+    def add(self, start: Start, actions: list[int], episode: Episode, origin: Origin) -> None:
+        """Writes the log of an episode and its row, or neither.
+
+        Args:
+            start: How it began.
+            actions: What was played.
+            episode: How it ended.
+            origin: Who played.
+
+        Raises:
+            OSError: If they cannot be written.
+        """
+        log, row = log_of(start, actions, episode, origin)
+        unit = self._folder / "logs" / row["unit"]
+        unit.mkdir(parents=True, exist_ok=True)
+        path, table = unit / f"{row['episode']}.episode", self._folder / "results.csv"
+        size = table.stat().st_size
+        _write(path, log)
+        try:
+            with open(table, "a", encoding="utf-8") as file:
+                file.write(",".join(row[column] for column in COLUMNS.split(",")) + "\n")
+        except OSError:
+            os.truncate(table, size)
+            path.unlink()
+            raise
+
+
+def _write(path: pathlib.Path, contents: bytes | str) -> None:
+    """Writes a whole file or none."""
+    aside = path.with_name(f".{path.name}.part")
+    try:
+        aside.write_bytes(contents.encode() if isinstance(contents, str) else contents)
+        aside.replace(path)
+    except OSError:
+        aside.unlink(missing_ok=True)
+        raise
+
+
+def _preset_of(start: Start) -> str:
+    if start.rules != "ale-0.12" or start.life_loss != "ignored":
+        return "other"
+    settings = (start.frame_skip, start.sticky, start.action_set, start.max_episode_frames)
+    return next((name for name, preset in PRESETS.items() if preset == settings), "other")

@@ -1,0 +1,198 @@
+"""Logs of the episodes of an AtariVectorEnv, as a submission that `racebeam verify` confirms (docs/evaluation.md)."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..arguments import WrongType, value_or
+from ..episode_log import MOST_SEED, Origin, Start, play
+from ..errors import InvalidInput
+from ..single.submission import Submission
+from ..vector_options import VectorOptions
+from .autoreset import AutoresetMode
+from .machines import Actions, Seeds
+from .making import Rom
+from .results import Bools, Results
+
+__all__ = ["VectorLogs"]
+
+
+class VectorLogs:
+    """Writes a log of each game of a vector of environments. Environment i plays the trial `trial` + i.
+
+    A log begins at power-on, so that each game begins with a seed of its own. A game that was left before its end, or
+    in which a state was restored, has no log, nor has one whose log cannot be written. A warning says so.
+
+    Args:
+        arguments: Those of `RecordLog` but `env` and `phrase`, as a dict with "folder".
+        options: The options of the environments.
+        games: Name of the game of each environment.
+        rom: The image of the game, or None for that of its name.
+        machines: The machines that play them.
+
+    Attributes:
+        logged: Number of the games that have a log.
+        unlogged: Number of those that have none.
+
+    Raises:
+        InvalidInput: If an argument is wrong, or the environments play what a log cannot repeat.
+        FileExistsError: If the folder exists.
+        OSError: If it cannot be made.
+    """
+
+    def __init__(
+        self,
+        arguments: dict[str, Any],
+        options: VectorOptions,
+        games: Sequence[str | None],
+        rom: Rom | None,
+        machines: Any,
+    ) -> None:
+        _check(options, games)
+        self._options, self._machines = options, machines
+        self._starts = [_start_of(options, str(game), rom) for game in games]
+        words = dict(arguments)
+        origin = Origin(words.get("agent", "agent"), words.pop("trial", 1), 1, words.pop("agent_seed", 0))
+        self._origins = [origin._replace(trial=origin.trial + env) for env in range(len(games))]
+        try:
+            self._submission = Submission(words.pop("folder"), self._starts[0], **words)
+        except (KeyError, TypeError) as error:
+            raise WrongType(
+                f"log is {arguments!r}; it takes a dict with folder, and with agent, version, training_frames, trial, "
+                "agent_seed and about of RecordLog"
+            ) from error
+        self._numbers = [machines.actions_of(env) for env in range(len(games))]
+        self._seeds = np.arange(len(games), dtype=np.int64) + options.seed - len(games)  # of the present games
+        self._games = [_Game() for _ in games]
+        self._is_over = np.zeros(len(games), np.bool_)  # the episode
+        self.logged = self.unlogged = 0
+
+    def seeds_of_reset(self, seeds: Seeds | None, mask: Bools | None) -> Seeds:
+        """Returns the seeds of a reset: those that were given, or else the next ones.
+
+        Args:
+            seeds: Those that were given; -1 means unseeded.
+            mask: The environments to reset, or None for all.
+
+        Returns:
+            A seed for each environment.
+        """
+        chosen = np.ones(len(self._games), np.bool_) if mask is None else mask
+        given = np.full(len(self._games), -1, np.int64) if seeds is None else np.array(seeds)
+        for env in np.flatnonzero(chosen & (given < 0)):
+            given[env] = self._next_seed(env)
+        return given
+
+    def began(self, seeds: Seeds, mask: Bools | None) -> None:
+        """Notes a reset with these seeds.
+
+        Args:
+            seeds: What `seeds_of_reset` returned.
+            mask: The environments that were reset, or None for all.
+        """
+        chosen = np.ones(len(self._games), np.bool_) if mask is None else mask
+        self._is_over[chosen] = False
+        for env in np.flatnonzero(chosen):
+            if self._games[env].actions:
+                self._skip(env, "it was left before its end")
+            self._begin(env, int(seeds[env]))
+
+    def stepped(self, actions: Actions, results: Results) -> None:
+        """Notes a step, and writes the logs of games that are over.
+
+        Args:
+            actions: An index into the action set for each environment.
+            results: What the step returned.
+        """
+        played = ~self._is_over
+        ends = results.game_over | results.truncated
+        if self._options.life_loss == "restart":
+            ends |= results.terminated
+        stays = self._options.autoreset_mode is AutoresetMode.DISABLED
+        self._is_over = ends | (~played & stays)
+        for env in np.flatnonzero(played):
+            game = self._games[env]
+            game.actions.append(self._numbers[env][actions[env]])
+            game.score += int(results.raw_rewards[env])
+            if ends[env]:
+                self._finish(env, results)
+
+    def _finish(self, env: int, results: Results) -> None:
+        game, self._games[env] = self._games[env], _Game()
+        start = self._starts[env]._replace(seed=int(self._seeds[env]))
+        try:
+            episode = play(start, game.actions)
+            seen = (game.score, results.episode_frames[env], results.lives[env], len(game.actions))
+            if not episode.is_over or seen != (episode.score, episode.frames, episode.lives, episode.decisions):
+                self._skip(env, "the same actions lead to another end; a state was restored in it")
+            else:
+                self._submission.add(start, game.actions, episode, self._origins[env])
+                self._origins[env] = self._origins[env]._replace(episode=self._origins[env].episode + 1)
+                self.logged += 1
+        except (InvalidInput, OSError) as error:
+            self._skip(env, str(error))
+        if self._options.autoreset_mode is AutoresetMode.NEXT_STEP:
+            seed = self._next_seed(env)
+            self._machines.end_episodes(np.array([env], np.int32), np.array([seed], np.int64))
+            self._begin(env, seed)
+
+    def _begin(self, env: int, seed: int) -> None:
+        self._seeds[env], self._games[env] = seed, _Game()
+
+    def _next_seed(self, env: int) -> int:
+        """Seeds count up over all environments, and begin anew after the largest one."""
+        return int((self._seeds[env] + len(self._games) - 1) % MOST_SEED) + 1
+
+    def _skip(self, env: int, why: str) -> None:
+        self.unlogged += 1
+        warnings.warn(f"a game of environment {env}, {self._starts[env].game}, has no log: {why}", stacklevel=5)
+
+
+class _Game:
+    """What was played of a game since power-on."""
+
+    def __init__(self) -> None:
+        self.actions: list[int] = []
+        self.score = 0
+
+
+def _check(options: VectorOptions, games: Sequence[str | None]) -> None:
+    for wrong, sentence in (
+        (None in games, "the game is that of the image; a log takes the name of a game"),
+        (options.continuous, "continuous is True; a log has indices of actions"),
+        (options.autoreset_mode is AutoresetMode.SAME_STEP, "autoreset_mode is SameStep; a log takes the others"),
+        (not options.is_sync, f"batch_size is {options.batch_size}; a log takes that of all environments"),
+        (options.noop_max > 1, f"noop_max is {options.noop_max}; a log takes 0, and the no-ops as actions"),
+        (options.use_fire_reset, "use_fire_reset is True; a log takes False, and FIRE as an action"),
+        (
+            options.life_loss == "end",
+            "life_loss is 'end', with which a step stops at a lost life; a log takes the others",
+        ),
+        (options.start != "fire-noops", f"start is {options.start!r}; a log takes 'fire-noops'"),
+    ):
+        if wrong:
+            raise InvalidInput(sentence)
+
+
+def _start_of(options: VectorOptions, game: str, rom: Rom | None) -> Start:
+    """Returns the start of an environment's games, without a seed.
+
+    It has a difficulty, since setting one resets the game after power-on, as an environment does.
+    """
+    return Start(
+        game,
+        0,
+        options.frameskip,
+        options.repeat_action_probability,
+        options.max_num_frames_per_episode,
+        "legal" if options.full_action_space else "minimal",
+        options.rules,
+        "restart" if options.life_loss == "restart" else "ignored",
+        options.mode,
+        value_or(options.difficulty, 0),
+        rom,
+    )

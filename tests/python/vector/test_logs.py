@@ -1,0 +1,137 @@
+"""The argument `log` of AtariVectorEnv leaves a submission that `racebeam verify` confirms."""
+
+import csv
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import package
+
+package.require("numpy", "gymnasium")
+
+import numpy as np
+import racebeam.program
+from racebeam import AtariVectorEnv, InvalidInput
+
+PLAIN = {"noop_max": 0, "use_fire_reset": False, "max_num_frames_per_episode": 600}
+
+
+class Logs(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = pathlib.Path(self.scratch.name, "mine")
+
+    def make(self, *words, **arguments):
+        log = {"folder": self.folder, "agent": "random", "training_frames": 9, "trial": 3, **arguments.pop("about", {})}
+        return AtariVectorEnv(*(words or ("beamfall", 3)), seed=7, log=log, **{**PLAIN, **arguments})
+
+    def play(self, envs, steps):
+        random = np.random.default_rng(3)
+        envs.reset()
+        for _ in range(steps):
+            actions = random.integers(envs.single_action_space.n, size=envs.num_envs)
+            _, _, terminated, truncated, _ = envs.step(actions)
+            if envs.autoreset_mode.name == "DISABLED" and (terminated | truncated).any():
+                envs.reset(options={"reset_mask": terminated | truncated})
+        return envs._logs
+
+    def verify(self):
+        done = subprocess.run([racebeam.program.path(), "verify", self.folder], capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+    def rows(self):
+        with open(self.folder / "results.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_games_are_confirmed(self):
+        for number, arguments in enumerate(
+            (
+                {},
+                {"repeat_action_probability": 0.25, "frameskip": 5, "full_action_space": True},
+                {"life_loss": "restart"},
+                {"life_loss": "reported"},
+                {"autoreset_mode": "Disabled", "difficulty": 1, "rules": "fixed"},
+            )
+        ):
+            with self.subTest(**arguments):
+                self.folder = pathlib.Path(self.scratch.name, str(number))
+                logs = self.play(self.make(**arguments), 800)
+                self.assertGreaterEqual(logs.logged, 3)
+                self.assertEqual(logs.unlogged, 0)
+                status, output = self.verify()
+                self.assertEqual((status, output.split(",")[0]), (0, f"{logs.logged} rows confirmed"), output)
+
+    def test_each_environment_plays_a_trial_and_seeds_count_up(self):
+        self.play(self.make(["beamfall", "updraft"], full_action_space=True), 400)
+        rows = self.rows()
+        self.assertEqual({row["unit"] for row in rows}, {"beamfall-random-3", "updraft-random-4"})
+        seeds = [int(row["environment_seed"]) for row in rows if row["game"] == "beamfall"]
+        self.assertEqual(seeds, [7 + 2 * game for game in range(len(seeds))])
+        self.assertGreater(len(seeds), 1)
+        self.assertEqual(self.verify()[0], 0)
+
+    def test_what_was_changed_is_refused(self):
+        self.play(self.make(), 400)
+        first, *others = self.rows()
+        for change in ({"score": str(int(first["score"]) + 1)}, {"environment_seed": others[0]["environment_seed"]}):
+            with open(self.folder / "results.csv", "w", newline="") as file:
+                table = csv.DictWriter(file, first, lineterminator="\n")
+                table.writeheader()
+                table.writerows([first | change, *others])
+            status, output = self.verify()
+            self.assertEqual(status, 1)
+            self.assertIn(f"not confirmed: {next(iter(change))} is", output)
+
+    def test_a_game_in_which_a_state_was_restored_has_no_log(self):
+        envs = self.make("beamfall", 1, repeat_action_probability=0.25)
+        envs.reset()
+        envs.step([1])
+        state = envs.save(0)
+        for _ in range(20):
+            envs.step([1])
+        envs.restore(0, state)
+        with self.assertWarnsRegex(UserWarning, "has no log: the same actions lead to another end"):
+            for _ in range(160):
+                envs.step([2])
+
+    def test_a_game_that_was_left_has_no_log(self):
+        envs = self.make()
+        envs.reset()
+        envs.step([1, 1, 1])
+        with self.assertWarnsRegex(UserWarning, "environment 0, beamfall, has no log: it was left before its end"):
+            envs.reset()
+
+    def test_what_a_log_cannot_repeat_is_refused_and_leaves_nothing(self):
+        for arguments in (
+            {"noop_max": 30},
+            {"use_fire_reset": True},
+            {"continuous": True},
+            {"autoreset_mode": "SameStep"},
+            {"start": "baselines"},
+            {"life_loss": "end"},
+            {"batch_size": 2},
+            {"height": 220},
+            {"about": {"phrase": 5, "nonsense": 1}},
+            {"about": {"agent": "../x"}},
+        ):
+            with self.subTest(**arguments), self.assertRaises((InvalidInput, ValueError, TypeError)):
+                self.make(**arguments)
+            self.assertFalse(self.folder.exists())
+        with self.assertRaises(TypeError):
+            AtariVectorEnv("beamfall", log={}, **PLAIN)
+
+    def test_two_vectors_cannot_share_a_folder(self):
+        self.make()
+        with self.assertRaises(FileExistsError):
+            self.make()
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("always")
+    package.main()
