@@ -156,6 +156,16 @@ class Examples(unittest.TestCase):
         self.assertRegex(output, r"total_timesteps\s*\|\s*64")
         self.refuse("stable_baselines.py")
 
+    @needs("stable_baselines3")
+    def test_stable_baselines_leaves_a_submission(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            folder, small = pathlib.Path(scratch, "ppo"), ("--steps", 64, "--steps-of-update", 16, "--envs", 4)
+            self.run_example("examples/stable_baselines.py", *small, "--log", folder)
+            self.assertRegex(self.verify(folder).stdout, "^3 rows confirmed, 0 wrong, 0 could not be checked")
+            results = (folder / "results.csv").read_text()
+            (folder / "results.csv").write_text(results.replace(",terminated,", ",truncated,", 1))
+            self.assertEqual(self.verify(folder).returncode, 1)
+
 
 if __name__ == "__main__":
     package.main()

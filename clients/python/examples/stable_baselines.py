@@ -23,6 +23,7 @@ def main():
     parser.add_argument("--envs", type=int, default=8, help="(default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="(default: %(default)s)")
     parser.add_argument("--model", metavar="FILE", help="keeps the model")
+    parser.add_argument("--log", metavar="FOLDER", help="leaves a submission of three games, for racebeam verify")
     options = parser.parse_args()
 
     # With Stable-Baselines3: VecFrameStack(make_atari_env("BeamfallNoFrameskip-v4", options.envs, options.seed), 4)
@@ -45,6 +46,33 @@ def main():
     model.learn(options.steps)
     if options.model:
         model.save(options.model)
+    if options.log:
+        play_games(model, options)
+
+
+def play_games(model, options):
+    """Plays three games whose logs anybody can confirm. They begin at power-on, without no-ops and FIRE."""
+    about = {
+        "folder": options.log,
+        "agent": "sb3-ppo",
+        "agent_seed": options.seed,
+        "training_frames": 4 * options.steps,
+    }
+    envs = racebeam.AtariVectorEnv(
+        options.game,
+        seed=options.seed,
+        noop_max=0,
+        use_fire_reset=False,
+        repeat_action_probability=0.25,
+        max_num_frames_per_episode=18000,
+        log=about,
+    )
+    games, (observations, _) = 0, envs.reset()
+    while games < 3:
+        actions, _ = model.predict(observations, deterministic=False)
+        observations, _, terminated, truncated, _ = envs.step(actions)
+        games += int((terminated | truncated).sum())
+    envs.close()
 
 
 if __name__ == "__main__":
