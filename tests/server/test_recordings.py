@@ -127,7 +127,7 @@ class Logs(unittest.TestCase):
         return done.stdout.splitlines()
 
     def test_a_full_disk_ends_them_and_the_session_goes_on(self):
-        for limit, logged in ((200, 0), (900, 3)):  # a row has some 190 bytes, and their columns 149
+        for limit, logged in ((200, 0), (900, 4)):  # rows have more than 150 bytes each, and the line of columns 149
             with self.subTest(limit=limit), tempfile.TemporaryDirectory() as folder:
                 lines = self.serve(folder, limit, self.PLAY + b"log stop\nact NOOP\n")
                 self.assertEqual(sum(b"log_ended=disk" in line for line in lines[:-2]), 1, lines)
