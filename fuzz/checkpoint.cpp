@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "agents/base/sealed_file.hpp"
 #include "agents/experiment/trial.hpp"
 #include "agents/features/game_facts.hpp"
 #include "fuzz/support/folder.hpp"
 #include "fuzz/support/keep_code.hpp"
 #include "fuzz/support/target.hpp"
+#include "recording/sealed_file.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 

@@ -1,5 +1,5 @@
 // The log of an episode: its contents, which the target seals, or after an odd first byte the whole file.
-#include "agents/experiment/episode_log.hpp"
+#include "recording/episode_log.hpp"
 
 #include <string>
 

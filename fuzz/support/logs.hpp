@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "agents/base/sealed_file.hpp"
 #include "agents/experiment/play.hpp"
 #include "fuzz/support/keep_code.hpp"
 #include "games/images.hpp"
+#include "recording/sealed_file.hpp"
 
 namespace racebeam::fuzz {
 
-// As in agents/experiment/episode_log.cpp, which refuses other kinds. It compresses less, and takes less
-// time.
+// As in recording/episode_log.cpp, which refuses other kinds. It compresses less, and takes less time.
 inline constexpr SealedKind kEpisodeLog = {
     .what = "episode log", .magic = "RBEPISOD", .version = 1, .most = std::size_t{2} << 20, .level = 1};
 
