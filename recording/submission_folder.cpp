@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -32,6 +33,8 @@ constexpr std::size_t kMostAgentBytes = std::size_t{1} << 16, kMostLineBytes = s
   const std::string reason = std::generic_category().message(errno);
   throw std::runtime_error("cannot " + what + " " + fs::path(path).filename().string() + ": " + reason);
 }
+
+bool is_there(const std::string& path) { return fs::symlink_status(path).type() != fs::file_type::not_found; }
 
 // Returns false if something of this name is there.
 bool make_folder(const std::string& path) {
@@ -123,6 +126,25 @@ std::string text_of(const AboutAgent& about, std::string_view preset) {
   return text;
 }
 
+// Makes the folder with its description and the columns of its table. Others see it whole, so that several
+// programs can begin it at the same time. Returns false if something of this name is there.
+bool make_submission(const std::string& path, std::string_view about, DiskBudget& budget) {
+  const auto bytes = [](std::string_view text) {
+    return std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  };
+  if (is_there(path)) return false;
+  try {
+    AtomicFolder folder(path, budget);
+    folder.add("agent.toml", bytes(about));
+    folder.add("results.csv", bytes(line_of(kResultColumns)));
+    folder.commit();
+  } catch (const std::runtime_error&) {
+    if (is_there(path)) return false;  // somebody else has begun it meanwhile
+    throw;
+  }
+  return true;
+}
+
 void write_file(const std::string& path, std::string_view text, DiskBudget& budget) {
   AtomicFile file(path, budget);
   file.write(text);
@@ -144,37 +166,25 @@ std::string first_log(const std::string& folder) {
 
 SubmissionFolder::SubmissionFolder(SubmissionOrder order, DiskBudget& budget)
     : order_(std::move(order)), budget_(budget) {
-  is_new_ = make_folder(order_.path);
-  try {
-    make();
-  } catch (...) {
-    std::error_code ignored;
-    if (is_new_) fs::remove_all(order_.path, ignored);
-    throw;
-  }
+  const std::string text = text_of(order_.about, preset_of(order_.settings));
+  if (!make_submission(order_.path, text, budget_)) check_earlier(text);
+  make_folder(order_.path + "/logs");
+  if (!make_folder(unit_path()))
+    throw std::runtime_error(fs::path(order_.path).filename().string() + " has the unit " + order_.unit +
+                             " already; another trial= makes another");
 }
 
 SubmissionFolder::~SubmissionFolder() { ::rmdir(unit_path().c_str()); }
 
-void SubmissionFolder::make() {
-  const std::string name = fs::path(order_.path).filename().string(), about = order_.path + "/agent.toml",
-                    text = text_of(order_.about, preset_of(order_.settings));
-  if (is_new_) {
-    write_file(about, text, budget_);
-  } else if (fs::is_symlink(order_.path) || !fs::exists(about)) {
+void SubmissionFolder::check_earlier(std::string_view text) const {
+  const std::string name = fs::path(order_.path).filename().string(), about = order_.path + "/agent.toml";
+  if (fs::is_symlink(order_.path) || !fs::exists(about))
     throw std::runtime_error(name + " exists, and has no agent.toml; choose another name");
-  } else if (read_input_file("description of the agent", about, kMostAgentBytes) != text) {
+  if (read_input_file("description of the agent", about, kMostAgentBytes) != text)
     throw std::runtime_error(name + " has another agent.toml; choose another name, or the same words");
-  }
-  {
-    const SharedTable table(table_path());
-    if (table.size() == 0) table.append(line_of(kResultColumns));
-  }
-  if (!is_new_) check_settings();
-  make_folder(order_.path + "/logs");
-  if (!make_folder(unit_path()))
-    throw std::runtime_error(name + " has the unit " + order_.unit +
-                             " already; another trial= makes another");
+  const SharedTable table(table_path());  // nobody appends a row while one is read
+  if (table.size() == 0) table.append(line_of(kResultColumns));
+  check_settings();
 }
 
 void SubmissionFolder::check_settings() const {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "recording/atomic_file.hpp"
 #include "recording/episode_log.hpp"
@@ -29,8 +30,8 @@ struct SubmissionOrder {
 class SubmissionFolder {
  public:
   // Makes the folder, or continues one that has the same agent.toml and logs with the same settings. The unit
-  // must be new. Throws BudgetSpent, or std::runtime_error with a sentence; a folder that it made is then
-  // gone.
+  // must be new. Throws BudgetSpent, or std::runtime_error with a sentence. A folder that could not be made
+  // whole is then gone.
   SubmissionFolder(SubmissionOrder order, DiskBudget& budget);
   ~SubmissionFolder();  // a unit without logs is removed
   SubmissionFolder(const SubmissionFolder&) = delete;
@@ -40,14 +41,13 @@ class SubmissionFolder {
   void add(const EpisodeLog& log);
 
  private:
-  void make();
+  void check_earlier(std::string_view text) const;  // `text`: what agent.toml must have
   void check_settings() const;
   std::string unit_path() const { return order_.path + "/logs/" + order_.unit; }
   std::string table_path() const { return order_.path + "/results.csv"; }
 
   const SubmissionOrder order_;
   DiskBudget& budget_;
-  bool is_new_ = false;  // the folder
 };
 
 }  // namespace racebeam
