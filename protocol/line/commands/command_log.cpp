@@ -148,7 +148,8 @@ void begin_log(Context& context, std::string_view name, LogWords words, Reply& r
   check_game(context, slot);
   const Environment& machine = slot.environment();
   PlaySettings settings = context.game.settings;
-  set_life_loss(settings, slot.settings().life_loss);
+  settings.life_loss = slot.settings().life_loss;
+  settings.machine.truncate_on_life_loss = machine.settings().truncate_on_life_loss;
   words.origin.agent = words.about.agent;
   words.origin.version = context.service.version;
   words.origin.unit =

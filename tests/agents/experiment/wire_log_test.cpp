@@ -121,11 +121,13 @@ TEST_CASE("Every setting of play that a log can repeat is confirmed") {
 }
 
 TEST_CASE("One of the machines of open leaves a log that is confirmed") {
-  for (const std::string options : {"", " autoreset=same-step", " autoreset=disabled", " life_loss=restart",
-                                    " life_loss=end autoreset=same-step"}) {
+  for (const std::string options :
+       {"\nopen 3", "\nopen 3 autoreset=same-step", "\nopen 3 autoreset=disabled",
+        "\nopen 3 life_loss=restart", "\nopen 3 life_loss=end autoreset=same-step",
+        "life_loss_ends=1\nopen 3", "life_loss_ends=1\nopen 3 life_loss=ignored"}) {
     INFO(options);
     Server server;
-    std::string conversation = kLoadSticky + "\nopen 3" + options + "\nlog mine machine=1\nrestart";
+    std::string conversation = kLoadSticky + options + "\nlog mine machine=1\nrestart";
     for (int step = 0; step < 1300; ++step)
       conversation += step == 650 ? "\nrestart" : "\nstep FIRE RIGHT UP";
     LineClient client(server.service);
