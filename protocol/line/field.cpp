@@ -64,9 +64,10 @@ constexpr std::array kFields = {
           }),
     bytes("state_hash",
           [](const Environment& e, ByteBuffer& scratch) -> Bytes {
+            const std::uint64_t hash = e.state_hash();
             scratch.clear();  // the highest byte first, as the digits of results.csv
             for (int shift = 56; shift >= 0; shift -= 8)
-              scratch.push_back(static_cast<std::uint8_t>(e.state_hash() >> shift));
+              scratch.push_back(static_cast<std::uint8_t>(hash >> shift));
             return scratch;
           }),
     bytes(
