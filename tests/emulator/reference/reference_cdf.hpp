@@ -37,6 +37,7 @@ inline void put_counting_cdf_program(Image& image, bool is_plus) {
        lsl(3, 6, 24),
        mov_number(4, 0x75),
        lsl(4, 4, 4),
+       add_number(4, 1),  // $751, as the makers' header has it: BX to $750 would end the call
        mov_any(kLr, kPc),
        bx(4),
        mov_number(2, 1),
