@@ -8,8 +8,8 @@
 
 namespace racebeam {
 
-// The names of `known` most similar to `name`: nearest first, at most three. Empty if none is similar. Case
-// does not matter.
+// The `candidates` most similar to `name`: nearest first, at most three. Empty if none is similar. Case does
+// not matter.
 std::vector<std::string_view> similar_names(std::string_view name,
                                             std::span<const std::string_view> candidates);
 
