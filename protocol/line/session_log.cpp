@@ -10,7 +10,8 @@
 namespace racebeam {
 namespace {
 
-constexpr std::uint32_t kMostSeed = 0xFFFFFFFE;  // ALE takes the next one for the time of day
+// `load` takes 0 for a random seed, and ALE takes the one behind the largest for the time of day.
+constexpr std::uint32_t kMostSeed = 0xFFFFFFFE;
 
 std::string words_without_seed(const PlaySettings& settings, const Environment& machine) {
   return settings_without_seed(words_of(settings_of_log(settings, machine), machine));
@@ -100,7 +101,8 @@ void SessionLog::began() {
   if (!order_.phrase.empty() && seed != seed_of_phrase_now())
     return spoil("its seed is " + std::to_string(seed) + "; the phrase gives " +
                  std::to_string(seed_of_phrase_now()));
-  if (seed > kMostSeed) return spoil("its seed is " + std::to_string(seed) + "; a log takes a smaller one");
+  if (seed == 0 || seed > kMostSeed)
+    return spoil("its seed is " + std::to_string(seed) + "; a log takes 1 to " + std::to_string(kMostSeed));
   if (const std::string words = words_without_seed(settings_, machine); words != first_settings_)
     spoil("its settings are '" + words + "'; those of the log are '" + first_settings_ + "'");
 }

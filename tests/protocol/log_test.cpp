@@ -128,6 +128,18 @@ TEST_CASE("Seeds follow from a phrase, and another seed has no log") {
   CHECK_THAT(desk.ask("log last"), Contains("its seed is 5; the phrase gives "));
 }
 
+TEST_CASE("An episode whose seed a replay cannot have has no log") {
+  Desk desk;
+  desk.ask("log inline");
+  for (const std::string seed : {"0", "4294967295"}) {
+    desk.ask("reset seed=" + seed);
+    CHECK_THAT(desk.ask("log last"), Contains("its seed is " + seed + "; a log takes 1 to 4294967294"));
+  }
+  desk.play();
+  CHECK(desk.seed() == "1");
+  CHECK_THAT(desk.ask("log stop"), StartsWith("ok logged=1 unlogged=2 "));
+}
+
 TEST_CASE("What ends the machine ends its log, which is kept") {
   const auto is_kept = [](const std::string& machine, const std::string& end) {
     Desk desk;
