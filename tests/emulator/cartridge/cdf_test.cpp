@@ -7,6 +7,7 @@
 #include "emulator/console.hpp"
 #include "emulator/translator/translator.hpp"
 #include "tests/emulator/bench.hpp"
+#include "tests/support/skip.hpp"
 #include "tests/support/thumb_code.hpp"
 
 namespace racebeam::test {
@@ -177,7 +178,7 @@ TEST_CASE("CDFJ: the amplitude is that of waves, or of a sample") {
 
 // Calls, jumps through streams, and fast fetch in every second frame.
 TEST_CASE("CDFJ: the translator does what the interpreter does") {
-  if (*Translator::obstacle() != '\0') return;
+  if (*Translator::obstacle() != '\0') return leave_out(Translator::obstacle());
   const Bytes program = {0xE6, 0x80, 0xA5, 0x80, 0x29, 0x01, 0x8D, 0xF2, 0x1F,              // fast fetch
                          0xA2, 0xFE, 0x8E, 0xF3, 0x1F,                                      // call
                          0xA2, 0x20, 0xA9, 0x05, 0x85, 0x1B, 0xAD, 0x09, 0x11, 0x85, 0x0D,  // 32 lines
