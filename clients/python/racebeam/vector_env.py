@@ -20,6 +20,7 @@ from .arguments import (
     value_or,
     warn_of,
 )
+from .errors import InvalidInput
 from .presets import vector_preset
 from .vector.autoreset import AutoresetMode, check_supported
 from .vector.logs import VectorLogs
@@ -105,10 +106,10 @@ class AtariVectorEnv(PlayedVector):
         token: Token that the server asks for.
         timeout: Seconds to wait for each reply of the server. Default: no limit.
         lives: Old name of `life_loss`.
-        log: The arguments of `RecordLog` but `env` and `phrase`, as a dict with "folder". Each game is then logged into
-            this new folder, a submission; environment i plays the trial `trial` + i. Each game begins at power-on, with
-            a seed of its own. Needs NEXT_STEP or DISABLED, `noop_max=0`, `use_fire_reset=False`, and another
-            `life_loss` than "end".
+        log: A dict with "folder", and with other arguments of `RecordLog` except `env` and `phrase`. `step` then writes
+            a log of each game into this new folder, a submission. Environment i plays the trial `trial` + i. Each game
+            begins at power-on, with a seed of its own. Needs NEXT_STEP or DISABLED, `noop_max=0`,
+            `use_fire_reset=False`, and another `life_loss` than "end". Excludes `server`, `send` and `xla`.
 
     Raises:
         gymnasium.error.Error: If an argument is wrong; also a TypeError or a ValueError.
@@ -262,9 +263,12 @@ class AtariVectorEnv(PlayedVector):
 
         Raises:
             ImportError: If JAX is not installed.
-            InvalidInput: With SAME_STEP, with `batch_size` below `num_envs`, with `sound_obs`, or with a server.
+            InvalidInput: With SAME_STEP, with `batch_size` below `num_envs`, with `sound_obs`, with a server, or with
+                `log`.
         """
         self._check_open()
+        if self._logs is not None:
+            raise InvalidInput("xla() does not write logs; with log, step() steps the environments")
         functions = xla.functions(self, self._xla_infos)
         self._first_seed = None
         return functions

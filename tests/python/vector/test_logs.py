@@ -117,14 +117,25 @@ class Logs(unittest.TestCase):
             {"life_loss": "end"},
             {"batch_size": 2},
             {"height": 220},
-            {"about": {"phrase": 5, "nonsense": 1}},
+            {"about": {"phrase": "a phrase"}},
+            {"about": {"nonsense": 1}},
+            {"about": {"trial": "x"}},
+            {"about": {"training_frames": b"x"}},
             {"about": {"agent": "../x"}},
         ):
             with self.subTest(**arguments), self.assertRaises((InvalidInput, ValueError, TypeError)):
                 self.make(**arguments)
             self.assertFalse(self.folder.exists())
-        with self.assertRaises(TypeError):
-            AtariVectorEnv("beamfall", log={}, **PLAIN)
+        for log in ({}, "mine", 5):
+            with self.subTest(log=log), self.assertRaisesRegex(TypeError, "^log is .*; it takes a dict with folder"):
+                AtariVectorEnv("beamfall", log=log, **PLAIN)
+
+    def test_calls_that_would_leave_out_games_are_refused(self):
+        envs = self.make()
+        envs.reset()
+        for call in (lambda: envs.send([0, 0, 0]), envs.xla):
+            with self.assertRaisesRegex(InvalidInput, "does not write logs; with log, step"):
+                call()
 
     def test_two_vectors_cannot_share_a_folder(self):
         self.make()

@@ -27,17 +27,18 @@ class Submission:
 
     Args:
         folder: Path of the folder, which does not exist yet.
-        start: How the episodes begin, but for the seed.
+        start: The beginning of the episodes; its seed is ignored.
         agent: Name of the agent: letters, digits, "_", "." and "-".
         version: Version of the agent.
-        training_frames: Frames of training that the agent had.
+        training_frames: Frames that the agent was trained on.
         phrase: The phrase that the seeds of the episodes follow from, or None.
         about: Other keys of agent.toml: "words", "link" and "role".
 
     Raises:
         InvalidInput: If the name of the agent is wrong.
+        TypeError: If an argument has a wrong type.
         FileExistsError: If the folder exists.
-        OSError: If it cannot be made.
+        OSError: If the folder cannot be made.
     """
 
     def __init__(
@@ -53,8 +54,6 @@ class Submission:
     ) -> None:
         if not NAME.fullmatch(agent):
             raise InvalidInput(f"agent is {agent!r}; it takes 1 to 64 letters, digits, '_', '.' and '-'")
-        self._folder = pathlib.Path(folder)
-        self._folder.mkdir()
         words: dict[str, object] = {
             "agent": agent,
             "version": version,
@@ -63,23 +62,23 @@ class Submission:
             **({} if phrase is None else {"phrase": phrase}),
             **(about or {}),
         }
-        _write(
-            self._folder / "agent.toml",
-            "".join(f"{key} = {json.dumps(word, ensure_ascii=False)}\n" for key, word in words.items()),
-        )
+        text = "".join(f"{key} = {json.dumps(word, ensure_ascii=False)}\n" for key, word in words.items())
+        self._folder = pathlib.Path(folder)
+        self._folder.mkdir()
+        _write(self._folder / "agent.toml", text)
         _write(self._folder / "results.csv", COLUMNS + "\n")
 
     def add(self, start: Start, actions: list[int], episode: Episode, origin: Origin) -> None:
         """Writes the log of an episode and its row, or neither.
 
         Args:
-            start: How it began.
-            actions: What was played.
-            episode: How it ended.
-            origin: Who played.
+            start: The beginning of the episode.
+            actions: Its actions.
+            episode: Its result.
+            origin: Its player and number.
 
         Raises:
-            OSError: If they cannot be written.
+            OSError: If the log or the row cannot be written.
         """
         log, row = log_of(start, actions, episode, origin)
         unit = self._folder / "logs" / row["unit"]

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ..arguments import WrongType, value_or
+from ..arguments import MOST, WrongType, integer, value_or
 from ..episode_log import MOST_SEED, Origin, Start, play
 from ..errors import InvalidInput
 from ..single.submission import Submission
-from ..vector_options import VectorOptions
+from ..vector_options import SEEDS, VectorOptions
 from .autoreset import AutoresetMode
 from .machines import Actions, Seeds
 from .making import Rom
@@ -20,28 +20,30 @@ from .results import Bools, Results
 
 __all__ = ["VectorLogs"]
 
+ARGUMENTS = ("folder", "agent", "version", "training_frames", "trial", "agent_seed", "about")
+
 
 class VectorLogs:
     """Writes a log of each game of a vector of environments. Environment i plays the trial `trial` + i.
 
-    A log begins at power-on, so that each game begins with a seed of its own. A game that was left before its end, or
-    in which a state was restored, has no log, nor has one whose log cannot be written. A warning says so.
+    A log begins at power-on, so each game begins with a seed of its own. A game gets no log if it was left before its
+    end, if a state was restored in it, or if the log cannot be written. It then causes a warning.
 
     Args:
-        arguments: Those of `RecordLog` but `env` and `phrase`, as a dict with "folder".
+        arguments: A dict with "folder", and with other arguments of `RecordLog` except `env` and `phrase`.
         options: The options of the environments.
         games: Name of the game of each environment.
         rom: The image of the game, or None for that of its name.
         machines: The machines that play them.
 
     Attributes:
-        logged: Number of the games that have a log.
-        unlogged: Number of those that have none.
+        logged: Number of games with a log.
+        unlogged: Number of games without one.
 
     Raises:
         InvalidInput: If an argument is wrong, or the environments play what a log cannot repeat.
         FileExistsError: If the folder exists.
-        OSError: If it cannot be made.
+        OSError: If the folder cannot be made.
     """
 
     def __init__(
@@ -55,16 +57,15 @@ class VectorLogs:
         _check(options, games)
         self._options, self._machines = options, machines
         self._starts = [_start_of(options, str(game), rom) for game in games]
-        words = dict(arguments)
-        origin = Origin(words.get("agent", "agent"), words.pop("trial", 1), 1, words.pop("agent_seed", 0))
+        words = _words_of(arguments)
+        trial = integer("trial", words.pop("trial", 1), 1, MOST)
+        agent_seed = integer("agent_seed", words.pop("agent_seed", 0), *SEEDS)
+        origin = Origin(words.get("agent", "agent"), trial, 1, agent_seed)
         self._origins = [origin._replace(trial=origin.trial + env) for env in range(len(games))]
         try:
             self._submission = Submission(words.pop("folder"), self._starts[0], **words)
-        except (KeyError, TypeError) as error:
-            raise WrongType(
-                f"log is {arguments!r}; it takes a dict with folder, and with agent, version, training_frames, trial, "
-                "agent_seed and about of RecordLog"
-            ) from error
+        except TypeError as error:
+            raise _wrong(arguments) from error
         self._numbers = [machines.actions_of(env) for env in range(len(games))]
         self._seeds = np.arange(len(games), dtype=np.int64) + options.seed - len(games)  # of the present games
         self._games = [_Game() for _ in games]
@@ -72,23 +73,23 @@ class VectorLogs:
         self.logged = self.unlogged = 0
 
     def seeds_of_reset(self, seeds: Seeds | None, mask: Bools | None) -> Seeds:
-        """Returns the seeds of a reset: those that were given, or else the next ones.
+        """Returns the seeds of a reset. An unseeded environment gets its next seed.
 
         Args:
-            seeds: Those that were given; -1 means unseeded.
+            seeds: Seeds of the caller, where -1 means unseeded, or None.
             mask: The environments to reset, or None for all.
 
         Returns:
             A seed for each environment.
         """
         chosen = np.ones(len(self._games), np.bool_) if mask is None else mask
-        given = np.full(len(self._games), -1, np.int64) if seeds is None else np.array(seeds)
-        for env in np.flatnonzero(chosen & (given < 0)):
-            given[env] = self._next_seed(env)
-        return given
+        complete = np.full(len(self._games), -1, np.int64) if seeds is None else np.array(seeds)
+        for env in np.flatnonzero(chosen & (complete < 0)):
+            complete[env] = self._next_seed(env)
+        return complete
 
-    def began(self, seeds: Seeds, mask: Bools | None) -> None:
-        """Notes a reset with these seeds.
+    def record_reset(self, seeds: Seeds, mask: Bools | None) -> None:
+        """Records a reset.
 
         Args:
             seeds: What `seeds_of_reset` returned.
@@ -101,8 +102,8 @@ class VectorLogs:
                 self._skip(env, "it was left before its end")
             self._begin(env, int(seeds[env]))
 
-    def stepped(self, actions: Actions, results: Results) -> None:
-        """Notes a step, and writes the logs of games that are over.
+    def record_step(self, actions: Actions, results: Results) -> None:
+        """Records a step, and writes the logs of games that are over.
 
         Args:
             actions: An index into the action set for each environment.
@@ -144,7 +145,7 @@ class VectorLogs:
         self._seeds[env], self._games[env] = seed, _Game()
 
     def _next_seed(self, env: int) -> int:
-        """Seeds count up over all environments, and begin anew after the largest one."""
+        """Returns the next seed of an environment. Seeds count up over all environments; 1 follows the largest."""
         return int((self._seeds[env] + len(self._games) - 1) % MOST_SEED) + 1
 
     def _skip(self, env: int, why: str) -> None:
@@ -153,19 +154,29 @@ class VectorLogs:
 
 
 class _Game:
-    """What was played of a game since power-on."""
+    """The actions and the score of a game since power-on."""
 
     def __init__(self) -> None:
         self.actions: list[int] = []
         self.score = 0
 
 
+def _words_of(arguments: Any) -> dict[str, Any]:
+    if not isinstance(arguments, dict) or "folder" not in arguments or not arguments.keys() <= set(ARGUMENTS):
+        raise _wrong(arguments)
+    return dict(arguments)
+
+
+def _wrong(arguments: Any) -> WrongType:
+    return WrongType(f"log is {arguments!r}; it takes a dict with folder, and optionally {', '.join(ARGUMENTS[1:])}")
+
+
 def _check(options: VectorOptions, games: Sequence[str | None]) -> None:
     for wrong, sentence in (
-        (None in games, "the game is that of the image; a log takes the name of a game"),
+        (None in games, "game is None; a log takes the name of a game"),
         (options.continuous, "continuous is True; a log has indices of actions"),
         (options.autoreset_mode is AutoresetMode.SAME_STEP, "autoreset_mode is SameStep; a log takes the others"),
-        (not options.is_sync, f"batch_size is {options.batch_size}; a log takes that of all environments"),
+        (not options.is_sync, f"batch_size is {options.batch_size}; a log takes {options.num_envs}, num_envs"),
         (options.noop_max > 1, f"noop_max is {options.noop_max}; a log takes 0, and the no-ops as actions"),
         (options.use_fire_reset, "use_fire_reset is True; a log takes False, and FIRE as an action"),
         (

@@ -84,7 +84,7 @@ class PlayedVector(VectorOfEach):
             self._machines.send_resets(seeds)
             self._machines.receive(results)
         if self._logs is not None and seeds is not None:
-            self._logs.began(seeds, mask)
+            self._logs.record_reset(seeds, mask)
         observations, *_, info = self._format_step(results)
         return observations, info
 
@@ -129,7 +129,7 @@ class PlayedVector(VectorOfEach):
         else:
             self._machines.step(parsed, results)
         if self._logs is not None:
-            self._logs.stepped(parsed, results)
+            self._logs.record_step(parsed, results)
         return self._format_step(results)
 
     def send(self, actions: npt.ArrayLike) -> None:
@@ -141,9 +141,11 @@ class PlayedVector(VectorOfEach):
         Raises:
             TypeError: If the actions have a wrong type.
             IndexError: If an action is out of range.
-            InvalidInput: If the actions have a wrong shape.
+            InvalidInput: If the actions have a wrong shape, or the environments write logs.
         """
         self._check_open()
+        if self._logs is not None:
+            raise InvalidInput("send() does not write logs; with log, step() steps the environments")
         self._send(self._parse_joysticks(actions) if self.continuous else self._parse_actions(actions))
 
     def recv(self, *, out: Pixels | None = None) -> Step:
