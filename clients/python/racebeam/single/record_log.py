@@ -25,28 +25,28 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
     game that `life_loss` splits into several episodes is one episode of the log. Without a seed, `reset` powers the
     game on with a seed of its own, because a log contains the seed of its episode.
 
-    An episode without a log causes a warning. That is one that was left before its end, one in which a state was
-    restored, and one whose log cannot be written.
+    An episode gets no log if it was left before its end, if a state was restored in it, or if the log cannot be
+    written. It then causes a warning.
 
     Args:
         env: The environment. Its `frameskip` is a number, its `noop_max` 0, and it does not clip rewards.
         folder: Path of the folder, which does not exist yet.
         agent: Name of the agent: letters, digits, "_", "." and "-".
         version: Version of the agent.
-        training_frames: Frames of training that the agent had.
+        training_frames: Frames that the agent was trained on.
         trial: Number of the trial, from 1.
         agent_seed: Seed of the agent.
         phrase: The phrase that the seeds of the episodes follow from, or None.
         about: Other keys of agent.toml: "words", "link" and "role".
 
     Attributes:
-        logged: Number of the episodes that have a log.
-        unlogged: Number of those that have none.
+        logged: Number of episodes with a log.
+        unlogged: Number of episodes without one.
 
     Raises:
         InvalidInput: If an argument is wrong, or the environment plays what a log cannot repeat.
         FileExistsError: If the folder exists.
-        OSError: If it cannot be made.
+        OSError: If the folder cannot be made.
 
     Example:
         >>> import tempfile

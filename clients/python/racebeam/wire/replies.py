@@ -19,7 +19,7 @@ DAMAGES = (ValueError, KeyError, IndexError, zlib.error)  # what decoding a dama
 
 
 class FailIfDamaged:
-    """Ends a session if a reply of it is damaged. Entered for each reply, so that it is not made anew each time.
+    """Ends a session if its reply is damaged. One object serves all replies, since making one for each is slower.
 
     Args:
         session: The session.
