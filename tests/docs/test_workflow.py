@@ -141,6 +141,15 @@ class Subjects(unittest.TestCase):
             self.assertIn("it is not 'component: what it does'", self.refusal(subject), subject)
 
 
+def alternatives(pattern):
+    """The patterns without groups that a pattern consists of. A pattern may be in the list several times."""
+    group = re.search(r"\(([^()]*)\)", pattern)
+    if not group:
+        return pattern.split("|")
+    before, after = pattern[: group.start()], pattern[group.end() :]
+    return [path for word in group[1].split("|") for path in alternatives(before + word + after)]
+
+
 class Changed(unittest.TestCase):
     def touched(self, table, *files):
         script = f"source .ci/changed.bash; most_touched {table} otherwise"
@@ -162,10 +171,16 @@ class Changed(unittest.TestCase):
         self.assertEqual(set(table), targets)
         self.assertEqual(self.touched("fuzz_paths", "recording/gif.cpp"), "media")
 
-    def test_the_paths_exist(self):
+    def test_every_alternative_of_the_paths_exists(self):
+        files = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True).stdout
         for pattern in re.findall(r"\]='(.*)'$", read(".ci/changed.bash"), re.MULTILINE):
-            files = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True).stdout
-            self.assertRegex(files, f"(?m){pattern}" if files else "")
+            for path in alternatives(pattern):
+                self.assertRegex(files, f"(?m){path}" if files else "")
+
+    def test_alternatives_are_those_of_nested_groups(self):
+        self.assertEqual(
+            alternatives("^a/(b|c(d|e))/|^f"), ["^a/b/", "^f", "^a/cd/", "^f", "^a/b/", "^f", "^a/ce/", "^f"]
+        )
 
 
 if __name__ == "__main__":
