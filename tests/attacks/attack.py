@@ -1,7 +1,7 @@
 """The table of attacks, and what they have in common.
 
-An attack is a generator: it tries one thing after the other, and yields of each an empty text if the program withstood
-it, else a sentence that says what fell. scripts/check/attacks runs and counts them.
+An attack is a generator. It yields the result of each check: an empty text if the program withstood it, else a sentence
+that names the fault. scripts/check/attacks runs the attacks, and counts checks and faults.
 """
 
 import contextlib
@@ -15,7 +15,7 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "server"))
 from harness import BINARY, PATIENCE, Session  # noqa: E402
 
-ATTACKS = {}  # by name: the function, and how often it is tried
+ATTACKS = {}  # by name: the function, and how often it is made by default
 LOAD = b"load beamfall seed=1 sticky=0 max_episode_frames=0"
 UNSOUND = re.compile(r"Sanitizer|terminate called|Assertion|Segmentation|basic_string|std::")
 
@@ -35,18 +35,18 @@ def attack(times):
 
 
 def fault_of_line(line):
-    """Whether a reply is one line of printable ASCII that begins with ok or error."""
+    """Returns a fault unless a reply is one line of printable ASCII that begins with ok or error."""
     if not re.fullmatch(rb"(ok|error [a-z-]+)( [ -~]*)?\n", line):
         return f"the reply is {line[:200]!r}"
     return ""
 
 
 def fault_of_end(status, errors, accepted=(0, 1, 2)):
-    """Whether a process ended with a status of its own, and said no more than sentences."""
+    """Returns a fault unless a process ended with an accepted status, and wrote only sentences to standard error."""
     if status not in accepted:
         return f"the status is {status}: {errors[-300:]!r}"
     if UNSOUND.search(errors) or not all(line.isprintable() for line in errors.splitlines()):
-        return f"it says {errors[-300:]!r}"
+        return f"it writes {errors[-300:]!r}"
     return ""
 
 
@@ -112,7 +112,7 @@ def files_in(folder):
 
 @contextlib.contextmanager
 def small_disk(pages):
-    """A folder on a file system of its own, which has so many pages of 4 KiB."""
+    """A folder on a file system of its own, which has room for `pages` pages of 4 KiB."""
     if os.geteuid() != 0:
         raise Lacking("only root can mount a small disk")
     with tempfile.TemporaryDirectory() as folder:

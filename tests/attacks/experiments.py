@@ -37,14 +37,14 @@ def write_plan(place, plan=PLAN):
 
 
 def whole_results(place, plan=PLAN):
-    """What an experiment gives that is left alone."""
+    """The results of an experiment that is left alone."""
     status, _, errors = run("experiment", write_plan(place, plan), "--into", place / "whole", *OPTIONS)
     assert status == 0, errors
     return results_in(place / "whole")
 
 
 def fault_of_results(folder, expected, *options, **environment):
-    """The experiment goes on from what is there, and must end as one that was left alone."""
+    """Continues the experiment in a folder. Returns a fault unless it ends as one that was left alone."""
     plan = folder.parent / "plan.toml"
     status, _, errors = run("experiment", plan, "--into", folder, *(options or OPTIONS), **environment)
     if status != 0:
@@ -140,7 +140,7 @@ def kills_at_random_moments(chance, times):
 def clock_set_back(chance, times):
     """A run is killed and goes on in another year, before or after; times are those of other clocks."""
     if not shutil.which("faketime"):
-        raise Lacking("there is no faketime")
+        raise Lacking("faketime is missing")
     with tempfile.TemporaryDirectory() as name:
         place = pathlib.Path(name)
         expected = whole_results(place)
@@ -216,7 +216,7 @@ def absurd_plans(chance, times):
 
 
 def fill(disk, pages):
-    """Leaves so many pages of the disk free."""
+    """Fills the disk until `pages` pages are free."""
     with open(disk / "filler", "wb", buffering=0) as filler:
         try:
             while True:
@@ -228,8 +228,8 @@ def fill(disk, pages):
 
 @attack(times=40)
 def full_disk_of_an_experiment(chance, times):
-    """The disk is full after so many pages, one more each time: at each write there is one run that fails in it. When
-    there is room again, the experiment goes on, and ends as one that was left alone."""
+    """The disk is full after a number of pages, one more in each run, so that each write fails in some run. When there
+    is room again, the experiment goes on, and ends as one that was left alone."""
     with tempfile.TemporaryDirectory() as name:
         expected = whole_results(pathlib.Path(name))
     for pages in range(times):
@@ -247,7 +247,7 @@ TALK = b"load beamfall seed=1\nrecord %s film\nact 1*60\nact 3*60\nrecord stop\n
 
 @attack(times=30)
 def full_disk_of_a_film(chance, times):
-    """Recordings, rendered films, pictures, and the files that announce a server. What fails leaves nothing behind."""
+    """Recordings, rendered films, pictures, and the files that announce a server. A failure leaves no file behind."""
     with tempfile.TemporaryDirectory() as name:
         whole_results(pathlib.Path(name))
         log = next(pathlib.Path(name).glob("whole/logs/*/1.episode"))

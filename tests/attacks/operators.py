@@ -106,10 +106,16 @@ def folder_of_images(chance, times):
 
 
 def descriptors():
-    """Descriptors that a parent passes on by mistake: a file, a pipe, datagrams, a connection, and good ones."""
-    made = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM), socket.socket(socket.AF_UNIX), socket.socket()]
-    made[2].bind(("127.0.0.1", 0))
-    made[2].listen()
+    """Descriptors that a parent passes on: a file, datagrams, a socket without an address, one that listens, and a
+    connection."""
+    made = [
+        tempfile.TemporaryFile(),
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM),
+        socket.socket(socket.AF_UNIX),
+        socket.socket(),
+    ]
+    made[3].bind(("127.0.0.1", 0))
+    made[3].listen()
     made += socket.socketpair()
     return made
 
@@ -158,7 +164,7 @@ def socket_activation(chance, times):
         try:
             process = subprocess.Popen([*command, "--until-idle", "1"], stderr=subprocess.DEVNULL)
         except FileNotFoundError:
-            raise Lacking("there is no systemd-socket-activate") from None
+            raise Lacking("systemd-socket-activate is missing") from None
         time.sleep(0.3)
         wire = connect_tcp(port)
         yield fault_of_line(ask(wire, LOAD))
@@ -167,7 +173,7 @@ def socket_activation(chance, times):
 
 
 def make_certificates(folder, count):
-    """The paths of so many certificates, each with its key."""
+    """The paths of `count` certificates, each with its key."""
     made = []
     for number in range(count):
         pair = folder / f"certificate-{number}.pem", folder / f"key-{number}.pem"

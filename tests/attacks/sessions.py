@@ -107,7 +107,7 @@ NAMED = [
 
 @attack(times=1)
 def huge_numbers(chance, times):
-    """Each number, in each place of a request that takes one. After all, the session is what it was."""
+    """Each number, in each place of a request that takes one. At the end, the session still plays."""
     for _ in range(times):
         with Talk("--max-request-frames", "20000", "--max-memory", "256M") as talk:
             for number in HUGE:
@@ -212,7 +212,7 @@ def resets(chance, times):
 
 @attack(times=50)
 def exports_into_another_process(chance, times):
-    """A whole export, as it is and altered, into another server, which has or has not another game."""
+    """A whole export, as it is and altered, into another server, which has the same game or another one loaded."""
     for _ in range(times):
         with Talk() as talk, Talk() as other:
             talk.ask(LOAD)
@@ -237,7 +237,7 @@ def exports_into_another_process(chance, times):
 
 @attack(times=1)
 def long_session(chance, times):
-    """Every command and no sense, in any order, for half a minute of one session."""
+    """Commands with random arguments, in any order, for half a minute of one session."""
     words = [*NAMED, *REQUESTS]
     values = [b"0", b"1", b"7", b"root", b"beamfall", b"updraft", b"a", b"ram", b"screen", b"FIRE", *HUGE[:4]]
     for _ in range(times):
