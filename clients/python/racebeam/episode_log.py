@@ -48,7 +48,7 @@ class Start(NamedTuple):
 
     Attributes:
         game: Name of the game.
-        seed: Seed of the game, from 1 to 2**32 - 2.
+        seed: Seed of the game, from 0 to 2**32 - 2.
         frame_skip: Frames of an action.
         sticky: Probability that a frame repeats the previous action.
         max_episode_frames: Frames after which the episode is truncated; 0 for no limit.
@@ -96,8 +96,8 @@ class Start(NamedTuple):
             InvalidInput: If a setting is out of range.
         """
         images.check_name(self.game)
-        if not 1 <= self.seed <= MOST_SEED:
-            raise InvalidInput(f"the seed is {self.seed}; it takes 1 to {MOST_SEED}")
+        if not 0 <= self.seed <= MOST_SEED:
+            raise InvalidInput(f"the seed is {self.seed}; it takes 0 to {MOST_SEED}")
         ale = ALEInterface()
         ale.setInt("random_seed", self.seed - 2**32 if self.seed >= 2**31 else self.seed)
         ale.setInt("frame_skip", self.frame_skip)
@@ -217,7 +217,7 @@ def replay(
     Args:
         game: Name of the game.
         actions: Numbers of `Action`, 0 to 17.
-        seed: Seed of `load`, from 1 to 2**32 - 2.
+        seed: Seed of `load`, from 0 to 2**32 - 2.
         frame_skip: Frames of an action.
         sticky: Probability that a frame repeats the previous action.
         max_episode_frames: Frames after which the episode is truncated; 0 for no limit.
@@ -256,7 +256,7 @@ def write_log(
         path: Path of the log. It ends in ".episode".
         game: Name of the game.
         actions: Numbers of `Action`, 0 to 17, up to the end of the episode.
-        seed: Seed of `load`, from 1 to 2**32 - 2.
+        seed: Seed of `load`, from 0 to 2**32 - 2.
         frame_skip: Frames of an action.
         sticky: Probability that a frame repeats the previous action.
         max_episode_frames: Frames after which the episode is truncated; 0 for no limit.

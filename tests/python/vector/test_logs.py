@@ -29,7 +29,7 @@ class Logs(unittest.TestCase):
 
     def make(self, *words, **arguments):
         log = {"folder": self.folder, "agent": "random", "training_frames": 9, "trial": 3, **arguments.pop("about", {})}
-        return AtariVectorEnv(*(words or ("beamfall", 3)), seed=7, log=log, **{**PLAIN, **arguments})
+        return AtariVectorEnv(*(words or ("beamfall", 3)), log=log, **{"seed": 7, **PLAIN, **arguments})
 
     def play(self, envs, steps):
         random = np.random.default_rng(3)
@@ -57,6 +57,7 @@ class Logs(unittest.TestCase):
                 {"life_loss": "restart"},
                 {"life_loss": "reported"},
                 {"autoreset_mode": "Disabled", "difficulty": 1, "rules": "fixed"},
+                {"seed": 0, "repeat_action_probability": 0.25},
             )
         ):
             with self.subTest(**arguments):
