@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plays episodes at random on a server, which writes their logs into a folder. `racebeam verify FOLDER` confirms it."""
+"""Plays random episodes on a server, which writes their logs into a folder. `racebeam verify FOLDER` confirms them."""
 
 import argparse
 import pathlib
@@ -11,7 +11,7 @@ from client import Refused, connect  # noqa: E402
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("folder", help="a name below the server's --record-dir")
-parser.add_argument("--address", help="the server's, such as tcp://127.0.0.1:7800 (default: RACEBEAM_ADDRESS)")
+parser.add_argument("--address", help="address of the server, such as tcp://127.0.0.1:7800 (default: RACEBEAM_ADDRESS)")
 parser.add_argument("--game", default="beamfall", help="(default: %(default)s)")
 parser.add_argument("--episodes", type=int, default=3, help="(default: %(default)s)")
 parser.add_argument("--seed", type=int, default=5, help="seed of the agent (default: %(default)s)")
@@ -25,17 +25,17 @@ def play(session):
     session.log(options.folder, agent="python-random", agent_seed=options.seed, role="baseline")
     agent = random.Random(options.seed)
     for _ in range(options.episodes):
-        shown, score = session.reset(), 0
-        while not (shown["terminated"] or shown["truncated"]):
-            shown = session.act(agent.choice(actions))
-            score += shown["reward"]
+        reply, score = session.reset(), 0
+        while not (reply["terminated"] or reply["truncated"]):
+            reply = session.act(agent.choice(actions))
+            score += reply["reward"]
         print(f"score {score}")
     logged = session.log("stop")["logged"]
     print(f"{logged} episodes are in the server's folder {options.folder}")
 
 
 try:
-    with connect(options.address) as opened:
-        play(opened)
+    with connect(options.address) as session:
+        play(session)
 except (OSError, Refused) as error:
     sys.exit(f"logged_agent.py: {error}")

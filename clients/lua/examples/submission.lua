@@ -1,5 +1,5 @@
 -- Plays three episodes of Beamfall at random, with sticky actions. The server writes their logs into a folder, which
--- `racebeam verify FOLDER` confirms. The server's address is in RACEBEAM_ADDRESS; it needs --record-dir.
+-- `racebeam verify FOLDER` confirms. RACEBEAM_ADDRESS has the address of the server, which needs --record-dir.
 -- Usage: submission.lua FOLDER
 
 local racebeam = require("racebeam")
@@ -12,13 +12,13 @@ game:load("beamfall", { seed = 1, preset = "machado2018" })
 game:observe("reward", "terminated", "truncated")
 game:log(FOLDER, { agent = "lua-random", agent_seed = SEED, role = "baseline" })
 for _ = 1, EPISODES do
-  local shown, score = game:reset(), 0
-  while not (shown.terminated or shown.truncated) do
-    shown = game:act(math.random(0, 17))
-    score = score + shown.reward
+  local reply, score = game:reset(), 0
+  while not (reply.terminated or reply.truncated) do
+    reply = game:act(math.random(0, 17))
+    score = score + reply.reward
   end
   print(("score %d"):format(score))
 end
-local ended = game:log("stop")
-print(("%d episodes are in the server's folder %s"):format(ended.logged, FOLDER))
+local logged = game:log("stop").logged
+print(("%d episodes are in the server's folder %s"):format(logged, FOLDER))
 game:close_connection()

@@ -151,7 +151,7 @@ function methods:record(kinds, name, machine)
 end
 
 -- Log the episodes from the next reset on, so that anybody can verify them.
--- name: a name for the submission, or inline.
+-- name: a name for the submission, or inline; last answers with the last log, and stop ends logging.
 -- agent: the agent's name (default: agent).
 -- version: the agent's version (default: 1).
 -- agent_seed: the agent's seed (default: 0).

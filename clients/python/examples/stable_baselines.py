@@ -22,8 +22,10 @@ def main():
     )
     parser.add_argument("--envs", type=int, default=8, help="(default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="(default: %(default)s)")
-    parser.add_argument("--model", metavar="FILE", help="keeps the model")
-    parser.add_argument("--log", metavar="FOLDER", help="leaves a submission of three games, for racebeam verify")
+    parser.add_argument("--model", metavar="FILE", help="the file for the model")
+    parser.add_argument(
+        "--log", metavar="FOLDER", help="a new folder for a submission of three games, which racebeam verify confirms"
+    )
     options = parser.parse_args()
 
     # With Stable-Baselines3: VecFrameStack(make_atari_env("BeamfallNoFrameskip-v4", options.envs, options.seed), 4)

@@ -1598,7 +1598,7 @@ class Commands(Exchange):
         """Log the episodes from the next reset on, so that anybody can verify them.
 
         Args:
-            name: A name for the submission, or inline.
+            name: A name for the submission, or inline; last answers with the last log, and stop ends logging.
             agent: The agent's name (default: agent).
             version: The agent's version (default: 1).
             agent_seed: The agent's seed (default: 0).

@@ -137,7 +137,7 @@ class CommandMethods {
   }
 
   /// Log the episodes from the next reset on, so that anybody can verify them. Returns Group.
-  /// @param name a name for the submission, or inline
+  /// @param name a name for the submission, or inline; last answers with the last log, and stop ends logging
   /// @param settings `Setting("agent", AGENT)`: the agent's name (default: agent); `Setting("version", VERSION)`: the agent's version (default: 1); `Setting("agent_seed", N)`: the agent's seed (default: 0); `Setting("trial", N)`: the number of the trial (default: 1); `Setting("training_frames", N)`: frames that the agent was trained on (default: 0); `Setting("phrase", PHRASE)`: the phrase that the episodes' seeds follow from, with _ for a blank; `Setting("role", VALUE)`: what the agent is; `Setting("link", URL)`: a page about the agent; `Setting("machine", N)`: one of those of open, 0 the first
   template <class... Words>
   auto log(std::string_view name, const Words&... settings) {

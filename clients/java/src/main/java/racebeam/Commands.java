@@ -352,7 +352,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Log the episodes from the next reset on, so that anybody can verify them.
    *
-   * @param name a name for the submission, or inline
+   * @param name a name for the submission, or inline; last answers with the last log, and stop ends logging
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -363,7 +363,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Log the episodes from the next reset on, so that anybody can verify them.
    *
-   * @param name a name for the submission, or inline
+   * @param name a name for the submission, or inline; last answers with the last log, and stop ends logging
    * @param settings agent: the agent's name (default: agent); version: the agent's version (default: 1); agent_seed: the agent's seed (default: 0); trial: the number of the trial (default: 1); training_frames: frames that the agent was trained on (default: 0); phrase: the phrase that the episodes' seeds follow from, with _ for a blank; role: what the agent is; link: a page about the agent; machine: one of those of open, 0 the first
    * @return the first group of the reply
    * @throws IOException if the session has ended
