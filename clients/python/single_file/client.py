@@ -34,7 +34,6 @@ import sys
 import time
 import zlib
 from collections.abc import Callable, Iterable, Mapping
-from types import TracebackType
 from typing import IO, Any, NamedTuple, TypeVar
 
 PROTOCOL = 1  # the version that this client speaks
@@ -845,24 +844,6 @@ RAW_COUNT = re.compile(r" raw=(\S+)$")
 DAMAGES = (ValueError, KeyError, IndexError, zlib.error)  # what decoding a damaged reply raises
 
 
-class FailIfDamaged:
-    """Ends a session if its reply is damaged. One object serves all replies, since making one for each is slower.
-
-    Args:
-        session: The session.
-    """
-
-    def __init__(self, session: Connection) -> None:
-        self._session = session
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
-        if isinstance(error, DAMAGES):
-            raise self._session.fail(ConnectionError(f"its reply is damaged: {error}")) from error
-
-
 class Replies(Connection):
     """Pairs each reply with its request, and decodes it.
 
@@ -886,7 +867,6 @@ class Replies(Connection):
     ) -> None:
         super().__init__(reader, writer, close)
         self._observations = Observations(arrays)
-        self._fail_if_damaged = FailIfDamaged(self)
         self.offered: list[str] = []
         self.unanswered: collections.deque[list[str]] = collections.deque()
 
@@ -960,10 +940,12 @@ class Replies(Connection):
         """
         words, text = self.read_status(line)
         groups = parse_groups(text)
-        with self._fail_if_damaged:
+        try:
             self._observations.follow(words, groups[0])
             count = groups[-1].pop("raw", None)
             return words, groups, parse_count(count, self.longest_reply) if count is not None else 0
+        except DAMAGES as error:
+            raise self._damaged(error) from error
 
     def read_status(self, line: str) -> tuple[list[str], str]:
         """Reads the status of a reply.
@@ -999,8 +981,10 @@ class Replies(Connection):
         Raises:
             ConnectionError: If the counts do not add up to the bytes.
         """
-        with self._fail_if_damaged:
+        try:
             self._observations.split_bytes(words, groups, data)
+        except DAMAGES as error:
+            raise self._damaged(error) from error
 
     def decode(self, words: list[str], groups: list[Texts]) -> list[Values]:
         """Decodes a reply.
@@ -1015,16 +999,24 @@ class Replies(Connection):
         Raises:
             ConnectionError: If a field is damaged.
         """
-        with self._fail_if_damaged:
+        try:
             return self._observations.decode(words, groups)
+        except DAMAGES as error:
+            raise self._damaged(error) from error
 
     def _end(self, reason: str) -> None:
-        super()._end(reason)
         self.unanswered.clear()
+        super()._end(reason)
 
     def _parse_count(self, text: str) -> int:
-        with self._fail_if_damaged:
+        try:
             return parse_count(text, self.longest_reply)
+        except DAMAGES as error:
+            raise self._damaged(error) from error
+
+    def _damaged(self, error: Exception) -> OSError:
+        """Ends the session because a reply is damaged."""
+        return self.fail(ConnectionError(f"its reply is damaged: {error}"))
 
 
 class Exchange(Replies):

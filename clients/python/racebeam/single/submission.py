@@ -10,8 +10,6 @@ import re
 from ..episode_log import Episode, Origin, Start, log_of
 from ..errors import InvalidInput
 
-__all__ = ["Submission"]
-
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 COLUMNS = (
     "unit,game,image_md5,agent,trial,episode,environment_seed,agent_seed,score,frames,decisions,end,lives,state_hash,"

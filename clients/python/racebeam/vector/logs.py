@@ -18,8 +18,6 @@ from .machines import Actions, Seeds
 from .making import Rom
 from .results import Bools, Results
 
-__all__ = ["VectorLogs"]
-
 ARGUMENTS = ("folder", "agent", "version", "training_frames", "trial", "agent_seed", "about")
 
 
@@ -84,7 +82,7 @@ class VectorLogs:
         """
         chosen = np.ones(len(self._games), np.bool_) if mask is None else mask
         complete = np.full(len(self._games), -1, np.int64) if seeds is None else np.array(seeds)
-        for env in np.flatnonzero(chosen & (complete < 0)):
+        for env in np.flatnonzero(chosen & (complete < 0)).tolist():
             complete[env] = self._next_seed(env)
         return complete
 
@@ -97,7 +95,7 @@ class VectorLogs:
         """
         chosen = np.ones(len(self._games), np.bool_) if mask is None else mask
         self._is_over[chosen] = False
-        for env in np.flatnonzero(chosen):
+        for env in np.flatnonzero(chosen).tolist():
             if self._games[env].actions:
                 self._skip(env, "it was left before its end")
             self._begin(env, int(seeds[env]))
@@ -115,7 +113,7 @@ class VectorLogs:
             ends |= results.terminated
         stays = self._options.autoreset_mode is AutoresetMode.DISABLED
         self._is_over = ends | (~played & stays)
-        for env in np.flatnonzero(played):
+        for env in np.flatnonzero(played).tolist():
             game = self._games[env]
             game.actions.append(self._numbers[env][actions[env]])
             game.score += int(results.raw_rewards[env])
