@@ -55,7 +55,7 @@ class Logs(unittest.TestCase):
         ):
             with self.assertRaisesRegex(InvalidInput, sentence):
                 write_log(path, "beamfall", actions, seed=1, frame_skip=4)
-        for seed in (-1, 0, 2**32 - 1):
+        for seed in (-1, 2**32 - 1):
             with self.assertRaisesRegex(InvalidInput, f"seed is {seed};"):
                 write_log(self.path, "beamfall", [0], seed=seed, frame_skip=4)
         self.assertFalse(self.path.exists())
