@@ -129,7 +129,7 @@ Properties properties_of(const Environment& machine) {
 using Set = void (*)(PlaySettings& settings, std::string_view value);
 using Append = void (*)(std::string& out, const PlaySettings& settings, const Environment& machine);
 
-consteval SettingRow setting(std::string_view name, Set set, Append append) {
+constexpr SettingRow setting(std::string_view name, Set set, Append append) {
   const description::Setting& row = row_named(description::kSettings, name);
   return {name, row.accepted, row.is_deprecated, row.summary, set, append};
 }

@@ -20,17 +20,17 @@ constexpr int kDeepest = 16;
 using Number = std::int64_t (*)(const Environment&, const Outcome&);
 using BytesOf = Bytes (*)(const Environment&, ByteBuffer&);
 
-consteval Encoding encoding_named(std::string_view name) {
+constexpr Encoding encoding_named(std::string_view name) {
   return static_cast<Encoding>(&row_named(description::kEncodings, name) - description::kEncodings.data());
 }
 
-consteval FieldRow number(std::string_view name, Number of) {
+constexpr FieldRow number(std::string_view name, Number of) {
   const description::Field& row = row_named(description::kFields, name);
   return {name, row.summary, row.of_request, of, nullptr, Encoding::kHex};
 }
 
 // `of` is null for stacks, which a slot makes.
-consteval FieldRow bytes(std::string_view name, BytesOf of, Drawing looks_at = Drawing::kNone) {
+constexpr FieldRow bytes(std::string_view name, BytesOf of, Drawing looks_at = Drawing::kNone) {
   const description::Field& row = row_named(description::kFields, name);
   return {name, row.summary, row.of_request, nullptr, of, encoding_named(row.encoding), looks_at};
 }
