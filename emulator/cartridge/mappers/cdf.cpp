@@ -247,8 +247,7 @@ void map(CartridgeSlot& slot) {
 bool admits(const CartridgeSlot&, const CartridgeState& state) {
   Chip chip;
   std::memcpy(&chip, state.ram.data(), sizeof chip);
-  return state.bank[kShown] < kBanks && state.bank[kFastFetch] <= 1 && state.bank[kCalled] <= 1 &&
-         banks_unused(state, kCalled + 1) && can_be(chip);
+  return harmony::can_be(state, kBanks) && can_be(chip);
 }
 
 std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycle) {

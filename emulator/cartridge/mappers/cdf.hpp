@@ -33,7 +33,7 @@ struct Chip {
 static_assert(sizeof(Chip) <= kRamInState && std::has_unique_object_representations_v<Chip>);
 static_assert(alignof(Chip) <= alignof(CartridgeState));
 
-enum Bank { kShown, kFastFetch, kCalled };  // among the state's banks
+using enum harmony::Bank;
 
 void reset(CartridgeSlot& slot);
 void map(CartridgeSlot& slot);

@@ -21,6 +21,13 @@ constexpr unsigned kSampleParts = 143183, kPartsPerCycle = 2400;
 
 constexpr std::uint16_t kAddressBits = 0x1FFF;
 
+enum Bank { kShown, kFastFetch, kCalled };  // among the state's banks
+
+inline bool can_be(const CartridgeState& state, unsigned banks) {
+  return state.bank[kShown] < banks && state.bank[kFastFetch] <= 1 && state.bank[kCalled] <= 1 &&
+         banks_unused(state, kCalled + 1);
+}
+
 struct Voice {
   std::uint32_t frequency, phase;
 };

@@ -6,10 +6,8 @@
 
 #include "emulator/cartridge/arm/memory.hpp"
 #include "emulator/cartridge/mappers/dpcplus.hpp"
-#include "emulator/console.hpp"
-#include "emulator/translator/translator.hpp"
 #include "tests/emulator/bench.hpp"
-#include "tests/support/skip.hpp"
+#include "tests/emulator/cartridge/both_processors.hpp"
 #include "tests/support/thumb_code.hpp"
 
 namespace racebeam::test {
@@ -253,27 +251,16 @@ TEST_CASE("DPC+: three voices are waves of the display data, 20000 samples a sec
 
 // Calls, and fast fetch in every second frame.
 TEST_CASE("DPC+: the translator does what the interpreter does") {
-  if (*Translator::obstacle() != '\0') return leave_out(Translator::obstacle());
   const Bytes program = {0xE6, 0x80, 0xA5, 0x80, 0x29, 0x01, 0x8D, 0x58, 0x10,              // fast fetch
                          0xA9, 0xFE, 0x8D, 0x5A, 0x10,                                      // call
                          0xA2, 0x20, 0xA9, 0x08, 0x85, 0x1B, 0xAD, 0x09, 0x10, 0x85, 0x0D,  // 32 lines
                          0x85, 0x02, 0xCA, 0xD0, 0xF2,                                      //
                          0xA9, 0x42, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0xA9, 0x30, 0x85,
                          0x00, 0x4C, 0x00, 0xF1};
-  const auto rom = std::make_shared<const Rom>(
+  const Rom rom =
       image(program, {mov_number(1, 1), lsl(1, 1, 30), mov_number(2, 3), lsl(2, 2, 10), add(1, 1, 2),
-                      ldrb(3, 1, 0), add_number(3, 5), strb(3, 1, 0), strb(3, 1, 17), bx(kLr)}));
-  SystemGenerator one(1), other(1);
-  Console interpreted(rom, asking_for_dpcplus(), one, CpuKind::kInterpreter),
-      translated(rom, asking_for_dpcplus(), other, CpuKind::kTranslator);
-  for (int frame = 0; frame < 300; ++frame) {
-    interpreted.step();
-    translated.step();
-    REQUIRE(interpreted.state().cycle == translated.state().cycle);
-    REQUIRE(interpreted.state().cartridge.ram == translated.state().cartridge.ram);
-    REQUIRE(std::ranges::equal(interpreted.cartridge_ram(), translated.cartridge_ram()));
-  }
-  CHECK(unsigned{interpreted.cartridge_ram()[3072]} > 0);
+                      ldrb(3, 1, 0), add_number(3, 5), strb(3, 1, 0), strb(3, 1, 17), bx(kLr)});
+  compare_processors(rom, asking_for_dpcplus(), 3072);
 }
 
 }  // namespace
