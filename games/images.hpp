@@ -31,7 +31,7 @@ class Images {
   // The image of these bytes. Null if no image has them.
   std::shared_ptr<const Image> same(const Image& image) const;
   std::vector<std::string_view> names() const;  // without the MD5s
-  // A game of the catalogue, or of an available image. Null if there is no such game, or it has no rule.
+  // A game of the catalogue, or of an available image. Null for an unknown game, and for one without a rule.
   std::shared_ptr<const Game> rules(std::string_view game) const;
   std::vector<std::string> doubts() const;  // a warning for each image that another image's rule scores
 

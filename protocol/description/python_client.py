@@ -96,7 +96,7 @@ def docstring(command):
 
 
 def argument_line(word):
-    """An argument of a call on a line of its own, or a call in it on several: all its arguments on one, or one each."""
+    """Formats an argument as lines. Splits a call that is too long: all its arguments on one line, or one per line."""
     line = f"            {word},\n"
     if len(line) <= WIDTH:
         return line

@@ -51,7 +51,7 @@ def fault_of_end(status, errors, accepted=(0, 1, 2)):
 
 
 class Talk:
-    """A session of the line protocol on the standard streams of its own server."""
+    """A session of the line protocol with a new server, over standard streams."""
 
     def __init__(self, *options):
         self.session = Session("stdio", *options, image=None)
@@ -112,7 +112,7 @@ def files_in(folder):
 
 @contextlib.contextmanager
 def small_disk(pages):
-    """A folder on a file system of its own, which has room for `pages` pages of 4 KiB."""
+    """A folder on a new file system that has room for `pages` pages of 4 KiB."""
     if os.geteuid() != 0:
         raise Lacking("only root can mount a small disk")
     with tempfile.TemporaryDirectory() as folder:

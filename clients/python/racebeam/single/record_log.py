@@ -22,8 +22,8 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
     """Writes a log of each episode of an `AtariEnv` into a new folder, a submission.
 
     It wraps the environment directly, or what `gymnasium.make` returns: wrappers that change actions go around it. A
-    game that `life_loss` splits into several episodes is one episode of the log. Without a seed, `reset` powers the
-    game on with a seed of its own, because a log contains the seed of its episode.
+    game that `life_loss` splits into several episodes is one episode of the log. Without a seed, `reset` draws one
+    and powers the game on with it, because a log contains the seed of its episode.
 
     An episode gets no log if it was left before its end, if a state was restored in it, or if the log cannot be
     written. It then causes a warning.
