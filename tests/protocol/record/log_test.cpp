@@ -8,6 +8,7 @@
 #include "recording/recorder.hpp"
 #include "tests/protocol/duel.hpp"
 #include "tests/protocol/line_client.hpp"
+#include "tests/protocol/record/recording_client.hpp"
 #include "tests/recording/film.hpp"
 
 using namespace racebeam;
@@ -20,30 +21,18 @@ namespace {
 
 // Episodes of two acts.
 const std::string kLoad = "load beamfall seed=7 sticky=0.25 frame_skip=2 max_episode_frames=4";
-constexpr std::uint64_t kMemory = 64 << 20;
+constexpr std::uint64_t kMemory = test::RecordingClient::kMemory;
 
-struct Desk {
-  explicit Desk(std::size_t most_bytes = 1 << 30) : client(service(most_bytes)) { client.ask(kLoad); }
+struct Desk : test::RecordingClient {
+  explicit Desk(std::size_t most_bytes = 1 << 30)
+      : RecordingClient(test::duel_service(), kLoad, most_bytes) {}
 
-  LineService service(std::size_t most_bytes) const {
-    LineService service = test::duel_service();
-    service.limits.recording = most_bytes;
-    service.recorder = std::make_shared<Recorder>(folder.path(""));
-    service.memory = std::make_shared<MemoryBudget>(kMemory);
-    return service;
-  }
-
-  std::string ask(const std::string& request) { return client.ask(request); }
   void play() {
     ask("reset");
     ask("act FIRE*2");
   }
   std::string seed() { return value(ask("settings"), "seed"); }
-  std::string file(const std::string& name) const { return test::read(folder.path(name)); }
   bool has(const std::string& name) const { return std::filesystem::exists(folder.path(name)); }
-
-  Scratch folder;
-  test::LineClient client;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "recording/recorder.hpp"
 #include "tests/games/scratch.hpp"
 #include "tests/protocol/line_client.hpp"
+#include "tests/protocol/record/recording_client.hpp"
 #include "tests/recording/film.hpp"
 
 using namespace racebeam;
@@ -16,24 +17,11 @@ using test::value;
 namespace {
 
 const std::string kLoad = "load beamfall seed=7 sticky=0.25 frame_skip=2";
-constexpr std::uint64_t kMemory = 64 << 20;
+constexpr std::uint64_t kMemory = test::RecordingClient::kMemory;
 
-struct Studio {
-  explicit Studio(std::size_t most_bytes = 1 << 30) : client(service(most_bytes)) { client.ask(kLoad); }
-
-  LineService service(std::size_t most_bytes) const {
-    LineService service = test::line_service();
-    service.limits.recording = most_bytes;
-    service.recorder = std::make_shared<Recorder>(folder.path(""));
-    service.memory = std::make_shared<MemoryBudget>(kMemory);
-    return service;
-  }
-
-  std::string ask(const std::string& request) { return client.ask(request); }
-  std::string file(const std::string& name) const { return test::read(folder.path(name)); }
-
-  Scratch folder;
-  test::LineClient client;
+struct Studio : test::RecordingClient {
+  explicit Studio(std::size_t most_bytes = 1 << 30)
+      : RecordingClient(test::line_service(), kLoad, most_bytes) {}
 };
 
 }  // namespace
