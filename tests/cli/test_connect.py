@@ -1,6 +1,7 @@
 """racebeam connect: a line client for people and for scripts."""
 
 import fcntl
+import functools
 import os
 import pathlib
 import pty
@@ -247,12 +248,20 @@ class Typed(unittest.TestCase):
             except OSError:  # it has ended
                 break
             if waiting and shown.count("racebeam> ") >= prompts:
+                self.wait_for_editor(terminal)
                 text = waiting.pop(0)
                 prompts = shown.count("racebeam> ") + 1
                 os.write(terminal, text.encode())
         os.close(terminal)
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0, shown)
         return shown
+
+    def wait_for_editor(self, terminal):
+        """Wait until libedit reads single keys: what is typed earlier, the terminal itself shows as well."""
+        until = time.monotonic() + PATIENCE
+        while self.edits() and termios.tcgetattr(terminal)[3] & termios.ICANON:
+            self.assertLess(time.monotonic(), until, "libedit never took over the terminal")
+            time.sleep(0.001)
 
     def test_long_values_are_shortened(self):
         output = self.run_typed("load beamfall seed=7\n", "look screen\n", ":quit\n")
@@ -323,7 +332,9 @@ class Typed(unittest.TestCase):
             self.assertGreater(max(lines), columns - 15)
 
     @staticmethod
+    @functools.cache
     def edits():
+        """Whether the program was built with libedit."""
         return b"libedit" in subprocess.run(["ldd", BINARY], capture_output=True).stdout
 
 
