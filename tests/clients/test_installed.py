@@ -26,15 +26,20 @@ SCORE = f"{VERSION} 82 400\n"  # as in protocol/PROTOCOL.md, "States"
 PLAIN = {key: value for key, value in os.environ.items() if not key.startswith("CMAKE")}
 
 
-def run(*command, **variables):
-    """What a command prints. The test fails if the command does."""
-    done = subprocess.run(
+def outcome_of(*command, **variables):
+    """Runs a command, whose output and errors are one text."""
+    return subprocess.run(
         [str(word) for word in command],
         env={**PLAIN, "RACEBEAM_PROGRAM": BINARY, **variables},
         text=True,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
     )
+
+
+def run(*command, **variables):
+    """What a command prints. The test fails if the command does."""
+    done = outcome_of(*command, **variables)
     if done.returncode != 0:
         raise AssertionError(f"{' '.join(map(str, command))}\n{done.stdout}")
     return done.stdout
@@ -72,6 +77,41 @@ class Installed(unittest.TestCase):
                 if name == "in_process_shared" and not list(self.libraries.glob("libracebeam.so*")):
                     self.skipTest("configured without RACEBEAM_SHARED")
                 self.assertEqual(run(self.built / name, LD_LIBRARY_PATH=str(self.libraries)), SCORE)
+
+    def configured(self, project, *options):
+        """What CMake says of a project in a fresh folder, on one line."""
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "CMakeLists.txt").write_text(
+                f"cmake_minimum_required(VERSION 3.25)\nproject(agent LANGUAGES CXX)\n{project}\n"
+            )
+            done = outcome_of("cmake", "-S", folder, "-B", f"{folder}/b", f"-DCMAKE_PREFIX_PATH={self.prefix}", *options)
+            return done.returncode, " ".join(done.stdout.split())
+
+    def test_without_OpenSSL_a_project_learns_what_the_client_needs(self):
+        need = "needs OpenSSL with its headers, Debian's libssl-dev; OPENSSL_ROOT_DIR names its folder"
+        for project, status, sentence in (
+            ("find_package(racebeam REQUIRED COMPONENTS client)", 1, f"Reason given by package: racebeam::client {need}."),
+            ("find_package(racebeam REQUIRED)", 0, f"racebeam: without racebeam::client, which {need}"),
+        ):
+            with self.subTest(project):
+                hidden = self.configured(project, "-DCMAKE_DISABLE_FIND_PACKAGE_OpenSSL=ON")
+                self.assertEqual(hidden[0], status, hidden[1])
+                self.assertIn(sentence, hidden[1])
+                visible = self.configured(project)
+                self.assertEqual(visible[0], 0, visible[1])
+                self.assertNotIn("OpenSSL with", visible[1])
+
+    def test_a_project_that_requires_the_shared_library_learns_how_to_build_it(self):
+        status, text = self.configured("find_package(racebeam REQUIRED COMPONENTS shared)")
+        if list(self.libraries.glob("libracebeam.so*")):
+            self.assertEqual(status, 0, text)
+        else:
+            self.assertIn("racebeam::shared needs the library built with -DRACEBEAM_SHARED=ON.", text)
+
+    def test_an_unknown_component_is_refused(self):
+        status, text = self.configured("find_package(racebeam REQUIRED COMPONENTS engine)")
+        self.assertEqual(status, 1)
+        self.assertIn("accepted: racebeam, shared, client", text)
 
     def test_a_program_is_built_by_pkg_config(self):
         for package, name in (("racebeam", "in_process"), ("racebeam-client", "on_a_server")):
