@@ -45,6 +45,13 @@ bool PlanRows::mark(const Place& place) {
   return true;
 }
 
+bool PlanRows::has_marked(std::string_view unit) const {
+  const Own& own = own_[by_name_.at(unit)];
+  const auto first = marked_.begin() + static_cast<std::ptrdiff_t>(own.first);
+  return std::find(first, first + static_cast<std::ptrdiff_t>(own.rows()), true) !=
+         first + static_cast<std::ptrdiff_t>(own.rows());
+}
+
 void PlanRows::each_unmarked(const std::function<void(const Unit& unit, int episode)>& visit) const {
   for (const Own& own : own_)
     for (std::size_t i = 0; i < own.rows(); ++i)

@@ -29,7 +29,8 @@ class PlanRows {
   std::optional<Place> find(std::string_view unit, std::string_view episode) const;  // nothing: no such row
 
   bool has(std::string_view unit) const { return by_name_.contains(unit); }
-  bool mark(const Place& place);  // returns false if the row was marked before
+  bool mark(const Place& place);                 // returns false if the row was marked before
+  bool has_marked(std::string_view unit) const;  // any row of a unit of the plan
   bool is_marked(const Place& place) const { return marked_[place.index]; }
   void each_unmarked(const std::function<void(const Unit& unit, int episode)>& visit) const;
 

@@ -37,6 +37,12 @@ void RowTally::wrong(const std::string& line) {
   finding_(line);
 }
 
+void RowTally::leave(const std::string& line) {
+  judge_taken();
+  ++verdict_.unchecked;
+  if (!line.empty()) finding_(line);
+}
+
 void RowTally::find_surplus(const std::string& logs,
                             const std::function<bool(const std::string& path, bool is_folder)>& is_wanted) {
   namespace fs = std::filesystem;

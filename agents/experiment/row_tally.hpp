@@ -29,6 +29,8 @@ class RowTally {
   void take_wrong(std::string line);
   // Counts something that is not a row. Those that were taken before are told first.
   void wrong(const std::string& line);
+  // Counts a row that cannot be judged. An empty line is not told.
+  void leave(const std::string& line);
   // Each file below `logs` that is not wanted is wrong.
   void find_surplus(const std::string& logs,
                     const std::function<bool(const std::string& path, bool is_folder)>& is_wanted);

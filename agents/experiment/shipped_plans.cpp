@@ -57,11 +57,28 @@ trials = 1
 training_frames = 10000000
 evaluation_episodes = 30
 )"},
-    ShippedPlan{"disco", "DISCO as long as in the paper, three trials in each of two games",
-                R"(name = "disco"
-games = ["asterix", "space_invaders"]
-agents = ["disco"]
+    ShippedPlan{"perturb", "the 18 Perturb policies in all 55 games", R"(name = "perturb"
+games = "paper"
+agents = ["perturb"]
+evaluation_episodes = 30
+)"},
+    ShippedPlan{"learners", "four learners as long as in the paper, three trials in each of five games",
+                R"(name = "learners"
+games = "training"
+agents = ["basic", "bass", "disco", "lsh"]
 trials = 3
+)"},
+    ShippedPlan{"ram", "RAM as long as in the paper, a trial in each of five games", R"(name = "ram"
+games = "training"
+agents = ["ram"]
+trials = 1
+)"},
+    ShippedPlan{"blob_prost", "Blob-PROST for 2,000 episodes, a trial in each of five games",
+                R"(name = "blob_prost"
+games = "training"
+agents = ["blob_prost"]
+trials = 1
+training_episodes = 2000
 )"},
     ShippedPlan{"uct", "UCT with 500 simulations, an episode in each of three games", R"(name = "uct"
 games = ["boxing", "asterix", "seaquest"]
@@ -100,6 +117,20 @@ trials = 1
 games = ["asterix", "freeway"]
 agents = ["iw1"]
 [agent.iw1]
+trials = 1
+)"},
+    ShippedPlan{"searches", "four searches at full budget, an episode in each of ten games",
+                R"(name = "searches"
+games = ["asterix", "beam_rider", "freeway", "seaquest", "space_invaders",
+         "pong", "breakout", "ms_pacman", "qbert", "boxing"]
+agents = ["uct", "full_tree", "iw1", "rollout_iw1"]
+[agent.uct]
+trials = 1
+[agent.full_tree]
+trials = 1
+[agent.iw1]
+trials = 1
+[agent.rollout_iw1]
 trials = 1
 )"},
 };

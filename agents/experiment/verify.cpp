@@ -66,6 +66,7 @@ class RowJudge {
   }
 
   RowVerdict judge_episode(const ResultRow& row, const PlanRows::Place& place) {
+    if (!fs::exists(folder_.logs(row[0]))) return {Judgement::kUnchecked, "the unit's logs are not here"};
     const std::string path = folder_.log(row[0], field(row, "episode"));
     const std::string bytes = read_input_file("episode log", path, kMostLogBytes);
     const EpisodeLog log = log_of(fs::path(path).filename().string(), bytes);
@@ -107,10 +108,7 @@ class Verification {
   Verdict all() {
     each_result(folder_.results(), [&](const ResultRow& row, std::size_t) { plan_rows_.note(row); });
     each_result(folder_.results(), [&](const ResultRow& row, std::size_t line) { take(row, line); });
-    plan_rows_.each_unmarked([&](const Unit& unit, int episode) {
-      tally_.wrong("results.csv: the row of " + unit.name + ", episode " + std::to_string(episode) +
-                   " is missing");
-    });
+    find_missing();
     tally_.find_surplus(folder_.logs(), [&](const std::string& path, bool is_folder) {
       return is_folder ? is_wanted_folder(path) : is_wanted_log(path);
     });
@@ -118,6 +116,18 @@ class Verification {
   }
 
  private:
+  // While the experiment goes on, a unit without a row is one that is not finished.
+  void find_missing() {
+    const bool goes_on = fs::is_directory(folder_.work());
+    plan_rows_.each_unmarked([&](const Unit& unit, int episode) {
+      if (!goes_on || plan_rows_.has_marked(unit.name))
+        tally_.wrong("results.csv: the row of " + unit.name + ", episode " + std::to_string(episode) +
+                     " is missing");
+      else
+        tally_.leave(episode == 1 ? unit.name + ": is not finished" : "");
+    });
+  }
+
   // A row that is not in the plan, or stands twice, is not judged.
   void take(const ResultRow& row, std::size_t line) {
     const std::string name = name_of_row(row, line);

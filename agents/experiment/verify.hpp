@@ -12,12 +12,12 @@ namespace racebeam {
 struct Verdict {
   std::size_t confirmed = 0;  // rows
   std::size_t wrong = 0;      // rows, logs and units that are not as they should be
-  std::size_t unchecked = 0;  // rows whose image is not here, and trials that diverged
+  std::size_t unchecked = 0;  // rows whose image or logs are not here, or whose trial diverged or goes on
   std::int64_t frames = 0;    // that were played
 };
 
 // One line for each row that is not confirmed, in the order of the results; then one for each row that is
-// missing, and for each log that is too many. From one thread at a time.
+// missing, unit that goes on, and log that is too many. From one thread at a time.
 using Finding = std::function<void(const std::string& line)>;
 
 // The plan of results, which has the images and the version. Throws InvalidInput.

@@ -36,7 +36,7 @@ prove that the plan's agent made them. A seed chooses the units, and is printed;
 takes as long as `racebeam experiment` took for these units.
 
 Exit status: 0 all rows are confirmed; 1 rows, logs, tables or units are wrong, missing or too many; 2 nothing is wrong,
-but some rows could not be checked, such as those of a game without an image.
+but some rows could not be checked, such as those of a game without an image, or of a unit that is not finished.
 
 Examples:
   racebeam verify results --roms ~/atari

@@ -112,6 +112,25 @@ TEST_CASE("An experiment's results are confirmed, and every alteration is named"
     CHECK_THAT(verified(folder).findings,
                Catch::Contains("beamfall-random-1, episode 9): is not in the plan"));
   }
+  SECTION("an experiment that goes on, and one whose logs were not kept") {
+    const std::string unfinished = table.substr(0, table.find("beamfall-basic-1"));
+    write(folder.results(), unfinished);
+    fs::remove_all(folder.logs("beamfall-basic-1"));
+    CHECK(verified(folder).verdict.wrong == 2);
+    fs::create_directory(folder.work());
+    Verified found = verified(folder);
+    CHECK_THAT(found.findings, Catch::Contains("beamfall-basic-1: is not finished"));
+    CHECK(found.verdict.wrong == 0);
+    CHECK(found.verdict.unchecked == 2);
+    write(folder.results(), table.substr(0, table.rfind('\n', table.size() - 2) + 1));
+    CHECK_THAT(verified(folder).findings,
+               Catch::Contains("the row of beamfall-basic-1, episode 2 is missing"));
+    write(folder.results(), table);
+    found = verified(folder);
+    CHECK_THAT(found.findings, Catch::Contains("could not be checked: the unit's logs are not here"));
+    CHECK(found.verdict.wrong == 0);
+    CHECK(found.verdict.unchecked == 2);
+  }
   SECTION("a table with other columns, and one that was cut") {
     write(folder.results(), "unit,score\n");
     CHECK_THROWS_WITH(verified(folder),
