@@ -32,7 +32,7 @@ class Document(Conditions, Agents, Searches, Logs):
         self.baselines()
         self.learners()
         self.long_training()
-        self.disco()
+        self.whole_training()
         self.searches()
         self.simulations()
         self.verification()

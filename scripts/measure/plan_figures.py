@@ -3,11 +3,12 @@
 
     plan_figures.py FOLDER/PLAN [--into FILE]
 
-FOLDER/PLAN is what `racebeam experiment PLAN --into FOLDER/PLAN` makes, and whole. FOLDER may have besides:
+FOLDER/PLAN is what `racebeam experiment PLAN --into FOLDER/PLAN` makes, or a part of it: figures are of the units that
+are finished. FOLDER may have besides:
 
     machine.txt             lines "KEY: VALUE": where and with what the plan was run
-    PLAN.verify             what `racebeam verify FOLDER/PLAN` printed; then a line "processor seconds: N"
-    PLAN.ale                what `scripts/check/verify-with-ale FOLDER/PLAN` printed
+    PLAN.verify             what `racebeam verify` printed for each part; after each, a line "processor seconds: N"
+    PLAN.ale                what `scripts/check/verify-with-ale` printed for each part
     bench/GAME-search.json  what `racebeam bench --rom GAME --frame-skip 5 --search --json` printed
     bench/GAME-none-N.json  what `racebeam bench --rom GAME --frame-skip N --screen none --json` printed, N being 1 and
     5
@@ -40,8 +41,8 @@ class Results:
     """The results of one plan. Rows of trials that diverged are counted, and left out of all else."""
 
     def __init__(self, folder):
-        if not (folder / "results.csv").exists() or (folder / "work").exists():
-            sys.exit(f"plan_figures.py: {folder} has no results, or units are left: `racebeam experiment` finishes it")
+        if not (folder / "results.csv").exists():
+            sys.exit(f"plan_figures.py: {folder} has no results: `racebeam experiment` makes them")
         self.folder = folder
         self.plan = tomllib.loads((folder / "plan.toml").read_text())
         rows = table(folder / "results.csv")
@@ -58,13 +59,29 @@ class Results:
         path = self.folder.parent / name
         return path.read_text() if path.exists() else None
 
-    def scores(self, agent):
-        """{game: score}: the mean over trials of the mean over their episodes."""
+    def trials(self, agent):
+        """{game: [score of each trial]}: the means of the trials' episodes."""
         trials = {}
         for row in self.rows:
             if row["agent"] == agent:
                 trials.setdefault(row["game"], {}).setdefault(row["trial"], []).append(float(row["score"]))
-        return {game: statistics.mean(map(statistics.mean, each.values())) for game, each in trials.items()}
+        return {game: [statistics.mean(scores) for scores in each.values()] for game, each in trials.items()}
+
+    def scores(self, agent):
+        """{game: score}: the mean over trials of the mean over their episodes."""
+        return {game: statistics.mean(scores) for game, scores in self.trials(agent).items()}
+
+    def curves(self):
+        """{agent: {game: the scores of training by tenths of the episodes, means over trials}}."""
+        path = self.folder / "curves.csv"
+        scores = {}
+        for row in table(path) if path.exists() else []:
+            scores.setdefault((row["agent"], row["game"]), {}).setdefault(row["trial"], []).append(float(row["score"]))
+        curves = {}
+        for (agent, game), trials in scores.items():
+            parts = [tenths(each) for each in trials.values()]
+            curves.setdefault(agent, {})[game] = [statistics.mean(part) for part in zip(*parts)]
+        return curves
 
     def settings(self, agent):
         """The settings of an agent, or of all agents of its kind: const_noop has those of const."""
@@ -83,12 +100,14 @@ class Results:
         }
 
     def log_bytes(self, agent):
-        sizes = [
-            (self.folder / "logs" / row["unit"] / f"{row['episode']}.episode").stat().st_size
+        """Sizes of the logs that are here: units of other machines are kept without."""
+        logs = [
+            self.folder / "logs" / row["unit"] / f"{row['episode']}.episode"
             for row in self.rows
             if row["agent"] == agent
         ]
-        return {"median": statistics.median(sizes), "largest": max(sizes)}
+        sizes = [log.stat().st_size for log in logs if log.exists()]
+        return {"median": statistics.median(sizes), "largest": max(sizes)} if sizes else None
 
     def searches(self):
         """An entry for each episode of an agent that searches."""
@@ -114,10 +133,8 @@ class Results:
         if text is None:
             return None
         names = ("confirmed", "wrong", "not_checked", "frames")
-        counts = re.search(
-            r"(\d+) rows confirmed, (\d+) wrong, (\d+) could not be checked; (\d+) frames", text
-        ).groups()
-        seconds = float(re.search(r"processor seconds: ([0-9.]+)", text)[1])
+        counts = sums(r"(\d+) rows confirmed, (\d+) wrong, (\d+) could not be checked; (\d+) frames", text)
+        (seconds,) = sums(r"processor seconds: ([0-9.]+)", text)
         return {**dict(zip(names, map(int, counts))), "seconds": seconds, "bench_seconds": self.bench_seconds()}
 
     def bench_seconds(self):
@@ -133,7 +150,7 @@ class Results:
         text = self.beside(f"{self.folder.name}.ale")
         if text is None:
             return None
-        counts = re.search(r"(\d+) rows agree with ALE, (\d+) do not, (\d+) have no image", text).groups()
+        counts = sums(r"(\d+) rows agree with ALE, (\d+) do not, (\d+) have no image", text)
         return dict(zip(("agree", "differ", "no_image"), map(int, counts)))
 
     def bench(self, game, kind):
@@ -141,11 +158,13 @@ class Results:
         return json.loads(text)["frames_per_second"] if text else None
 
     def figures(self):
+        curves = self.curves()
         return {
             "machine": self.machine(),
             "games": self.plan["games"],
             "settings": {agent: self.settings(agent) for agent in self.plan["agents"]},
             "units": len(self.times),
+            "unfinished": (self.folder / "work").exists(),
             "episodes": {
                 agent: dict(collections.Counter(row["game"] for row in self.rows if row["agent"] == agent))
                 for agent in self.agents
@@ -153,8 +172,10 @@ class Results:
             "diverged": self.diverged,
             "seconds": sum(times[part + "_seconds"] for times in self.times.values() for part in PARTS),
             "scores": {agent: self.scores(agent) for agent in self.agents},
+            "trials": {agent: self.trials(agent) for agent in curves},
+            "curves": curves,
             "speeds": {agent: self.speeds(agent) for agent in self.agents},
-            "log_bytes": {agent: self.log_bytes(agent) for agent in self.agents},
+            "log_bytes": {agent: sizes for agent in self.agents if (sizes := self.log_bytes(agent))},
             "searches": self.searches(),
             "bench": {
                 name: {
@@ -167,6 +188,18 @@ class Results:
             "verified": self.verified(),
             "ale": self.ale(),
         }
+
+
+def sums(pattern, text):
+    """The sum of each group of a pattern over all of its matches."""
+    return [sum(map(float, column)) for column in zip(*(match.groups() for match in re.finditer(pattern, text)))]
+
+
+def tenths(scores):
+    """The means of ten equal parts of a list, or of its single members if there are fewer."""
+    count = min(10, len(scores))
+    ends = [len(scores) * part // count for part in range(count + 1)]
+    return [statistics.mean(scores[begin:end]) for begin, end in zip(ends, ends[1:])]
 
 
 def rounded(value):

@@ -71,10 +71,15 @@ class PaperResults(unittest.TestCase):
             self.assertIn(f"| `{plan}` | not run yet |", text)
         self.assertIn("Not run yet: `racebeam experiment uct`.", text)
 
-    def test_unfinished_results_are_refused(self):
+    def test_unfinished_results_count_with_what_is_finished(self):
         results(self.folder / "uct", ["uct"], {"uct": [[5]]})
         (self.folder / "uct/work").mkdir()
-        with self.assertRaisesRegex(SystemExit, "units are left"):
+        self.assertIn("| `uct` | 1, goes on | 1 |", self.text())
+        (self.folder / "uct/work").rmdir()
+        self.assertIn("| `uct` | 1 | 1 |", self.text())
+
+    def test_a_folder_without_results_is_refused(self):
+        with self.assertRaisesRegex(SystemExit, "has no results"):
             plan_figures.Results(self.folder / "uct")
 
     def test_baselines_stand_beside_the_paper(self):
@@ -98,7 +103,6 @@ class PaperResults(unittest.TestCase):
             text = plan.read_text().replace("[agent.perturb]\nframe_skip = 5", "[agent.perturb]\nframe_skip = 1")
             plan.write_text(text)
         text = " ".join(self.text().split())
-        self.assertIn("has been run again in 1 of 1 games. The other games have a dash.", text)
         self.assertIn("Perturb's score is within a fifth of the paper's in 1 of 1 games.", text)
         self.assertIn("| asterix | 100.0 | 288.1 | 10.0 | noop | 650.0 | 330.0 | up | 337.8 |", text)
         self.assertIn("| `baselines`, 1 games again | 3 |", text)
@@ -149,9 +153,32 @@ class PaperResults(unittest.TestCase):
             plan.write_text(settings.replace("[agent.iw1]", "[agent.iw1]\nreuse_tree = 1"))
         self.assertNotIn("Agents that have changed", self.text())
 
-    def test_disco_stands_beside_the_paper(self):
-        results(self.folder / "disco", ["disco"], {"disco": [[700, 800]]})
-        self.assertIn("| asterix | 750.0 | 754.6 | 2 |", self.text())
+    def test_whole_training_stands_beside_the_paper(self):
+        results(self.folder / "learners", ["disco"], {"disco": [[700, 800], [770]]})
+        curves = [f"asterix-disco-1,asterix,disco,1,{place},{10 * place},1000,200" for place in range(20)]
+        write(self.folder / "learners/curves.csv", ["unit,game,agent,trial,episode,score,frames,decisions", *curves])
+        text = self.text()
+        # half the difference of 20, times 12.706
+        self.assertIn("| asterix | disco | 2 | 3 | 760.0 | 632.9 to 887.1 | 754.6 | 1.01 |", text)
+        self.assertIn("| asterix | disco | 5 | 25 | 45 | 65 | 85 | 105 | 125 | 145 | 165 | 185 |", text)
+        self.assertIn("Not run yet: `racebeam experiment ram`.", text)
+
+    def test_perturb_of_some_games_stands_beside_the_paper(self):
+        results(
+            self.folder / "baselines",
+            ["random", "const", "perturb"],
+            {"random": [[100]], "const_up": [[10]], "perturb_up": [[33]]},
+        )
+        results(self.folder / "perturb", ["perturb"], {"perturb_up": [[300]], "perturb_down": [[301]]})
+        self.assertIn("| asterix | 100.0 | 288.1 | 10.0 | up | 650.0 | 301.0 | down | 337.8 |", self.text())
+
+    def test_kept_units_have_no_logs_and_parts_of_a_verification_add_up(self):
+        results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
+        (self.folder / "iw1/logs/asterix-iw1-1/1.episode").unlink()
+        part = ["1 rows confirmed, 0 wrong, 0 could not be checked; 1000 frames in 9.0 s", "processor seconds: 0.05"]
+        write(self.folder / "iw1.verify", [*part, *part])
+        write(self.folder / "iw1.ale", ["1 rows agree with ALE, 0 do not, 0 have no image"] * 2)
+        self.assertIn("| `iw1` | 2 | 0 | 0 | 20,000 | - | 4.0% | 2 | 0 |", self.text())
 
     def test_the_document_is_laid_out_as_all_are(self):
         results(self.folder / "uct", ["uct"], {"uct": [[5]]})

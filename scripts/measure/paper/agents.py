@@ -7,6 +7,17 @@ from plan_figures import ROOT
 from .parts import PARTIAL, Part, best, number, rows_of
 
 LEARNERS = {"basic": 8000, "lsh": 4000, "disco": 3000, "bass": 1000, "ram": 500}  # decisions a second: the goals
+# The 97.5 % quantile of Student's t for 1, 2, ... degrees of freedom.
+STUDENT = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262)
+
+
+def interval(trials):
+    """The 95 % interval of a mean over trials, by Student's t."""
+    if len(trials) < 2:
+        return "-"
+    half = STUDENT[len(trials) - 2] * statistics.stdev(trials) / len(trials) ** 0.5
+    mean = statistics.mean(trials)
+    return f"{number(mean - half)} to {number(mean + half)}"
 
 
 class Agents(Part):
@@ -20,7 +31,7 @@ class Agents(Part):
         random, const, perturb = (
             found["scores"]["random"],
             best(found, "const"),
-            best(self.figures_of("baselines"), "perturb"),
+            self.perturb_scores(),
         )
         rows = []
         for game in found["games"]:
@@ -69,9 +80,17 @@ class Agents(Part):
             )
         )
 
+    def perturb_scores(self):
+        """{game: (score, action)} of Perturb as it is now, from all plans that have it."""
+        again = [self.figures[name] for name in (PARTIAL, "perturb") if name in self.figures]
+        found = {}
+        for figures in again or [self.figures["baselines"]]:
+            found |= best(figures, "perturb")
+        return found
+
     def perturb(self, perturb, games):
         """How near Perturb is to the paper's. It is within a fifth if the scores differ by at most a fifth of it."""
-        if PARTIAL in self.figures:
+        if len(perturb) < games:
             self.say(f"""Perturb, which chose an action for 5 frames before, has been run again in {len(perturb)} of
                 {games} games. The other games have a dash.""")
         far = [
@@ -148,18 +167,36 @@ class Agents(Part):
             )
         )
 
-    def disco(self):
-        self.add("## DISCO, whole training")
-        if self.lacks("disco"):
+    def whole_training(self):
+        self.add("## Learners, whole training")
+        plans = [name for name in ("learners", "ram", "blob_prost") if name in self.figures]
+        self.lacks(*(name for name in ("learners", "ram", "blob_prost") if name not in plans))
+        if not plans:
             return
-        found = self.figures["disco"]
-        scores, counts = found["scores"]["disco"], found["episodes"]["disco"]
-        self.add(
-            rows_of(
-                ["game", "DISCO", "paper's DISCO", "evaluation episodes"],
-                *(
-                    [game, number(scores.get(game)), number(self.paper[game]["disco"]), f"{counts.get(game, 0):,}"]
-                    for game in found["games"]
-                ),
-            )
-        )
+        self.say("""As long as in the paper: 5,000 episodes of training and 500 of evaluation (Blob-PROST: 2,000 of
+            training). A score is the mean over trials of the mean over their episodes. The interval is at 95 %, by
+            Student's t over trials. A dash is that of a single trial.""")
+        rows, curves = [], []
+        for game, agent, found in self.trained(plans):
+            theirs, score = self.paper[game].get(agent), found["scores"][agent][game]
+            row = [game, agent, str(len(found["trials"][agent][game])), f"{found['episodes'][agent][game]:,}"]
+            row += [number(score), interval(found["trials"][agent][game]), number(theirs)]
+            rows.append([*row, number(score / theirs, 2) if theirs else "-"])
+            curves.append([game, agent, *(number(part, 0) for part in found["curves"][agent][game])])
+        header = ["game", "agent", "trials", "episodes", "score", "95 % interval", "published", "score / published"]
+        self.add(rows_of(header, *rows))
+        self.say("""Mean scores of training episodes, by tenths of the training. Training explores as evaluation
+            does.""")
+        width = max(len(row) for row in curves)
+        tenths = [f"{place}" for place in range(1, width - 1)]
+        self.add(rows_of(["game", "agent", *tenths], *(row + ["-"] * (width - len(row)) for row in curves)))
+
+    def trained(self, plans):
+        """(game, agent, figures) of each learner that was trained in a game, by game."""
+        every = [
+            (game, agent, self.figures[plan])
+            for plan in plans
+            for agent, games in self.figures[plan]["trials"].items()
+            for game in games
+        ]
+        return sorted(every, key=lambda each: each[0])

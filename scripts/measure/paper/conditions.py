@@ -49,7 +49,9 @@ class Conditions(Part):
         self.add("## Commands, machine, versions")
         self.say("""The plans are part of the program. `scripts/measure/paper_plans FOLDER PLAN` runs a plan, verifies
             its rows, and gathers its figures. Times are
-            seconds of processor time, so that other programs hardly change them.""")
+            seconds of processor time, so that other programs hardly change them. Rows, curves and digests of logs of
+            long plans are kept in `docs/results/kept`. With the same command, another machine goes on with a plan
+            where it ended.""")
         rows = []
         for name in (*PLANS, *({PARTIAL} & set(self.figures))):
             found = self.figures.get(name)
@@ -58,7 +60,7 @@ class Conditions(Part):
                     self.title(name),
                     *(
                         [
-                            f"{found['units']:,}",
+                            f"{found['units']:,}" + (", goes on" if found.get("unfinished") else ""),
                             f"{episodes(found):,}",
                             str(found["diverged"]),
                             number(found["seconds"] / 3600, 2),
@@ -99,6 +101,13 @@ class Conditions(Part):
                     "2,000,000 decisions, 1 trial",
                     "scores of long training",
                     "the spread over trials",
+                ],
+                [
+                    "learners, whole training",
+                    "55 games, 30 trials of 5,000 episodes",
+                    "5 games, 1 to 3 trials of 5,000 episodes, as far as they have run",
+                    "scores of whole training",
+                    "the spread over trials, with one trial",
                 ],
                 [
                     "UCT, full tree",

@@ -8,7 +8,10 @@ from plan_figures import ROOT, table
 
 PUBLISHED = ROOT / "evaluation/racebeam_evaluation/data"
 WIDTH = 100
-PLANS = ("baselines", "hour", "basic", "disco", "uct", "uct10", "uct50", "uct150", "full_tree", "iw1")
+PLANS = (
+    *("baselines", "perturb", "hour", "basic", "learners", "ram", "blob_prost"),
+    *("uct", "uct10", "uct50", "uct150", "full_tree", "iw1", "searches"),
+)
 PARTIAL = "baselines-partial"
 
 
@@ -49,13 +52,17 @@ def share_of_bench(verified):
 
 
 def best(found, kind):
-    """{game: (score, action)} of the best of the 18 agents of a kind."""
-    scores = {
-        agent.removeprefix(kind + "_"): each for agent, each in found["scores"].items() if agent.startswith(kind + "_")
-    }
+    """{game: (score, action)} of the best of the 18 agents of a kind, for games in which all of them have played."""
+    scores = {}
+    for agent, each in found["scores"].items():
+        if agent.startswith(kind + "_"):
+            for game, score in each.items():
+                scores.setdefault(game, []).append((score, agent.removeprefix(kind + "_")))
+    all_of_them = max(map(len, scores.values()))
     return {
-        game: max(((each[game], action) for action, each in scores.items() if game in each), key=lambda pair: pair[0])
+        game: max(scores[game], key=lambda pair: pair[0])
         for game in found["games"]
+        if len(scores.get(game, ())) == all_of_them
     }
 
 

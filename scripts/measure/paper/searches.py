@@ -15,11 +15,12 @@ class Searches(Part):
         self.add("## Search")
         rows = []
         seconds_of_uct = []
-        for name in ("uct", "full_tree", "iw1"):
-            if self.lacks(name):
+        for plan in ("uct", "full_tree", "iw1", "searches"):
+            if self.lacks(plan):
                 continue
-            found = self.figures[name]
+            found = self.figures[plan]
             for episode in found["searches"]:
+                name = episode["agent"]
                 game, score = episode["game"], episode["score"]
                 seconds = episode["seconds"] / episode["decisions"]
                 if name == "uct":
