@@ -54,7 +54,7 @@ def _write_board(options: argparse.Namespace) -> int:
     write(options.into, site.files)
     for sentence in site.broken:
         print(f"racebeam-evaluate: not shown: {sentence}", file=sys.stderr)
-    print(f"{site.submissions} submissions: {options.into / 'index.html'}")
+    print(f"{site.submissions} submission{'s' * (site.submissions != 1)}: {options.into / 'index.html'}")
     return 3 if site.broken else 0
 
 

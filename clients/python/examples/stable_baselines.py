@@ -26,11 +26,15 @@ def main():
     parser.add_argument(
         "--log", metavar="FOLDER", help="a new folder for a submission of three games, which racebeam verify confirms"
     )
+    parser.add_argument(
+        "--preset", choices=("machado2018", "paper2013"), help="settings of the literature, for training and submission"
+    )
     options = parser.parse_args()
+    settings = {"preset": options.preset, "reward_clipping": True} if options.preset else {}
 
     # With Stable-Baselines3: VecFrameStack(make_atari_env("BeamfallNoFrameskip-v4", options.envs, options.seed), 4)
     try:
-        envs = racebeam.sb3.VecEnv(options.game, options.envs, seed=options.seed)
+        envs = racebeam.sb3.VecEnv(options.game, options.envs, seed=options.seed, **settings)
     except racebeam.InvalidInput as error:
         sys.exit(f"stable_baselines.py: {error}")
     model = PPO(
@@ -58,17 +62,16 @@ def play_games(model, options):
         "folder": options.log,
         "agent": "sb3-ppo",
         "agent_seed": options.seed,
-        "training_frames": 4 * options.steps,
+        "training_frames": (5 if options.preset else 4) * options.steps,
     }
-    envs = racebeam.AtariVectorEnv(
-        options.game,
-        seed=options.seed,
-        noop_max=0,
-        use_fire_reset=False,
-        repeat_action_probability=0.25,
-        max_num_frames_per_episode=18000,
-        log=about,
-    )
+    ours = {
+        "noop_max": 0,
+        "use_fire_reset": False,
+        "repeat_action_probability": 0.25,
+        "max_num_frames_per_episode": 18000,
+    }
+    settings = {"preset": options.preset} if options.preset else ours
+    envs = racebeam.AtariVectorEnv(options.game, seed=options.seed, log=about, **settings)
     games, (observations, _) = 0, envs.reset()
     while games < 3:
         actions, _ = model.predict(observations, deterministic=False)

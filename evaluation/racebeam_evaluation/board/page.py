@@ -7,8 +7,10 @@ from .submission import Episode, Submission
 
 _STYLE = """body { font: 15px/1.5 sans-serif; max-width: 75em; margin: 2em auto; padding: 0 1em; color: #222 }
 table { border-collapse: collapse; margin: 1em 0 }
+th { vertical-align: bottom }
+td:first-child { white-space: nowrap }
 th, td { padding: .2em .7em; border-bottom: 1px solid #ddd; text-align: left }
-td.number { text-align: right; font-variant-numeric: tabular-nums }
+.number { text-align: right; font-variant-numeric: tabular-nums }
 img { max-width: 100% }
 .broken { color: #a00 }"""
 
@@ -42,14 +44,15 @@ def link(address: str, words: str) -> str:
     return f'<a href="{html.escape(address)}">{text(words)}</a>'
 
 
-def table(header: list[str], rows: list[list[str]], numbers_from: int) -> str:
-    """A table of cells that are markup already. The columns from `numbers_from` hold numbers."""
-    lines = ["<table>", "<tr>" + "".join(f"<th>{text(name)}</th>" for name in header) + "</tr>"]
-    for row in rows:
-        kinds = [' class="number"' if index >= numbers_from else "" for index in range(len(row))]
-        cells = [f"<td{kind}>{cell}</td>" for kind, cell in zip(kinds, row)]
-        lines.append("<tr>" + "".join(cells) + "</tr>")
-    return "\n".join([*lines, "</table>"])
+def table(header: list[str], rows: list[list[str]], numbers: range) -> str:
+    """A table of cells that are markup already. The columns of `numbers` hold numbers."""
+
+    def line(tag: str, cells: list[str]) -> str:
+        kinds = [' class="number"' if index in numbers else "" for index in range(len(cells))]
+        return "<tr>" + "".join(f"<{tag}{kind}>{cell}</{tag}>" for kind, cell in zip(kinds, cells)) + "</tr>"
+
+    lines = [line("th", [text(name) for name in header]), *(line("td", row) for row in rows)]
+    return "\n".join(["<table>", *lines, "</table>"])
 
 
 def of_submission(submission: Submission, logs: dict[str, Episode], viewer: str) -> str:
@@ -65,7 +68,7 @@ def of_submission(submission: Submission, logs: dict[str, Episode], viewer: str)
         games.setdefault(episode.row["game"], []).append(_row(path, episode, viewer))
     header = ["trial", "episode", "score", "frames", "end", "log"] + (["replay"] if viewer else [])
     for game, rows in games.items():
-        parts.append(f'<h2 id="{text(game)}">{text(game)}</h2>\n' + table(header, rows, 0))
+        parts.append(f'<h2 id="{text(game)}">{text(game)}</h2>\n' + table(header, rows, range(4)))
     return document(about.name, *parts, f"<p>{_PROOF}</p>")
 
 

@@ -114,8 +114,11 @@ def _standings(submissions: list[Submission], scores: Scores, pages: dict[str, s
     rows.sort(key=lambda row: -row[0])
     header = ["agent", "its authors' words", "training frames", "games with human scores"]
     header += [f"{name} (95 % interval)" for name in _SHOWN]
-    note = "<p>Human-normalised scores. Agents with different games are not comparable by them.</p>"
-    return page.table(header, [cells for _, cells in rows], 2) + note
+    note = (
+        "<p>Human-normalised scores. Agents with different games are not comparable by them. "
+        "An agent with a single trial in some game has no interval.</p>"
+    )
+    return page.table(header, [cells for _, cells in rows], range(2, 7)) + note
 
 
 def _scores_of(scores: Scores, name: str) -> pd.Series:
@@ -132,7 +135,8 @@ def _aggregates(scores: Scores, name: str, games: list[str], bootstrap: Bootstra
 
 def _cells(values: list[tuple[float, float, float]]) -> list[str]:
     cells = [
-        f"{page.number(value, 3)} ({page.number(low, 3)} to {page.number(high, 3)})" for value, low, high in values
+        page.number(value, 3) + ("" if low != low else f" ({page.number(low, 3)} to {page.number(high, 3)})")
+        for value, low, high in values
     ]
     return cells or ["n/a"] * len(_SHOWN)
 
@@ -147,7 +151,7 @@ def _score_table(scores: Scores, submissions: list[Submission], pages: dict[str,
             score = float(_scores_of(scores, name)[game])
             cells.append("" if score != score else page.link(f"{pages[name]}#{game}", page.number(score)))
         rows.append(cells)
-    return page.table(["game", *names], rows, 1)
+    return page.table(["game", *names], rows, range(1, 1 + len(names)))
 
 
 def _curves(preset: str, results: Results, files: dict[str, bytes | pathlib.Path]) -> list[str]:

@@ -68,6 +68,12 @@ class Logs(unittest.TestCase):
                 status, output = self.verify()
                 self.assertEqual((status, output.split(",")[0]), (0, f"{logs.logged} rows confirmed"), output)
 
+    def test_a_preset_of_the_literature_is_named(self):
+        for preset in ("paper2013", "machado2018"):
+            self.folder = pathlib.Path(self.scratch.name, preset)
+            AtariVectorEnv("beamfall", 1, preset=preset, log={"folder": self.folder}).close()
+            self.assertIn(f'preset = "{preset}"', (self.folder / "agent.toml").read_text())
+
     def test_each_environment_plays_a_trial_and_seeds_count_up(self):
         self.play(self.make(["beamfall", "updraft"], full_action_space=True), 400)
         rows = self.rows()
