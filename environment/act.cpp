@@ -45,7 +45,8 @@ int Environment::Impl::act(const Presses& presses, int frames) {
 }
 
 void Environment::Impl::run_frame(const Presses& presses, bool draw) {
-  controller_input.press(console.inputs(), presses, play.difficulty, play.paddles);
+  play.switches.act(presses.a.action);
+  controller_input.press(console.inputs(), presses, play.switches, play.paddles);
   step_console(draw);
   rule.step(memory());
 }

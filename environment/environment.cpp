@@ -134,11 +134,11 @@ void Environment::set_mode(int mode) {
 
 void Environment::set_difficulty(int difficulty) {
   check_offered(difficulty, game().difficulties, "difficulty", game());
-  impl_->play.difficulty = difficulty;
+  impl_->play.switches.set_difficulty(difficulty);
 }
 
 int Environment::mode() const { return impl_->play.mode; }
-int Environment::difficulty() const { return impl_->play.difficulty; }
+int Environment::difficulty() const { return impl_->play.switches.difficulty; }
 
 Environment::RawRewards Environment::raw_rewards() const { return impl_->raw_rewards; }
 Environment::Rewards Environment::rewards() const { return {impl_->play.rewards[0], impl_->play.rewards[1]}; }

@@ -28,7 +28,7 @@ constexpr int kScreenWidth = 160;
 constexpr int kRamSize = 128;
 constexpr int kAudioSize = 512;
 
-// The actions of both players: a is 0-17, b is 18-35 (docs/spec/environment.md, 1). The strengths say how
+// The actions of both players: a is 0-25, b is 18-35 (docs/spec/environment.md, 1). The strengths say how
 // fast a paddle is turned.
 struct Act {
   int a = 0, b = 18;
@@ -45,7 +45,7 @@ class Environment {
   Environment(Environment&&) noexcept;
   Environment& operator=(Environment&&) noexcept;
 
-  // One agent step of `frame_skip` frames. a: 0-17, b: 18-35 (docs/spec/environment.md, 1). Returns the
+  // One agent step of `frame_skip` frames. a: 0-25, b: 18-35 (docs/spec/environment.md, 1). Returns the
   // clamped sum of rewards.
   int act(int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
   int act(const Act& act) { return this->act(act.a, act.b, act.strength_a, act.strength_b); }

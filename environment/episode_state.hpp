@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "environment/input/console_switches.hpp"
 #include "environment/input/effective_actions.hpp"
 #include "environment/input/paddles.hpp"
 
@@ -17,7 +18,7 @@ struct EpisodeState {
   std::uint32_t frames = 0;  // counted since loading
   std::uint32_t episode_frames = 0;
   std::int32_t mode = 0;  // takes effect at the next reset
-  std::int32_t difficulty = 0;
+  ConsoleSwitches switches;
   std::array<std::int32_t, 2> rewards{};  // of the last act: A's and B's
   std::uint32_t ram_is_stale = 0;  // RAM is answered from the next member: Environment::restore_classic()
   std::array<std::uint8_t, 128> stale_ram{};

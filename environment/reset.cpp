@@ -14,8 +14,9 @@ constexpr int kNoop = 0;
 void Environment::Impl::reset() {
   play.episode_frames = 0;
   play.paddles = controller_input.middle();
+  play.switches.moved = 0;
   console.reset();
-  controller_input.press(console.inputs(), {}, play.difficulty,
+  controller_input.press(console.inputs(), {}, play.switches,
                          play.paddles);  // the first frame repeats this
   if (!may_copy_reset()) return run_reset();
   const ResetStart start = reset_start();
@@ -34,7 +35,8 @@ bool Environment::Impl::may_copy_reset() const {
 
 ResetStart Environment::Impl::reset_start() {
   if (!boot_facts) boot_facts = analyze_boot(console, scheme_of(*image->bytes, properties.scheme).name);
-  ResetStart start{image, game, controller_input.limits(), play.mode, play.difficulty, {}, console.state()};
+  ResetStart start{image, game,           controller_input.limits(), play.mode, play.switches.difficulty,
+                   {},    console.state()};
   start.machine.drawn = 0;  // only a count of draws, and no more draws follow
   if (boot_facts->clears_ram) start.machine.riot.ram = {};
   if (boot_facts->sets_timer) start.machine.riot.timer = 0;
@@ -94,7 +96,7 @@ void Environment::Impl::soft_reset() {
 
 // Holds SELECT for `frames` frames. Only the frame after them counts, and is seen by the rule.
 void Environment::Impl::select(int frames) {
-  ControllerInput::press_select(console.inputs(), play.difficulty);
+  ControllerInput::press_select(console.inputs(), play.switches);
   for (int n = 0; n < frames; ++n) step_console(false);
   observe_ram();
   run_frames(kNoop, 1);

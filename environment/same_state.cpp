@@ -17,7 +17,7 @@ PlayWords words_of(const EpisodeState& play) {
   return {word(play.held.a.action), word(play.held.a.strength),
           word(play.held.b.action), word(play.held.b.strength),
           word(play.paddles[0]),    word(play.paddles[1]),
-          word(play.mode),          word(play.difficulty)};
+          word(play.mode),          word(play.switches)};
 }
 
 }  // namespace

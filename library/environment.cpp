@@ -75,7 +75,8 @@ int Environment::step(Action a, Action b) { return step(Controls{.a = a, .b = b}
 
 int Environment::step(const Controls& controls) {
   const int a = static_cast<int>(controls.a), b = static_cast<int>(controls.b);
-  require(a < kActions && b < kActions, "an action has a number above 17; it must be one of enum Action");
+  require(a < kConsoleActions, "the action of player A has a number above 25; it must be one of enum Action");
+  require(b < kActions, "the action of player B has a number above 17; it must be one of a joystick");
   require(std::isfinite(controls.strength_a) && std::isfinite(controls.strength_b),
           "the strength of a paddle is not a finite number");
   racebeam::Environment& machine = impl_->machine;

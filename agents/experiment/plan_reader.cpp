@@ -149,6 +149,8 @@ class PlanReader {
       if (&settings == &plan_.training && played.life_loss == LifeLoss::kEnds)
         set_life_loss(played, LifeLoss::kIgnored);
       check_episode_settings(played);
+      if (settings.action_set == ActionSet::kConsole)
+        throw InvalidInput("action_set is console; agents choose from full, legal or minimal");
     });
     if (has_seed(text))
       top_.refuse(node, key, "seed is not accepted here; all seeds follow from the plan's key 'seed'");

@@ -1,6 +1,7 @@
 #include "environment/input/action_set.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "games/game/actions.hpp"
 
@@ -8,7 +9,13 @@ namespace racebeam {
 
 const std::vector<int>& actions_of(ActionSet set, const Game& game) {
   static const std::vector<int> full = all_actions();
+  static const std::vector<int> console = [] {
+    std::vector<int> list(kConsoleActions);
+    std::iota(list.begin(), list.end(), 0);
+    return list;
+  }();
   if (set == ActionSet::kFull) return full;
+  if (set == ActionSet::kConsole) return console;
   return set == ActionSet::kLegal ? game.legal_actions : game.minimal_actions;
 }
 

@@ -7,7 +7,7 @@
 
 namespace racebeam {
 
-enum class ActionSet { kFull, kLegal, kMinimal };
+enum class ActionSet { kFull, kLegal, kMinimal, kConsole };
 
 const std::vector<int>& actions_of(ActionSet set, const Game& game);  // player A's numbers, ascending
 

@@ -37,12 +37,14 @@ int direction(std::uint8_t pressed) {
   return (pressed & kStickLeft) != 0 ? 1 : 0;
 }
 
-void release_all(Inputs& inputs, int difficulty) {
+void release_all(Inputs& inputs, const ConsoleSwitches& switches) {
+  const int positions = switches.positions();
   inputs.joystick = {};
   inputs.paddle_fire = 0;
   inputs.switches = kSwitchesAtRest;
-  if ((difficulty & 1) != 0) inputs.switches |= kSwitchLeftA;
-  if ((difficulty & 2) != 0) inputs.switches |= kSwitchRightA;
+  if ((positions & ConsoleSwitches::kLeftA) != 0) inputs.switches |= kSwitchLeftA;
+  if ((positions & ConsoleSwitches::kRightA) != 0) inputs.switches |= kSwitchRightA;
+  if ((positions & ConsoleSwitches::kBlackAndWhite) != 0) inputs.switches ^= kSwitchColor;
 }
 
 void hold(Inputs& inputs, std::uint8_t console_switch) {
@@ -51,10 +53,11 @@ void hold(Inputs& inputs, std::uint8_t console_switch) {
 
 }  // namespace
 
-void ControllerInput::press(Inputs& inputs, const Presses& presses, int difficulty,
+void ControllerInput::press(Inputs& inputs, const Presses& presses, const ConsoleSwitches& switches,
                             PaddleValues& paddles) const {
-  release_all(inputs, difficulty);
+  release_all(inputs, switches);
   if (presses.a.action == kResetAction) hold(inputs, kSwitchReset);
+  if (presses.a.action == kSelectAction) hold(inputs, kSwitchSelect);
   if (use_paddles_) return turn_paddles(inputs, presses, paddles);
   inputs.joystick = {stick(presses.a.action, 0), stick(presses.b.action, kActions)};
 }
@@ -69,8 +72,8 @@ void ControllerInput::turn_paddles(Inputs& inputs, const Presses& presses, Paddl
       static_cast<std::uint8_t>(((a & kStickFire) != 0 ? 1 : 0) | ((b & kStickFire) != 0 ? 2 : 0));
 }
 
-void ControllerInput::press_select(Inputs& inputs, int difficulty) {
-  release_all(inputs, difficulty);
+void ControllerInput::press_select(Inputs& inputs, const ConsoleSwitches& switches) {
+  release_all(inputs, switches);
   hold(inputs, kSwitchSelect);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "emulator/state/inputs.hpp"
+#include "environment/input/console_switches.hpp"
 #include "environment/input/effective_actions.hpp"
 #include "environment/input/paddles.hpp"
 
@@ -16,11 +17,12 @@ class ControllerInput {
   const PaddleLimits& limits() const { return limits_; }
   PaddleValues middle() const { return limits_.middle(); }
 
-  // For one frame. An unknown action presses nothing; player A's action 40 presses the RESET switch.
-  void press(Inputs& inputs, const Presses& presses, int difficulty, PaddleValues& paddles) const;
+  // For one frame. An unknown action presses nothing; player A's may press RESET or SELECT.
+  void press(Inputs& inputs, const Presses& presses, const ConsoleSwitches& switches,
+             PaddleValues& paddles) const;
 
   // Holds only SELECT. The paddles keep their positions.
-  static void press_select(Inputs& inputs, int difficulty);
+  static void press_select(Inputs& inputs, const ConsoleSwitches& switches);
 
  private:
   void turn_paddles(Inputs& inputs, const Presses& presses, PaddleValues& paddles) const;

@@ -32,10 +32,10 @@ void LegalActions::check(const Presses& presses) const {
     throw std::invalid_argument("a paddle's strength must be a finite number");
   }
   if (paddles_) return;
-  if (replace_a(presses.a.action) >= 18) {
+  if (replace_a(presses.a.action) >= kConsoleActions) {
     throw std::invalid_argument(
         "action " + std::to_string(presses.a.action) +
-        " of player A is out of range; accepted: 0 to 17, and 40 which presses nothing");
+        " of player A is out of range; accepted: 0 to 25, and 40 which presses nothing");
   }
   if (replace_b(presses.b.action) >= 36) {
     throw std::invalid_argument(

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "emulator/base/mersenne_twister.hpp"
+#include "games/game/actions.hpp"
 
 namespace racebeam {
 
@@ -47,15 +48,17 @@ class LegalActions {
   // number is accepted.
   void check(const Presses& presses) const;
 
-  // Replaces illegal actions, and RESET, by NOOP.
+  // Replaces illegal actions, and the reference's RESET, by NOOP.
   Presses replace(const Presses& held) const {
     return {{replace_a(held.a.action), held.a.strength}, {replace_b(held.b.action), held.b.strength}};
   }
 
  private:
   bool is_legal(int a) const { return a >= 0 && a < 18 && (legal_ >> a & 1) != 0; }
-  int replace_a(int a) const { return (a < 18 && !is_legal(a)) || a == 40 ? 0 : a; }
-  int replace_b(int b) const { return (b < 40 && !(b >= 18 && is_legal(b - 18))) || b == 40 ? 18 : b; }
+  int replace_a(int a) const { return (a < 18 && !is_legal(a)) || a == kReferenceReset ? 0 : a; }
+  int replace_b(int b) const {
+    return (b < 40 && !(b >= 18 && is_legal(b - 18))) || b == kReferenceReset ? 18 : b;
+  }
 
   std::uint32_t legal_ = 0;  // bit n: action n is legal
   bool paddles_;

@@ -36,8 +36,10 @@ void check_play(const EpisodeState& play, const Game& game) {
   check_range("the frame number", play.frames, 0, kMaxInt);
   check_range("the frame number of the episode", play.episode_frames, 0, kMaxInt);
   check_offered("the mode", play.mode, game.offered_modes());
-  if (play.difficulty != 0)
-    check_offered("the difficulty", play.difficulty, game.difficulties);  // starts with 0
+  const auto [difficulty, moved] = play.switches;
+  if (difficulty != 0) check_offered("the difficulty", difficulty, game.difficulties);  // starts with 0
+  check_range("the switches that actions have moved", moved, 0,
+              ConsoleSwitches::kDifficulty | ConsoleSwitches::kBlackAndWhite);
   check_flag("the flag of outdated RAM", play.ram_is_stale);
 }
 

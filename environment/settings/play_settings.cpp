@@ -19,8 +19,10 @@ constexpr std::int64_t kMostNumber = std::numeric_limits<int>::max();
 constexpr int kLeastReward = std::numeric_limits<int>::min(), kMostReward = std::numeric_limits<int>::max();
 constexpr int kMostFrameSkip = 1000;  // an act is never interrupted
 constexpr int kMostNoops = 1000;
-constexpr std::array<WordFor<ActionSet>, 3> kActionSets = {
-    {{"full", ActionSet::kFull}, {"legal", ActionSet::kLegal}, {"minimal", ActionSet::kMinimal}}};
+constexpr std::array<WordFor<ActionSet>, 4> kActionSets = {{{"full", ActionSet::kFull},
+                                                            {"legal", ActionSet::kLegal},
+                                                            {"minimal", ActionSet::kMinimal},
+                                                            {"console", ActionSet::kConsole}}};
 constexpr std::array<WordFor<Autoreset>, 3> kAutoresets = {{{"next-step", Autoreset::kNextStep},
                                                             {"same-step", Autoreset::kSameStep},
                                                             {"disabled", Autoreset::kDisabled}}};

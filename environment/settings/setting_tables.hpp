@@ -29,7 +29,7 @@ inline constexpr std::array<Setting, 24> kSettings = {{
     {"life_loss_ends", "0 or 1", "1: as life_loss=restart, but the episode is truncated (deprecated: use life_loss)", true},
     {"noop_max", "0 to 1000", "an episode begins with 0 to noop_max - 1 frames of NOOP, drawn by seed", false},
     {"autoreset", "disabled, next-step or same-step", "what happens at the end of an episode", false},
-    {"action_set", "full, legal or minimal", "the actions that `act` accepts", false},
+    {"action_set", "full, legal, minimal or console", "the actions that `act` accepts", false},
     {"reward_min", "none or a whole number", "an act's reward is clamped to at least this", false},
     {"reward_max", "none or a whole number", "an act's reward is clamped to at most this", false},
     {"rules", "ale-0.12 or fixed", "rules of score and end: those of the reference, or corrected ones", false},

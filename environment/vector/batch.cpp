@@ -34,8 +34,8 @@ void check_count(std::size_t count, const std::string& what, std::size_t machine
 }
 
 void check_act(const Act& act) {
-  refuse_unless(act.a >= 0 && act.a < kActions, [&] {
-    return "action " + std::to_string(act.a) + " of player A is out of range; accepted: 0 to 17";
+  refuse_unless(act.a >= 0 && act.a < kConsoleActions, [&] {
+    return "action " + std::to_string(act.a) + " of player A is out of range; accepted: 0 to 25";
   });
   refuse_unless(act.b >= kActions && act.b < 2 * kActions, [&] {
     return "action " + std::to_string(act.b) + " of player B is out of range; accepted: 18 to 35";

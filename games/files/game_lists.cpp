@@ -20,7 +20,7 @@ std::optional<int> whole_number(std::string_view text) {
 
 int player_action(const Section& section, std::string_view key, const toml::node& node) {
   const std::optional<int> action = action_number(node.value_exact<std::string>().value_or(""));
-  if (!action || *action == kResetAction)
+  if (!action || *action >= kActions)
     section.refuse(node, key, "must be names of actions, such as \"UPFIRE\"");
   return *action;
 }
@@ -33,7 +33,7 @@ void add_actions(const Section& section, std::string_view key, const toml::node&
   const std::optional<int> action = action_number(std::string_view(text).substr(0, space));
   const std::optional<int> count =
       space == text.size() ? 1 : whole_number(std::string_view(text).substr(space + 1));
-  if (!action || !count || *count < 1 || *count > kMaxRepeat)
+  if (!action || *action > kResetAction || !count || *count < 1 || *count > kMaxRepeat)
     section.refuse(node, key, "must be actions, \"NAME\" or \"NAME COUNT\", such as \"NOOP 60\"");
   if (actions.size() + static_cast<std::size_t>(*count) > kMaxRepeat)
     section.refuse(node, key, "must be " + std::to_string(kMaxRepeat) + " actions at most, in all");

@@ -7,21 +7,21 @@
 namespace racebeam {
 namespace {
 
-constexpr std::array<std::string_view, kActions> kNames = {
+constexpr std::array<std::string_view, kConsoleActions> kNames = {
     "NOOP",     "FIRE",     "UP",          "RIGHT",      "LEFT",          "DOWN",
     "UPRIGHT",  "UPLEFT",   "DOWNRIGHT",   "DOWNLEFT",   "UPFIRE",        "RIGHTFIRE",
-    "LEFTFIRE", "DOWNFIRE", "UPRIGHTFIRE", "UPLEFTFIRE", "DOWNRIGHTFIRE", "DOWNLEFTFIRE"};
+    "LEFTFIRE", "DOWNFIRE", "UPRIGHTFIRE", "UPLEFTFIRE", "DOWNRIGHTFIRE", "DOWNLEFTFIRE",
+    "RESET",    "SELECT",   "LEFT_A",      "LEFT_B",     "RIGHT_A",       "RIGHT_B",
+    "COLOR",    "BW"};
 
 }  // namespace
 
 std::string_view action_name(int action) {
-  if (action == kResetAction) return "RESET";
-  const bool is_known = action >= 0 && action < 2 * kActions;
-  return is_known ? kNames[static_cast<std::size_t>(action % kActions)] : std::string_view{};
+  const bool is_known = action >= 0 && action < kConsoleActions;
+  return is_known ? kNames[static_cast<std::size_t>(action)] : std::string_view{};
 }
 
 std::optional<int> action_number(std::string_view name) {
-  if (name == "RESET") return kResetAction;
   const auto found = std::find(kNames.begin(), kNames.end(), name);
   return found == kNames.end() ? std::nullopt : std::optional(static_cast<int>(found - kNames.begin()));
 }

@@ -1,4 +1,5 @@
-// The 18 actions of a player, which are the positions of a joystick with and without its button.
+// The 18 actions of a player, which are the positions of a joystick with and without its button, and those of
+// player A that press or move a switch of the console.
 // All of it is values and constant tables, which any number of threads may use at the same time.
 //
 //     const racebeam::Action action = racebeam::Action::kUpFire;
@@ -15,7 +16,7 @@
 
 namespace RACEBEAM_NAMESPACE {
 
-// The numbers are those of the Arcade Learning Environment.
+// The first 18 numbers are those of the Arcade Learning Environment, which does not have the others.
 enum class Action : std::uint8_t {
   kNoop,
   kFire,
@@ -34,15 +35,24 @@ enum class Action : std::uint8_t {
   kUpRightFire,
   kUpLeftFire,
   kDownRightFire,
-  kDownLeftFire
+  kDownLeftFire,
+  kReset,   // held during the step
+  kSelect,  // held during the step
+  kLeftA,   // the left difficulty switch, which stays where it is until the next reset
+  kLeftB,
+  kRightA,
+  kRightB,
+  kColor,
+  kBlackAndWhite
 };
 
-inline constexpr int kActions = 18;
+inline constexpr int kActions = 18;         // of a joystick
+inline constexpr int kConsoleActions = 26;  // with those of the console
 
 RACEBEAM_API std::string_view name_of(Action action) noexcept;                    // "UPFIRE"
 RACEBEAM_API std::optional<Action> action_named(std::string_view name) noexcept;  // nothing: an unknown name
 
-// The actions of both players in one step.
+// The actions of both players in one step. Those of the console are player A's.
 struct Controls {
   Action a = Action::kNoop, b = Action::kNoop;
   float strength_a = 1, strength_b = 0;  // how fast a paddle is turned, where the game has paddles: 0 to 1

@@ -98,7 +98,7 @@ void ClassicSession::take_action(std::string_view line) {
 // after the end. Player B's is never refused, because old clients send 0 or 45 there for "nothing". Both
 // paddles turn with full strength.
 void ClassicSession::act(int a, int b) {
-  const bool accepted = is_player_a(a) || a == kResetAction || paddles_ || environment_.game_over();
+  const bool accepted = is_player_a(a) || a == kReferenceReset || paddles_ || environment_.game_over();
   if (!accepted) {
     throw ClassicError(kUnknownActionStatus,
                        "the client asked for action " + std::to_string(a) +

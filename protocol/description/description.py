@@ -198,6 +198,8 @@ class Protocol:
     fields: tuple[Field, ...]
     old_fields: dict[str, str]
     encodings: tuple[Encoding, ...]
+    joystick: tuple[str, ...]  # the names of actions
+    console: dict[str, str]  # the names of those that follow them, and what they do
     errors: tuple[Error, ...]
 
     @property
@@ -318,6 +320,8 @@ def read(path=SOURCE):
         fields=tuple(rows("field", Field, document)),
         old_fields=document["old_fields"],
         encodings=tuple(rows("encoding", Encoding, document)),
+        joystick=tuple(document["actions"]["joystick"]),
+        console=document["actions"]["console"],
         errors=tuple(rows("error", Error, document)),
     )
     check(protocol)

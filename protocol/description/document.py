@@ -41,6 +41,18 @@ def old_words(protocol):
         yield row(where, code(word.old), ", ".join(code(now) for now in word.now.split()))
 
 
+def joystick_rows(names):
+    """The numbers and names of actions, in three columns."""
+    third = len(names) // 3
+    numbered = [f"{number} | {name}" for number, name in enumerate(names)]
+    return [row(*cells) for cells in zip(numbered[:third], numbered[third:-third], numbered[-third:], strict=True)]
+
+
+def console_rows(protocol):
+    first = len(protocol.joystick)
+    return [row(str(first + place), name, effect) for place, (name, effect) in enumerate(protocol.console.items())]
+
+
 def tables(protocol):
     """The rows of each table, by the line of its headings."""
     return {
@@ -65,6 +77,9 @@ def tables(protocol):
             row(code(key), code(value), meaning)
             for key, value, meaning in choices(protocol, "open", "start", "stack", "pool")
         ],
+        "| number | name | number | name | number | name |": joystick_rows(protocol.joystick),
+        "| number | name | effect |": console_rows(protocol),
+        "| action_set | actions |": setting_choices(protocol, "action_set"),
         "| code | meaning |": [row(code(one.code), one.summary_text) for one in current(protocol.errors)],
     }
 

@@ -161,6 +161,11 @@ def tables(protocol):
                 "kEncodings",
                 (braced(quoted(row.name), quoted(row.summary_text)) for row in protocol.encodings),
             ),
+            array(
+                "std::string_view",
+                "kActions",
+                (f"    {quoted(name)},\n" for name in (*protocol.joystick, *protocol.console)),
+            ),
             array("std::string_view", "kReplyKeys", (f"    {quoted(key)},\n" for key in reply_keys(protocol))),
             array("Error", "kErrors", (braced(quoted(row.code), quoted(row.summary_text)) for row in protocol.errors)),
             END,

@@ -58,6 +58,8 @@ def words_of(command, protocol):
             yield from of_key(argument.key, argument.choices or alternatives(argument.text))
         else:
             yield from ["FIELD"] * (argument.type == "fields") + alternatives(argument.text)
+            if argument.type == "actions":
+                yield from (*protocol.joystick, *protocol.console)
 
 
 def follows(protocol):

@@ -57,7 +57,7 @@ inline constexpr std::array<Field, 22> kFields = {{
     {"audio", "512 samples of the last act; needs sound=1", false, "hex"},
 }};
 
-inline constexpr std::array<Choice, 20> kChoices = {{
+inline constexpr std::array<Choice, 24> kChoices = {{
     {"life_loss", "ignored", "a lost life has no effect"},
     {"life_loss", "reported", "the act or step that loses a life is `terminated`; the episode continues"},
     {"life_loss", "end", "a lost life ends the episode, `terminated`; the next one continues with the next life, as in DQN"},
@@ -65,6 +65,10 @@ inline constexpr std::array<Choice, 20> kChoices = {{
     {"autoreset", "disabled", "the machine does not change, and `act` or `step` answers `over=1`, until `reset` or `restart`"},
     {"autoreset", "next-step", "the next act or step resets the machine and ignores the action: reward 0, both ends 0"},
     {"autoreset", "same-step", "the act or step that ends an episode also resets the machine"},
+    {"action_set", "full", "the 18 of a joystick"},
+    {"action_set", "legal", "those of them that the game does not ignore"},
+    {"action_set", "minimal", "those of them that have an effect in the game"},
+    {"action_set", "console", "all of them, and those of the console's switches"},
     {"steps", "acts", "a step is one act, as `act` plays it"},
     {"steps", "frames", "a step is `frame_skip` frames, as in ALE's vector environment"},
     {"start", "fire-noops", "an episode begins with a frame of FIRE, if the action set has it, and the no-ops of `noop_max`, less one for FIRE"},
@@ -104,6 +108,35 @@ inline constexpr std::array<Encoding, 6> kEncodings = {{
     {"base64", "RFC 4648, with padding"},
     {"zlib", "zlib (RFC 1950), then base64"},
     {"raw", "how many bytes; they follow the line of the reply, as they are"},
+}};
+
+inline constexpr std::array<std::string_view, 26> kActions = {{
+    "NOOP",
+    "FIRE",
+    "UP",
+    "RIGHT",
+    "LEFT",
+    "DOWN",
+    "UPRIGHT",
+    "UPLEFT",
+    "DOWNRIGHT",
+    "DOWNLEFT",
+    "UPFIRE",
+    "RIGHTFIRE",
+    "LEFTFIRE",
+    "DOWNFIRE",
+    "UPRIGHTFIRE",
+    "UPLEFTFIRE",
+    "DOWNRIGHTFIRE",
+    "DOWNLEFTFIRE",
+    "RESET",
+    "SELECT",
+    "LEFT_A",
+    "LEFT_B",
+    "RIGHT_A",
+    "RIGHT_B",
+    "COLOR",
+    "BW",
 }};
 
 inline constexpr std::array<std::string_view, 80> kReplyKeys = {{

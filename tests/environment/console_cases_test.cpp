@@ -31,7 +31,7 @@ int completed_frames(const Image& image, const Game& game, int soft_resets) {
   PaddleValues paddles = hands.middle();
   int completed = 0;
   const auto step = [&](int action) {
-    hands.press(console.inputs(), {{action, 1.0F}, {18, 0.0F}}, 0, paddles);
+    hands.press(console.inputs(), {{action, 1.0F}, {18, 0.0F}}, {}, paddles);
     console.step();
     if (!console.state().frame.open) ++completed;
   };

@@ -152,7 +152,7 @@ TEST_CASE("Settings that make no sense are refused with a sentence") {
 TEST_CASE("A refused action changes nothing") {
   Environment environment = steered();
   const auto before = environment.save(true);
-  CHECK_THROWS_AS(environment.act(18), std::invalid_argument);
+  CHECK_THROWS_AS(environment.act(26), std::invalid_argument);
   CHECK_THROWS_AS(environment.act(0, 41), std::invalid_argument);
   CHECK(draws(environment) == 0);
   CHECK(environment.frame_number() == 0);

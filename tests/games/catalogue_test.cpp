@@ -94,11 +94,13 @@ TEST_CASE("the console's properties belong to the image") {
 }
 
 TEST_CASE("action names and numbers belong together") {
-  for (int action = 0; action < kActions; ++action) CHECK(action_number(action_name(action)) == action);
+  for (int action = 0; action < kConsoleActions; ++action)
+    CHECK(action_number(action_name(action)) == action);
   CHECK(action_name(17) == "DOWNLEFTFIRE");
-  CHECK(action_name(18) == "NOOP");
-  CHECK(action_name(40) == "RESET");
-  CHECK(action_name(36).empty());
+  CHECK(action_name(kResetAction) == "RESET");
+  CHECK(action_name(kBlackAndWhiteAction) == "BW");
+  CHECK(action_name(kConsoleActions).empty());
+  CHECK(action_name(kReferenceReset).empty());
   CHECK(action_name(-1).empty());
   CHECK_FALSE(action_number("JUMP"));
   CHECK_FALSE(action_number(""));

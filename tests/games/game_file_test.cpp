@@ -58,7 +58,7 @@ ystart   = 40
   CHECK(game.title == "My Game");
   CHECK(game.legal_actions == std::vector<int>{0, 1, 3, 4});
   CHECK(game.minimal_actions == std::vector<int>{0, 3});
-  CHECK(game.starting_actions == std::vector<int>{1, 0, 0, 0, 40});
+  CHECK(game.starting_actions == std::vector<int>{1, 0, 0, 0, kResetAction});
   CHECK(game.modes == std::vector<int>{5, 1, 2, 3});
   CHECK(game.default_mode == 2);
   CHECK(game.difficulties == std::vector<int>{0, 1, 2, 3});

@@ -70,7 +70,7 @@ TEST_CASE("Arguments that are out of range are errors of the argument") {
   std::vector<std::uint8_t> small(5);
   const float infinite = std::numeric_limits<float>::infinity();
   for (const auto& [cause, sentence] : {
-           error_of([&] { environment.step(static_cast<racebeam::Action>(18)); }),
+           error_of([&] { environment.step(static_cast<racebeam::Action>(26)); }),
            error_of([&] { environment.step({.strength_a = infinite}); }),
            error_of([&] { environment.observe(racebeam::Pixels::kGrey, small); }),
            error_of([&] { environment.set_ram(128, 0); }),

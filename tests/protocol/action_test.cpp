@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "games/game/actions.hpp"
+#include "protocol/description/tables.hpp"
 #include "protocol/request_error.hpp"
 #include "system/invalid_input.hpp"
 
@@ -10,7 +12,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr AllowedActions kAll{"pong", 0x3FFFF}, kSome{"pong", 0b1011};
+constexpr AllowedActions kAll{"pong", 0x3FFFF}, kSome{"pong", 0b1011}, kConsole{"pong", 0x3FFFFFF};
 
 std::string refusal(const std::string& word, const AllowedActions& actions = kAll) {
   try {
@@ -32,10 +34,28 @@ TEST_CASE("Actions are names or numbers") {
   CHECK(parse_action("3", kAll).act.b == 18);
 }
 
+TEST_CASE("The names are those of the protocol's description") {
+  REQUIRE(description::kActions.size() == kConsoleActions);
+  for (int action = 0; action < kConsoleActions; ++action)
+    CHECK(description::kActions[static_cast<std::size_t>(action)] == action_name(action));
+}
+
 TEST_CASE("Names of actions may have small letters") {
   CHECK(parse_action("downleftfire", kAll).act.a == 17);
   CHECK(parse_action("Fire/left@0.5*3", kAll).act.b == 18 + 4);
   CHECK_THAT(refusal("up", kSome), Contains("'up' is not in the action set"));
+}
+
+TEST_CASE("The switches of the console are actions of player A, where they were asked for") {
+  CHECK(parse_action("RESET", kConsole).act.a == 18);
+  CHECK(parse_action("select/UP*3", kConsole).act.a == 19);
+  CHECK(parse_action("LEFT_A", kConsole).act.a == 20);
+  CHECK(parse_action("25", kConsole).act.a == 25);
+  CHECK_THAT(refusal("RESET"), Contains("'RESET' needs a game that was loaded with action_set=console"));
+  CHECK_THAT(refusal("NOOP/RESET", kConsole),
+             Contains("'RESET' is an action of player A only; pong takes 0=NOOP"));
+  CHECK_THAT(refusal("26", kConsole), Contains("'26' is not an action; pong takes 0=NOOP") &&
+                                          Contains("17=DOWNLEFTFIRE 18=RESET 19=SELECT 20=LEFT_A"));
 }
 
 TEST_CASE("Player B, strengths and repetition") {

@@ -12,6 +12,12 @@ void bind_enumerations(nb::module_& module) {
     const std::string name(action_name(number));
     actions.value(name.c_str(), static_cast<PythonAction>(number));
   }
+  nb::enum_<PythonConsoleAction> console(
+      module, "ConsoleAction", "An action of player A that presses or moves a switch of the console.");
+  for (int number = kActions; number < kConsoleActions; ++number) {
+    const std::string name(action_name(number));
+    console.value(name.c_str(), static_cast<PythonConsoleAction>(number));
+  }
   nb::enum_<LoggerMode>(module, "LoggerMode", "The logger modes of ALE. racebeam logs nothing.")
       .value("Info", LoggerMode::kInfo)
       .value("Warning", LoggerMode::kWarning)

@@ -126,13 +126,16 @@ void bind_bytes(nb::class_<AleInterface>& interface) {
 
 // Acting
 
-int number_of(PythonAction action) { return static_cast<int>(action); }
+template <class Enumeration>
+int number_of(Enumeration action) {
+  return static_cast<int>(action);
+}
 
 // The environment would take some of the others for NOOP, as the reference does.
-void check_action(int action, int first) {
-  if (action >= first && action < first + kActions) return;
+void check_action(int action, int first, int count = kActions) {
+  if (action >= first && action < first + count) return;
   throw InvalidInput("action " + std::to_string(action) + " is out of range; accepted: " +
-                     std::to_string(first) + " to " + std::to_string(first + kActions - 1));
+                     std::to_string(first) + " to " + std::to_string(first + count - 1));
 }
 
 void check_strength(float strength) {
@@ -140,8 +143,9 @@ void check_strength(float strength) {
     throw InvalidInput("a paddle's strength is " + std::to_string(strength) + "; it must be a finite number");
 }
 
-int act(AleInterface& self, int action, float strength) {
-  check_action(action, 0);
+// `count`: ALE's numbers, or those of the console, too.
+int act(AleInterface& self, int action, float strength, int count = kActions) {
+  check_action(action, 0, count);
   check_strength(strength);
   const Turn turn(self.lock());
   Environment& environment = self.environment();
@@ -154,7 +158,7 @@ int act(AleInterface& self, int action, float strength) {
 nb::tuple step(AleInterface& self, int action, float strength, int times, View view, int action_b,
                float strength_b) {
   if (times < 1) throw InvalidInput("times is " + std::to_string(times) + "; it must be 1 or more");
-  check_action(action, 0);
+  check_action(action, 0, kConsoleActions);
   check_action(action_b, kActions);
   check_strength(strength);
   check_strength(strength_b);
@@ -200,6 +204,9 @@ void bind_play(nb::class_<AleInterface>& interface) {
           }, "action"_a, "paddle_strength"_a = 1.0F)
       .def("act", [](AleInterface& self, PythonAction action, float strength) {
             return act(self, number_of(action), strength);
+          }, "action"_a, "paddle_strength"_a = 1.0F)
+      .def("act", [](AleInterface& self, PythonConsoleAction action, float strength) {
+            return act(self, number_of(action), strength, kConsoleActions);
           }, "action"_a, "paddle_strength"_a = 1.0F)
       .def("step", step, "action"_a, "paddle_strength"_a, "times"_a, "view"_a, "action_b"_a = kActions,
            "paddle_strength_b"_a = 0.0F,

@@ -15,7 +15,8 @@ void bind_words(nb::module_& module) {
   nb::enum_<Rules>(module, "Rules").value("ALE_0_12", Rules::kAle012).value("FIXED", Rules::kFixed);
   nb::enum_<ActionSet>(module, "ActionSet")
       .value("LEGAL", ActionSet::kLegal)
-      .value("MINIMAL", ActionSet::kMinimal);
+      .value("MINIMAL", ActionSet::kMinimal)
+      .value("CONSOLE", ActionSet::kConsole);
   nb::enum_<Autoreset>(module, "Autoreset")
       .value("NEXT_STEP", Autoreset::kNextStep)
       .value("SAME_STEP", Autoreset::kSameStep)

@@ -15,7 +15,7 @@ import importlib.metadata
 import importlib.util
 from typing import TYPE_CHECKING, Any
 
-from ._core import Action, ALEState, LoggerMode
+from ._core import Action, ALEState, ConsoleAction, LoggerMode
 from .errors import InvalidInput, MissingImage, UnknownGame
 from .extras import install_hint
 from .images import find as find_image
@@ -41,6 +41,7 @@ __all__ = [
     "Action",
     "AtariEnv",
     "AtariVectorEnv",
+    "ConsoleAction",
     "InvalidInput",
     "LoggerMode",
     "MissingImage",

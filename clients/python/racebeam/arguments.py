@@ -136,6 +136,27 @@ def optional_integer(name: str, value: Any) -> int | None:
     return None if value is None else integer(name, value, 0, MOST)
 
 
+def action_space(name: str, value: Any) -> str:
+    """Checks which actions an environment takes.
+
+    Args:
+        name: Name of the argument.
+        value: True for all 18, False for those that have an effect in the game, or "console".
+
+    Returns:
+        The word of the line protocol's `action_set`: "legal", "minimal" or "console".
+
+    Raises:
+        WrongType: If `value` has no truth value, such as an array of several elements.
+        WrongValue: If `value` is another word.
+    """
+    if isinstance(value, str):
+        if value != "console":
+            raise WrongValue(f"{name} is {value!r}; it takes True, False or 'console'")
+        return value
+    return "legal" if flag(name, value) else "minimal"
+
+
 def flag(name: str, value: Any) -> bool:
     """Checks a flag.
 

@@ -6,11 +6,12 @@ import os
 from typing import Any, Literal, TypeAlias, TypedDict
 
 from . import images
-from ._core import Action, View
+from ._core import Action, ConsoleAction, View
 from .arguments import (
     MOST,
     WrongType,
     WrongValue,
+    action_space,
     check_choice,
     check_source,
     console_of,
@@ -83,6 +84,7 @@ class AtariEnv(EnvWithView):
             frames, even past game over.
         repeat_action_probability: Probability that a frame repeats the previous action.
         full_action_space: Whether actions are all 18 legal ones, or only those that have an effect in the game.
+            "console" adds those of `ConsoleAction`, which press or move a switch of the console.
         continuous: Whether an action is a float32 array (radius, angle, fire) instead of an index. The radius is also
             the strength of a paddle. Selects all 18 actions.
         continuous_action_threshold: Deflection from which a direction or the button counts as pressed.
@@ -151,7 +153,7 @@ class AtariEnv(EnvWithView):
         obs_type: Literal["rgb", "grayscale", "ram"] = "rgb",
         frameskip: int | tuple[int, int] | None = None,
         repeat_action_probability: float | None = None,
-        full_action_space: bool | None = None,
+        full_action_space: bool | Literal["console"] | None = None,
         continuous: bool = False,
         continuous_action_threshold: float = 0.5,
         max_num_frames_per_episode: int | None = None,
@@ -217,10 +219,16 @@ class AtariEnv(EnvWithView):
         word = value_or(life_loss, "ignored" if life_loss_ends is not None else defaults.life_loss)
         check_choice("life_loss", word, LIFE_LOSSES)
         self._life_loss = LifeLoss(word)
-        is_full = flag("full_action_space", value_or(full_action_space, defaults.full_action_space))
+        actions = action_space("full_action_space", value_or(full_action_space, defaults.full_action_space))
+        if continuous and actions == "console":
+            raise WrongValue(
+                "full_action_space is 'console'; with continuous, an action moves a joystick, not a switch"
+            )
         if server is None and game is not None:
             self._check_game(game)
         self.ale: Any = self._interface(server, token, seconds("timeout", timeout))
+        if isinstance(self.ale, RemoteInterface) and actions == "console":
+            self.ale.action_set = actions
         self._set_keys(rules, sticky, limit, truncates or word == "restart")
         self._set_console(
             console_of(scheme=scheme, left=left, right=right, format=format),
@@ -229,7 +237,7 @@ class AtariEnv(EnvWithView):
         self.seed_game()
         self.load_game()
         warn_of(list(filter(None, [self.ale.doubt()])))
-        self._set_spaces(is_full)
+        self._set_spaces(actions)
         self._open_window()
 
     def _interface(self, server: object, token: str | None, timeout: float | None) -> Any:
@@ -248,9 +256,12 @@ class AtariEnv(EnvWithView):
 
     # Spaces
 
-    def _set_spaces(self, full: bool) -> None:
-        is_full = full or self.continuous
-        self._action_set: list[Action] = self.ale.getLegalActionSet() if is_full else self.ale.getMinimalActionSet()
+    def _set_spaces(self, actions: str) -> None:
+        if actions == "console":
+            self._action_set = [*Action, *ConsoleAction]
+        else:
+            is_full = actions == "legal" or self.continuous
+            self._action_set = self.ale.getLegalActionSet() if is_full else self.ale.getMinimalActionSet()
         self.action_space = self._space_of_actions()
         self.observation_space = self._space_of_observations()
 

@@ -52,7 +52,7 @@ class Start(NamedTuple):
         frame_skip: Frames of an action.
         sticky: Probability that a frame repeats the previous action.
         max_episode_frames: Frames after which the episode is truncated; 0 for no limit.
-        action_set: "full", or "minimal" for the actions that have an effect in the game.
+        action_set: "full", "minimal" for the actions that have an effect in the game, or "console".
         rules: "ale-0.12" or "fixed".
         life_loss: "ignored", or "restart" if a lost life ends the episode.
         mode: Mode of the game, or None for its default.
@@ -136,7 +136,7 @@ def play(start: Start, actions: Sequence[int]) -> Episode:
 
     Args:
         start: How the episode begins.
-        actions: Numbers of `Action`, 0 to 17.
+        actions: Numbers of `Action`, 0 to 17, and of `ConsoleAction`, 18 to 25.
 
     Returns:
         How the episode ended.
@@ -152,7 +152,7 @@ def play(start: Start, actions: Sequence[int]) -> Episode:
     for action in actions:
         if ale.game_over():
             break
-        score += ale.act(action)
+        score += int(ale.step(action, 1.0, 1, _core.View.NONE)[1])
         played += 1
         if played % DECISIONS_PER_HASH == 0:
             hashes.append(_core.state_hash(ale))
@@ -216,7 +216,7 @@ def replay(
 
     Args:
         game: Name of the game.
-        actions: Numbers of `Action`, 0 to 17.
+        actions: Numbers of `Action`, 0 to 17, and of `ConsoleAction`, 18 to 25.
         seed: Seed of `load`, from 0 to 2**32 - 2.
         frame_skip: Frames of an action.
         sticky: Probability that a frame repeats the previous action.

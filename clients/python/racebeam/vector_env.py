@@ -61,6 +61,7 @@ class AtariVectorEnv(PlayedVector):
         max_num_frames_per_episode: Frames after which an episode is truncated; 0 for no limit.
         repeat_action_probability: Probability that a frame repeats the previous action.
         full_action_space: Whether actions are all 18 legal ones, or only those that have an effect in the game.
+            "console" adds those of `ConsoleAction`, which press or move a switch of the console.
         continuous: Whether actions are float32 (radius, angle, fire) instead of indices.
         continuous_action_threshold: Deflection from which a direction or the button counts as pressed.
         autoreset_mode: NEXT_STEP, SAME_STEP or DISABLED of Gymnasium's AutoresetMode, or its name or value.
@@ -154,7 +155,7 @@ class AtariVectorEnv(PlayedVector):
         thread_affinity_offset: int = -1,
         max_num_frames_per_episode: int | None = None,
         repeat_action_probability: float | None = None,
-        full_action_space: bool | None = None,
+        full_action_space: bool | Literal["console"] | None = None,
         continuous: bool = False,
         continuous_action_threshold: float = 0.5,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,

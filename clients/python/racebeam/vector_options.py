@@ -7,7 +7,19 @@ import secrets
 from typing import Any
 
 from . import _core
-from .arguments import MOST, WrongType, WrongValue, check_choice, flag, integer, join, member, optional_integer, share
+from .arguments import (
+    MOST,
+    WrongType,
+    WrongValue,
+    action_space,
+    check_choice,
+    flag,
+    integer,
+    join,
+    member,
+    optional_integer,
+    share,
+)
 from .vector.autoreset import AutoresetMode
 
 __all__ = ["SEEDS", "VectorOptions", "autoreset_of", "life_loss_of", "merge_life_flags"]
@@ -32,7 +44,6 @@ INTEGERS = {
     "seed": SEEDS,
 }
 FLAGS = (
-    "full_action_space",
     "continuous",
     "reward_clipping",
     "maxpool",
@@ -130,7 +141,7 @@ class VectorOptions:
     thread_affinity_offset: int = -1
     max_num_frames_per_episode: int = 108000
     repeat_action_probability: float = 0.0
-    full_action_space: bool = False
+    full_action_space: bool | str = False
     continuous: bool = False
     autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP
     img_height: int = 84
@@ -160,6 +171,10 @@ class VectorOptions:
             self._set(name, integer(name, getattr(self, name), low, high))
         for name in FLAGS:
             self._set(name, flag(name, getattr(self, name)))
+        if self.action_set == "console" and self.continuous:
+            raise WrongValue(
+                "full_action_space is 'console'; with continuous, an action moves a joystick, not a switch"
+            )
         for name in ("mode", "difficulty"):
             self._set(name, optional_integer(name, getattr(self, name)))
         for name, kind in WORDS.items():
@@ -179,6 +194,11 @@ class VectorOptions:
         return self.batch_size == self.num_envs
 
     @property
+    def action_set(self) -> str:
+        """The word of the line protocol for the actions: "legal", "minimal" or "console"."""
+        return action_space("full_action_space", self.full_action_space)
+
+    @property
     def is_rgb(self) -> bool:
         """Whether observations are screens in colour."""
         return self.obs_type == "rgb" if self.obs_type else not self.grayscale
@@ -193,8 +213,7 @@ class VectorOptions:
         core.frame_skip = self.frameskip
         core.sound = self.sound_obs
         core.sticky = self.repeat_action_probability
-        is_legal = self.full_action_space or self.continuous
-        core.action_set = _core.ActionSet.LEGAL if is_legal else _core.ActionSet.MINIMAL
+        core.action_set = _core.ActionSet.LEGAL if self.continuous else _core.ActionSet[self.action_set.upper()]
         core.reward_min, core.reward_max = (-1, 1) if self.reward_clipping else (-MOST - 1, MOST)
         core.pool = self.maxpool
         core.max_episode_frames = self.max_num_frames_per_episode

@@ -10,9 +10,12 @@ struct Player {
   ControllerInput hands;
   Inputs inputs{};
   PaddleValues paddles = hands.middle();
+  ConsoleSwitches switches{};
 
   void press(int a, float strength_a = 1.0F, int b = 18, float strength_b = 0.0F, int difficulty = 0) {
-    hands.press(inputs, {{a, strength_a}, {b, strength_b}}, difficulty, paddles);
+    switches.set_difficulty(difficulty);
+    switches.act(a);
+    hands.press(inputs, {{a, strength_a}, {b, strength_b}}, switches, paddles);
   }
   std::int32_t paddle_after(int a, float strength = 1.0F) {
     press(a, strength);
@@ -59,9 +62,9 @@ TEST_CASE("Each action presses the stick as its name says") {
 
 TEST_CASE("Every frame starts with everything released") {
   Player player = with_joysticks();
-  ControllerInput::press_select(player.inputs, 0);
+  ControllerInput::press_select(player.inputs, {});
   player.press(17, 1.0F, 35);
-  player.press(40);
+  player.press(kResetAction);
   CHECK(player.inputs.joystick == std::array<std::uint8_t, 2>{});
   CHECK(player.inputs.switches == (kSwitchesAtRest & ~kSwitchReset));
   player.press(0);
@@ -70,7 +73,7 @@ TEST_CASE("Every frame starts with everything released") {
 
 TEST_CASE("A number that is not an action presses nothing") {
   Player player = with_paddles();
-  for (const int odd : {18, 36, 41, 99, -1}) {
+  for (const int odd : {36, 40, 41, 99, -1}) {
     player.press(odd, 1.0F, odd, 1.0F);
     CHECK(player.inputs.paddle_fire == 0);
     CHECK(player.paddles == PaddleValues{408823, 408823});
@@ -84,7 +87,8 @@ TEST_CASE("The difficulty sets the switches, also while SELECT is held") {
     const int bits = (difficulty & 1 ? kSwitchLeftA : 0) | (difficulty & 2 ? kSwitchRightA : 0);
     player.press(0, 1.0F, 18, 0.0F, difficulty);
     CHECK(player.inputs.switches == (kSwitchesAtRest | bits));
-    ControllerInput::press_select(player.inputs, difficulty);
+    player.switches.set_difficulty(difficulty);
+    ControllerInput::press_select(player.inputs, player.switches);
     CHECK(player.inputs.switches == ((kSwitchesAtRest & ~kSwitchSelect) | bits));
   }
 }
@@ -120,7 +124,7 @@ TEST_CASE("Paddle 1 is player B's") {
   player.press(11, 1.0F, 18 + 12, 1.0F);  // RIGHTFIRE, LEFTFIRE
   CHECK(player.paddles == PaddleValues{385823, 443323});
   CHECK(player.inputs.paddle_fire == 3);
-  player.press(40, 1.0F, 19);
+  player.press(kResetAction, 1.0F, 19);
   CHECK(player.inputs.paddle_fire == 2);
   CHECK(player.inputs.switches == (kSwitchesAtRest & ~kSwitchReset));
 }
@@ -137,7 +141,7 @@ TEST_CASE("With paddles, up and down do nothing and the sticks are not driven") 
 TEST_CASE("SELECT leaves the paddles where they are") {
   Player player = with_paddles();
   player.press(kRight, 1.0F, 19, 0.0F);
-  ControllerInput::press_select(player.inputs, 0);
+  ControllerInput::press_select(player.inputs, {});
   CHECK(player.inputs.paddle[0] == 385823);
   CHECK(player.inputs.paddle_fire == 0);
 }

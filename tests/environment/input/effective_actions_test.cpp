@@ -113,14 +113,15 @@ TEST_CASE("Illegal actions and RESET act as NOOP, for both players") {
 
 TEST_CASE("With joysticks, numbers that are not actions are refused") {
   const LegalActions all(all_actions(), false);
-  for (const int a : {18, 35, 36, 41, 43, 50, 99}) {
+  for (const int a : {26, 35, 36, 41, 43, 50, 99}) {
     CHECK_THROWS_WITH(all.check(pressing(a)),
                       Catch::Contains("action " + std::to_string(a) + " of player A is out of range") &&
-                          Catch::Contains("0 to 17"));
+                          Catch::Contains("0 to 25"));
   }
   for (const int b : {41, 50, 1000})
     CHECK_THROWS_WITH(all.check(pressing(0, b)), Catch::Contains("18 to 35"));
   for (int a = 0; a < 18; ++a) CHECK_NOTHROW(all.check(pressing(a, 18 + a)));
+  for (int a = 18; a < kConsoleActions; ++a) CHECK_NOTHROW(all.check(pressing(a)));
   CHECK_NOTHROW(all.check(pressing(40, 40)));
 }
 

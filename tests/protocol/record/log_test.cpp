@@ -86,6 +86,19 @@ TEST_CASE("An episode that something else than acts of player A changed has no l
   CHECK(value(desk.ask("log stop"), "unlogged") == std::to_string(unlogged));
 }
 
+TEST_CASE("Actions of the console are logged") {
+  Desk desk;
+  desk.ask("load beamfall seed=7 sticky=0 max_episode_frames=8 action_set=console");
+  desk.ask("log inline");
+  desk.ask("reset");
+  desk.ask("act SELECT RESET*2 LEFT_A 25 NOOP*3");
+  const std::string reply = desk.ask("log last");
+  const auto bytes = *bytes_of_base64(value(reply, "data"));
+  const EpisodeLog log = log_of("last", std::string(bytes.begin(), bytes.end()));
+  CHECK(log.actions == std::vector<std::uint8_t>{19, 18, 18, 20, 25, 0, 0, 0});
+  CHECK_THAT(log.settings, Contains(" action_set=console"));
+}
+
 TEST_CASE("branch and look do not change an episode's log") {
   Desk desk;
   desk.ask("log inline");

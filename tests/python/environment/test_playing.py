@@ -34,6 +34,34 @@ class Playing(unittest.TestCase):
         self.env.reset(seed=12)
         self.assertNotEqual(play(self.env, self.actions), first)
 
+    def test_actions_of_the_console(self):
+        env = racebeam.AtariEnv("beamfall", full_action_space="console", repeat_action_probability=0, frameskip=1)
+        names = env.get_action_meanings()
+        self.assertEqual(names[18:], ["RESET", "SELECT", "LEFT_A", "LEFT_B", "RIGHT_A", "RIGHT_B", "COLOR", "BW"])
+        self.assertEqual(env.action_space, gym.spaces.Discrete(26))
+        self.assertEqual(len(env.get_keys_to_action()), 18)
+        env.reset(seed=1)
+        at_rest = env.state_hash
+        play(env, [names.index("BW"), 0])
+        self.assertNotEqual(env.state_hash, at_rest)
+        env.reset(seed=1)
+        self.assertEqual(env.state_hash, at_rest)
+        env.ale.act(racebeam.ConsoleAction.BW)
+        self.assertRaisesRegex(racebeam.InvalidInput, "0 to 17", env.ale.act, 25)
+        with self.assertRaisesRegex(ValueError, "it takes True, False or 'console'"):
+            racebeam.AtariEnv("beamfall", full_action_space="all")
+        with self.assertRaisesRegex(ValueError, "an action moves a joystick, not a switch"):
+            racebeam.AtariEnv("beamfall", full_action_space="console", continuous=True)
+
+    def test_the_switches_are_those_of_player_a(self):
+        if "pong" not in package.roms():
+            self.skipTest("no image of pong was found")
+        env = racebeam.AtariEnv("pong", full_action_space="console", two_player=True)
+        env.reset(seed=1)
+        self.assertEqual(env.action_space, gym.spaces.MultiDiscrete([26, 18]))
+        env.step((18, 17))
+        self.assertRaisesRegex(IndexError, "accepted: 0 to 17", env.step, (0, 18))
+
     def test_a_restored_state_shows_what_it_showed(self):
         play(self.env, self.actions[:20])
         seen, ram, info = self.env.ale.getScreenRGB(), self.env.ale.getRAM(), self.env._get_info()

@@ -66,6 +66,7 @@ class Submissions(unittest.TestCase):
                 {"preset": "paper2013"},
                 {"life_loss": "end"},
                 {"life_loss": "restart", "difficulty": 0, "frameskip": 2},
+                {"full_action_space": "console", "max_num_frames_per_episode": 1001},
                 {"full_action_space": True, "repeat_action_probability": 0.1, "max_num_frames_per_episode": 301},
             )
         ):

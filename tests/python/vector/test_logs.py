@@ -54,6 +54,7 @@ class Logs(unittest.TestCase):
             (
                 {},
                 {"repeat_action_probability": 0.25, "frameskip": 5, "full_action_space": True},
+                {"full_action_space": "console"},
                 {"life_loss": "restart"},
                 {"life_loss": "reported"},
                 {"autoreset_mode": "Disabled", "difficulty": 1, "rules": "fixed"},

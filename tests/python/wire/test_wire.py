@@ -29,6 +29,7 @@ SETTINGS = (
     {"obs_type": "grayscale", "repeat_action_probability": 0.5, "difficulty": 1},
     {"sound_obs": True, "frameskip": 3},
     {"preset": "dqn2015"},
+    {"full_action_space": "console"},
 )
 
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Sequence
 from typing import Any, TypeAlias
 
 import gymnasium
 import numpy as np
 from gymnasium import spaces
 
-from .._core import Action
+from .._core import Action, ConsoleAction
 from ..arguments import flag
 from ..errors import InvalidInput
 
@@ -35,36 +36,32 @@ class EnvWithActions(gymnasium.Env[Any, Any]):
 
     continuous: bool
     continuous_action_threshold: float
-    _action_set: list[Action]
+    _action_set: list[Action | ConsoleAction]
     _two_player: bool
 
     def _space_of_actions(self) -> spaces.Space[Any]:
         count = len(self._action_set)
+        count_of_b = len(self._actions_of_b())
         if self.continuous:
             low, high = np.array([0, -np.pi, 0], np.float32), np.array([1, np.pi, 1], np.float32)
             return spaces.Box(low, high, (3,), np.float32)
-        return spaces.MultiDiscrete([count, count]) if self._two_player else spaces.Discrete(count)
+        return spaces.MultiDiscrete([count, count_of_b]) if self._two_player else spaces.Discrete(count)
 
     def _parse_action(self, action: PlayerAction) -> tuple[int, float, int, float]:
         """Returns the number of A's action and the strength of its paddle, then those of B."""
         if self.continuous:
             return (*self._parse_continuous(action), FIRST_OF_B, 0.0)
         if not self._two_player:
-            return self._look_up(action), 1.0, FIRST_OF_B, 0.0
+            return _look_up(action, self._action_set), 1.0, FIRST_OF_B, 0.0
         try:
             a, b = action
         except (TypeError, ValueError):
             raise TypeError(f"action is {action!r}; it must be a pair of indices, for players A and B") from None
-        return self._look_up(a), 1.0, FIRST_OF_B + self._look_up(b), 1.0
+        return _look_up(a, self._action_set), 1.0, FIRST_OF_B + _look_up(b, self._actions_of_b()), 1.0
 
-    def _look_up(self, action: Any) -> int:
-        try:
-            index = operator.index(action)
-        except TypeError:
-            raise TypeError(f"action {action!r} has the type {type(action).__name__}; it must be an integer") from None
-        if not 0 <= index < len(self._action_set):
-            raise IndexError(f"action {index} is out of range; accepted: 0 to {len(self._action_set) - 1}")
-        return self._action_set[index].value
+    def _actions_of_b(self) -> list[Action]:
+        """Returns the actions of a joystick; the switches are player A's."""
+        return [action for action in self._action_set if isinstance(action, Action)]
 
     def _parse_continuous(self, action: Any) -> tuple[int, float]:
         if not (isinstance(action, np.ndarray) and action.dtype == np.float32 and action.shape == (3,)):
@@ -123,7 +120,17 @@ class EnvWithActions(gymnasium.Env[Any, Any]):
                 f"`get_keys_to_action` can't be provided for this Atari environment as `{setting}=True`: "
                 "keys move one joystick"
             )
-        return {_keys_of(name): index for index, name in enumerate(self.get_action_meanings())}
+        return {_keys_of(action.name): index for index, action in enumerate(self._actions_of_b())}
+
+
+def _look_up(action: Any, actions: Sequence[Action | ConsoleAction]) -> int:
+    try:
+        index = operator.index(action)
+    except TypeError:
+        raise TypeError(f"action {action!r} has the type {type(action).__name__}; it must be an integer") from None
+    if not 0 <= index < len(actions):
+        raise IndexError(f"action {index} is out of range; accepted: 0 to {len(actions) - 1}")
+    return int(actions[index].value)
 
 
 def _keys_of(action: str) -> tuple[str, ...]:

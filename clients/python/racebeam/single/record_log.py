@@ -193,14 +193,14 @@ def _checked(env: gymnasium.Env[Any, Any]) -> AtariEnv:
 def _template_of(base: AtariEnv) -> Start:
     """The start of the environment's episodes, without a seed and a difficulty."""
     frames: Any = base._frameskip
-    is_full = len(base._action_set) == len(base.ale.getLegalActionSet())
+    words = {len(base.ale.getMinimalActionSet()): "minimal", len(base.ale.getLegalActionSet()): "full"}
     return Start(
         str(base._game),
         0,
         frames,
         base.ale.getFloat("repeat_action_probability"),
         base.ale.getInt("max_num_frames_per_episode"),
-        "full" if is_full else "minimal",
+        words.get(len(base._action_set), "console"),
         base.ale.getString("rules"),
         "restart" if base._life_loss.word == "restart" else "ignored",
         base._game_mode,

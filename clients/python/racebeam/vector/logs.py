@@ -198,7 +198,7 @@ def _start_of(options: VectorOptions, game: str, rom: Rom | None) -> Start:
         options.frameskip,
         options.repeat_action_probability,
         options.max_num_frames_per_episode,
-        "full" if options.full_action_space else "minimal",
+        options.action_set,
         options.rules,
         "restart" if options.life_loss == "restart" else "ignored",
         options.mode,

@@ -71,6 +71,7 @@ class RemoteGame:
     def __init__(self, server: str, token: str | None = None, timeout: float | None = None) -> None:
         self._server, self._token, self._timeout = server, token, timeout
         self._keys = ALEInterface()
+        self.action_set = "full"
         self.turn = threading.RLock()
         try:
             self.session: Session = connect(server, token=token, timeout=timeout)
@@ -133,6 +134,7 @@ class RemoteGame:
             "max_episode_frames": keys.getInt("max_num_frames_per_episode"),
             **({"life_loss_ends": 1} if keys.getBool("truncate_on_loss_of_life") else {}),  # truncates, as ALE does
             "rules": keys.getString("rules"),
+            **({"action_set": self.action_set} if self.action_set != "full" else {}),
             "color_averaging": int(keys.getBool("color_averaging")),
             "sound": int(keys.getBool("sound_obs")),
             **{key: keys.getString(key) for key in ("scheme", "left", "right", "format") if keys.getString(key)},
