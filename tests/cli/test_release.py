@@ -39,7 +39,7 @@ class Release(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
         cls.release = script("release").Release("HEAD", 1)
-        cls.release.build = lambda *_: None
+        cls.release.build = cls.release.python = lambda *_: None
         cls.release.pack = lambda source, _, __, scratch, into, pack=cls.release.pack: pack(
             source, BUILD, BUILD, scratch, into
         )
