@@ -1,9 +1,18 @@
 #include "recording/claim.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 namespace racebeam {
+namespace {
+
+// Whether one is the other, or a folder that contains it.
+bool is_above(const std::string& folder, const std::string& name) {
+  return name.starts_with(folder) && (name.size() == folder.size() || name[folder.size()] == '/');
+}
+
+}  // namespace
 
 bool Claims::empty() const {
   const std::lock_guard lock(mutex_);
@@ -13,7 +22,10 @@ bool Claims::empty() const {
 void Claims::add(const std::vector<std::string>& names) {
   const std::lock_guard lock(mutex_);
   for (const std::string& name : names) {
-    if (names_.contains(name))
+    const auto is_same_place = [&](const std::string& taken) {
+      return is_above(taken, name) || is_above(name, taken);
+    };
+    if (std::ranges::any_of(names_, is_same_place))
       throw std::runtime_error(name + " is being recorded already; choose another name");
   }
   names_.insert(names.begin(), names.end());

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <filesystem>
 #include <span>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,7 @@ namespace racebeam {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::chrono_literals;
 
 // What a log counts beside its bytes, so that the budget also limits the number of files.
 constexpr std::size_t kBytesBesideLog = 4096;
@@ -43,16 +46,19 @@ bool make_folder(const std::string& path) {
   return false;
 }
 
+constexpr auto kPatience = 2s;  // for the lock; other recordings wait, too
+
 // A table that several programs append to.
 class SharedTable {
  public:
-  explicit SharedTable(std::string path) : path_(std::move(path)) {
+  SharedTable(std::string path, const DiskBudget& budget) : path_(std::move(path)) {
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
     if (descriptor_ < 0) fail("open", path_);
-    while (::flock(descriptor_, LOCK_EX) != 0) {
-      if (errno == EINTR) continue;
+    try {
+      lock(budget);
+    } catch (...) {
       ::close(descriptor_);
-      fail("lock", path_);
+      throw;
     }
   }
   ~SharedTable() { ::close(descriptor_); }
@@ -82,6 +88,16 @@ class SharedTable {
   }
 
  private:
+  void lock(const DiskBudget& budget) const {
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      if (errno == EINTR) continue;
+      if (errno != EWOULDBLOCK || budget.is_given_up() || std::chrono::steady_clock::now() > end)
+        fail("lock", path_);
+      std::this_thread::sleep_for(10ms);
+    }
+  }
+
   const std::string path_;
   int descriptor_ = -1;
 };
@@ -182,7 +198,7 @@ void SubmissionFolder::check_earlier(std::string_view text) const {
     throw std::runtime_error(name + " exists, and has no agent.toml; choose another name");
   if (read_input_file("description of the agent", about, kMostAgentBytes) != text)
     throw std::runtime_error(name + " has another agent.toml; choose another name, or the same words");
-  const SharedTable table(table_path());  // nobody appends a row while one is read
+  const SharedTable table(table_path(), budget_);  // nobody appends a row while one is read
   if (table.size() == 0) table.append(line_of(kResultColumns));
   check_settings();
 }
@@ -205,7 +221,7 @@ void SubmissionFolder::add(const EpisodeLog& log) {
   budget_.take(kBytesBesideLog);
   write_file(path, bytes, budget_);
   try {
-    SharedTable(table_path()).append(line_of(row_of(log, sha256_of(bytes))));
+    SharedTable(table_path(), budget_).append(line_of(row_of(log, sha256_of(bytes))));
   } catch (...) {
     ::unlink(path.c_str());
     throw;

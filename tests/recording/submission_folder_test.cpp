@@ -1,5 +1,9 @@
 #include "recording/submission_folder.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <future>
@@ -51,4 +55,15 @@ TEST_CASE("A refused unit leaves the submission that others have begun") {
         "mine has the unit beamfall-agent-1 already; another trial= makes another");
   CHECK(std::filesystem::exists(order.path + "/logs/beamfall-agent-1"));
   CHECK(std::filesystem::exists(order.path + "/agent.toml"));
+}
+
+TEST_CASE("A program that keeps the lock of the table does not keep a recorder for long") {
+  const Scratch place;
+  CHECK(refusal_of(place.path("mine"), 1) == "");
+  const int table = ::open(place.path("mine/results.csv").c_str(), O_RDONLY | O_CLOEXEC);
+  REQUIRE(::flock(table, LOCK_EX) == 0);
+  CHECK(refusal_of(place.path("mine"), 2) == "cannot lock results.csv: Resource temporarily unavailable");
+  auto waiting = std::async(std::launch::async, refusal_of, place.path("mine"), 3);
+  ::close(table);
+  CHECK(waiting.get() == "");
 }

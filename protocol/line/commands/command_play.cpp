@@ -97,14 +97,20 @@ void run_look(Context& context, Words arguments, Reply& reply) {
   });
 }
 
+// A log begins each episode with a new seed, which `settings` then shows.
+void begin_episode(Context& context, std::optional<std::uint32_t> seed = {}) {
+  LoadedMachine& loaded = *context.game.loaded;
+  loaded.slot().reset(seed);
+  context.game.settings.machine.random_seed = loaded.machine().settings().random_seed;
+  ++context.game.episode;
+}
+
 void run_reset(Context& context, Words arguments, Reply& reply) {
   LoadedMachine& loaded = *context.game.loaded;
   std::optional<std::uint32_t> seed;
   if (!arguments.empty()) seed = parse_seed(value_of(arguments[0], "seed", "reset"));
   context.allow_resets(1);
-  loaded.slot().reset(seed);
-  context.game.settings.machine.random_seed = loaded.machine().settings().random_seed;
-  ++context.game.episode;
+  begin_episode(context, seed);
   loaded.slot().begin_request();
   add_view(loaded, reply);
 }
@@ -115,9 +121,8 @@ void begin_next_episode(Context& context, Reply& reply) {
   reply.add_fields(
       [&context](std::string& out, std::string& raw) { context.game.loaded->append_final(out, raw); });
   const Outcome outcome = slot.outcome();
-  slot.reset();
+  begin_episode(context);
   slot.set_outcome(outcome);
-  ++context.game.episode;
 }
 
 // Assumes that a reset takes as long as the longest one so far.
@@ -145,7 +150,7 @@ void run_act(Context& context, Words arguments, Reply& reply) {
     return add_log_cut(context, reply);
   }
   // Only a restored state can have ended before.
-  if (autoreset == Autoreset::kSameStep && loaded.slot().finished()) loaded.slot().reset();
+  if (autoreset == Autoreset::kSameStep && loaded.slot().finished()) begin_episode(context);
   loaded.slot().begin_request();
   play(loaded.slot(), actions);
   if (loaded.slot().outcome().acts > 0) context.game.last_action = actions.back().act.a;

@@ -58,6 +58,19 @@ TEST_CASE("Episodes are logged from the next reset on, and seeds count up") {
   CHECK(code(desk.ask("log stop")) == "no-log");
 }
 
+TEST_CASE("settings has the seed of the episode that the end of another begins") {
+  Desk desk;
+  CHECK(code(desk.ask(kLoad + " autoreset=same-step")) == "");
+  CHECK(code(desk.ask("log mine")) == "");
+  desk.ask("reset");
+  for (const char* const seed : {"8", "9", "10"}) {
+    CHECK(desk.seed() == seed);
+    desk.ask("act FIRE*2");
+  }
+  desk.ask("log stop");
+  CHECK_THAT(desk.file("mine/results.csv"), Contains("agent,1,2,9,0,"));
+}
+
 TEST_CASE("An episode that something else than acts of player A changed has no log") {
   Desk desk;
   desk.ask("save before");
@@ -234,6 +247,17 @@ TEST_CASE("Two sessions cannot log one unit, and a folder of pictures takes no l
   desk.ask("log stop");
   CHECK_THAT(desk.ask("log film"),
              Contains("no-log film exists, and has no agent.toml; choose another name"));
+}
+
+TEST_CASE("A log and a recording cannot have one folder at the same time") {
+  Desk desk;
+  CHECK(code(desk.ask("log mine")) == "");
+  CHECK_THAT(desk.ask("record png mine"), Contains("mine is being recorded already; choose another name"));
+  CHECK(code(desk.ask("record png min")) == "");
+  CHECK(code(desk.ask("record stop")) == "");
+  CHECK(code(desk.ask("log stop")) == "");
+  CHECK(code(desk.ask("record png film")) == "");
+  CHECK_THAT(desk.ask("log film"), Contains("film/beamfall-agent-1 is being recorded already"));
 }
 
 TEST_CASE("A unit without episodes leaves no folder, and can be begun again") {
