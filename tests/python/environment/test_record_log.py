@@ -1,6 +1,7 @@
 """RecordLog leaves a submission that `racebeam verify` confirms, and that it refuses once somebody has changed it."""
 
 import csv
+import fcntl
 import os
 import pathlib
 import resource
@@ -8,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import warnings
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -19,6 +21,7 @@ import numpy as np
 import racebeam.program
 from racebeam import InvalidInput, RecordLog
 from racebeam.episode_log import Origin, Start, log_of, play
+from racebeam.single import submission
 from racebeam.single.submission import COLUMNS
 
 
@@ -150,7 +153,20 @@ class Submissions(unittest.TestCase):
         self.assertEqual((env.logged, env.unlogged, len(self.rows())), (1, 1, 1))
         self.assertEqual(self.verify()[0], 0)
 
+    def test_a_program_that_keeps_the_lock_of_the_table_costs_an_episode_its_log(self):
+        env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
+        with open(self.folder / "results.csv", "rb") as table, unittest.mock.patch.object(submission, "PATIENCE", 0.1):
+            fcntl.flock(table, fcntl.LOCK_EX)
+            with self.assertWarnsRegex(UserWarning, "no log: another program has had the lock of .*results.csv"):
+                play_games(env, 1)
+        play_games(env, 1)
+        self.assertEqual((env.logged, env.unlogged, len(self.rows())), (1, 1, 1))
+        self.assertEqual(self.verify()[0], 0)
+
     def test_bad_arguments_are_refused_and_leave_nothing(self):
+        for words in ({"trial": 0}, {"trial": "x"}, {"trial": 2**31}, {"agent_seed": -1}, {"agent_seed": 2**32}):
+            with self.assertRaisesRegex((ValueError, TypeError), f"{next(iter(words))} is .*; it takes"):
+                RecordLog(racebeam.AtariEnv("beamfall"), self.folder, **words)
         for agent in ("", "../x", "a b", "a/b", "x" * 65):
             with self.assertRaisesRegex(InvalidInput, "agent is"):
                 self.record(agent=agent)

@@ -10,9 +10,11 @@ from typing import Any, SupportsFloat
 import gymnasium
 import numpy as np
 
+from ..arguments import MOST, integer
 from ..env import AtariEnv
 from ..episode_log import MOST_SEED, Origin, Start, play
 from ..errors import InvalidInput
+from ..vector_options import SEEDS
 from .submission import Submission
 
 __all__ = ["RecordLog"]
@@ -45,6 +47,7 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
 
     Raises:
         InvalidInput: If an argument is wrong, or the environment plays what a log cannot repeat.
+        ValueError: If a number is out of range.
         FileExistsError: If the folder exists.
         OSError: If the folder cannot be made.
 
@@ -78,7 +81,8 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         super().__init__(env)
         self._base = _checked(env)
         self._template = _template_of(self._base)
-        self._origin, self._phrase = Origin(agent, trial, 1, agent_seed), phrase
+        seed = integer("agent_seed", agent_seed, *SEEDS)
+        self._origin, self._phrase = Origin(agent, integer("trial", trial, 1, MOST), 1, seed), phrase
         self._seeds = np.random.default_rng()
         self._start: Start | None = None  # of the episode that is played
         self._actions: list[int] = []

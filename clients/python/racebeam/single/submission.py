@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
 import os
 import pathlib
 import re
+import time
+from typing import IO
 
 from ..episode_log import Episode, Origin, Start, log_of
 from ..errors import InvalidInput
@@ -15,6 +18,7 @@ COLUMNS = (
     "unit,game,image_md5,agent,trial,episode,environment_seed,agent_seed,score,frames,decisions,end,lives,state_hash,"
     "log_digest,version"
 )
+PATIENCE = 5  # seconds, for the lock of the table
 # The presets of evaluation: frame_skip, sticky, action_set and max_episode_frames. Those with no-ops are missing, since
 # no-ops that an environment plays are not in a log.
 PRESETS = {"paper2013": (5, 0.0, "full", 18000), "machado2018": (5, 0.25, "full", 18000)}
@@ -81,16 +85,38 @@ class Submission:
         log, row = log_of(start, actions, episode, origin)
         unit = self._folder / "logs" / row["unit"]
         unit.mkdir(parents=True, exist_ok=True)
-        path, table = unit / f"{row['episode']}.episode", self._folder / "results.csv"
-        size = table.stat().st_size
+        path = unit / f"{row['episode']}.episode"
         _write(path, log)
         try:
-            with open(table, "a", encoding="utf-8") as file:
-                file.write(",".join(row[column] for column in COLUMNS.split(",")) + "\n")
+            _append(self._folder / "results.csv", ",".join(row[column] for column in COLUMNS.split(",")) + "\n")
         except OSError:
-            os.truncate(table, size)
             path.unlink()
             raise
+
+
+def _append(table: pathlib.Path, line: str) -> None:
+    """Appends a whole line or nothing. Servers that log into the folder take the same lock."""
+    with open(table, "ab", buffering=0) as file:
+        _lock(file, table)
+        size = file.seek(0, os.SEEK_END)
+        text = line.encode()
+        try:
+            while text:
+                text = text[file.write(text) :]
+        except OSError:
+            file.truncate(size)
+            raise
+
+
+def _lock(file: IO[bytes], path: pathlib.Path) -> None:
+    end = time.monotonic() + PATIENCE
+    while True:
+        try:
+            return fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            if time.monotonic() > end:
+                raise TimeoutError(f"another program has had the lock of {path} for {PATIENCE} seconds") from None
+        time.sleep(0.01)
 
 
 def _write(path: pathlib.Path, contents: bytes | str) -> None:
