@@ -138,8 +138,7 @@ void check_words(std::string_view text) {
       const Action action = parse_action(word, {"a game", 0x3FFFF});
       const Act& act = action.act;
       require(act.a >= 0 && act.a < 18 && act.b >= 18 && act.b < 36, "actions are those of the players");
-      require(act.strength_a >= 0 && act.strength_a <= 1 && act.strength_b >= 0 && act.strength_b <= 1,
-              "strengths are 0 to 1");
+      require(std::isfinite(act.strength_a) && std::isfinite(act.strength_b), "strengths are finite");
       require(action.times >= 1, "an action is played at least once");
     });
     may_refuse([&] {

@@ -41,7 +41,7 @@ inline constexpr std::array<Field, 22> kFields = {{
     {"truncated", "1: the episode was cut short, by the limit of frames", true, ""},
     {"game_over", "1: the game itself is over; lost lives and limits do not count", true, ""},
     {"lives", "remaining lives; 0 in games without lives", false, ""},
-    {"frame", "frames since the game was loaded", false, ""},
+    {"frame", "frames since power-on, which is load, or reset or restart with a seed", false, ""},
     {"episode_frame", "frames since the episode began", false, ""},
     {"acts", "acts that were played; fewer than requested if the episode ended", true, ""},
     {"frames", "frames that the request ran", true, ""},

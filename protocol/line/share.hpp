@@ -26,7 +26,7 @@ struct Snapshot {
 
   std::string game;
   Format format;
-  std::int64_t frame = 0;    // since the game was loaded
+  std::int64_t frame = 0;    // since power-on
   std::int64_t episode = 0;  // of the session, from 1
   std::int64_t score = 0;    // of the episode
   std::int64_t reward = 0;   // of the request
