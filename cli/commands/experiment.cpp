@@ -126,8 +126,10 @@ void print_units(const Plan& plan, const PlayRates& rates, Shard shard) {
 void print_source(const Plan& plan, const PlayRates& rates) {
   const int longest = plan.play.machine.max_episode_frames;
   if (rates.empty())
-    std::printf("core-hours are the most: each episode is taken to last %d frames, as long as it may\n",
-                longest);
+    std::printf(
+        "core-hours are an estimate: each episode is taken to last %d frames, as long as it may, and speeds "
+        "are those of a table\n",
+        longest);
   else
     std::printf(
         "core-hours are from a moment of play on this machine, in %zu of %zu games; an episode of a "
