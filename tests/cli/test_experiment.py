@@ -286,7 +286,9 @@ class Experiment(unittest.TestCase):
         self.assertIn("missing image: zaxxon\n", printed)
         self.assertRegex(printed, r"(?m)^basic +1650 units +\d+ decisions +[0-9.]+ core-hours$")
         self.assertIn(
-            "core-hours are the most: each episode is taken to last 18000 frames, as long as it may\n", printed
+            "core-hours are an estimate: each episode is taken to last 18000 frames, as long as it may, and speeds are "
+            "those of a table\n",
+            printed,
         )
         self.assertRegex(printed, r"(?m)^memory: about \d+ MB, and \d+ MB a thread; disk: about \d+ MB; ")
         units = re.findall(r"(?m)^unit (\S+)  [0-9.]+ core-hours$", printed)

@@ -1,13 +1,15 @@
 """A server with little memory: what it counts, whom it serves, whom it ends, and what it gives back."""
 
+import os
 import re
 import socket
+import tempfile
 import threading
 import time
 import unittest
 import urllib.request
 
-from harness import PATIENCE, Wire, ask, connect_tcp, main, sanitized, serve, thread_sanitized
+from harness import PATIENCE, SOURCE, Wire, ask, connect_tcp, main, sanitized, serve, thread_sanitized
 
 LONG = b"load beamfall as=tetris seed=1 sticky=0 max_episode_frames=0"
 QUICK = 1 if PATIENCE <= 60 else PATIENCE / 20  # seconds, for a newcomer
@@ -46,6 +48,16 @@ def fill(wire, states=40):
         return any([ask_at_length(wire, line).startswith((b"error limit ", b"error busy ")) for line in lines])
     except (AssertionError, OSError):
         return True
+
+
+def write_images(folder, count):
+    """Images of one game that differ in two bytes which the game never reads, so that each has its own code."""
+    with open(os.path.join(SOURCE, "games/homebrew/beamfall.bin"), "rb") as file:
+        image = file.read()
+    unused = max(re.finditer(rb"(.)\1+", image, re.DOTALL), key=lambda found: len(found.group())).start()
+    for number in range(count):
+        with open(os.path.join(folder, f"image-{number}.bin"), "wb") as file:
+            file.write(image[:unused] + (number + 1).to_bytes(2, "big") + image[unused + 2 :])
 
 
 class Bystander:
@@ -129,6 +141,20 @@ class Memory(unittest.TestCase):
             time.sleep(0.1)
         self.check_newcomers(port)
         self.assertEqual(bystander.close(), {b"ok"})
+
+    def test_code_and_resets_of_all_images_together_stay_within_a_sixteenth(self):
+        for limit, images in ((64, 40), (512, 150)):
+            with self.subTest(limit=limit), tempfile.TemporaryDirectory() as folder:
+                write_images(folder, images)
+                port = self.start("--max-memory", f"{limit}M", "--roms", folder)
+                resident, counted = self.memory("resident"), self.memory("counted")
+                for number in range(images):
+                    wire = self.connect(port)
+                    for line in (b"load image-%d as=beamfall seed=1" % number, b"act 0*30 1*10 3*60"):
+                        self.assertRegex(ask(wire, line), b"^ok ")
+                sessions = self.memory("counted") - counted
+                caches = min(limit / 16, 24)
+                self.assertLess(self.memory("resident") - resident, caches + 1.1 * sessions + 1)
 
     def test_who_does_not_read_is_ended_first(self):
         port = self.start("--max-memory", "96M")
