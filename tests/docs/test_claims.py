@@ -86,7 +86,9 @@ class Presets(unittest.TestCase):
                 self.assertEqual(loaded["action_set"], {"all": "full"}.get(actions, actions))
                 self.assertEqual(loaded["max_episode_frames"], limit.replace(",", ""))
                 others = [loaded["life_loss"], loaded["noop_max"], loaded["reward_min"], loaded["reward_max"]]
-                self.assertEqual(others, ["restart", "30", "-1", "1"] if any(besides) else ["ignored", "0", "none", "none"])
+                self.assertEqual(
+                    others, ["restart", "30", "-1", "1"] if any(besides) else ["ignored", "0", "none", "none"]
+                )
 
     def test_the_page_on_experiments_has_the_presets_of_plans(self):
         rows = table(page("docs/experiments.md"), "| Preset | Frames of a decision |")
