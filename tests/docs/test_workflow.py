@@ -69,6 +69,20 @@ class Workflow(unittest.TestCase):
         jobs = re.findall(r"^ {10}- ([a-z -]+)$", read(WORKFLOW), re.MULTILINE)
         self.assertEqual(sorted(" ".join(jobs).split()), sorted(nightly_steps()))
 
+    def test_what_makes_packages_has_its_version_pinned(self):
+        builders = {
+            "scripts/wheel": "build wheel auditwheel scikit-build-core nanobind",
+            "scripts/evaluation": "hatchling",
+            "scripts/reference": "ale-py",
+        }
+        for script, packages in builders.items():
+            lines = re.findall(r"^.*\b(?:bring|need) .*$", read(script), re.MULTILINE)
+            for package in packages.split():
+                with self.subTest(script=script, package=package):
+                    self.assertTrue(any(re.search(rf"(?<![\w-]){package}==\d", line) for line in lines))
+        self.assertIn("npm ci", read("scripts/viewer"))
+        self.assertIn("ruff==$version", read("scripts/format"))
+
     def test_actions_are_named_by_their_commit(self):
         uses = re.findall(r"uses: (.*)", read(WORKFLOW))
         self.assertTrue(uses)
