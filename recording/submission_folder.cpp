@@ -118,18 +118,6 @@ constexpr std::array<Preset, 4> kPresets = {{
 }};
 constexpr std::string_view kOfAllPresets = "rules=ale-0.12 life_loss_ends=0";
 
-std::string_view preset_of(std::string_view settings) {
-  std::vector<std::string_view> words, expected;
-  split(settings, words);
-  for (const Preset& preset : kPresets) {
-    const std::string all = std::string(preset.words).append(" ").append(kOfAllPresets);
-    split(all, expected);
-    const auto has = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };
-    if (std::ranges::all_of(expected, has)) return preset.name;
-  }
-  return "other";
-}
-
 std::string text_of(const AboutAgent& about, std::string_view preset) {
   std::string text;
   append_text(text, "agent", about.agent);
@@ -179,6 +167,18 @@ std::string first_log(const std::string& folder) {
 }
 
 }  // namespace
+
+std::string_view preset_of(std::string_view settings) {
+  std::vector<std::string_view> words, expected;
+  split(settings, words);
+  for (const Preset& preset : kPresets) {
+    const std::string all = std::string(preset.words).append(" ").append(kOfAllPresets);
+    split(all, expected);
+    const auto has = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };
+    if (std::ranges::all_of(expected, has)) return preset.name;
+  }
+  return "other";
+}
 
 SubmissionFolder::SubmissionFolder(SubmissionOrder order, DiskBudget& budget)
     : order_(std::move(order)), budget_(budget) {

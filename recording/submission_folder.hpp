@@ -26,6 +26,10 @@ struct SubmissionOrder {
   std::string settings;  // of its logs, without the seed: settings_without_seed()
 };
 
+// The preset of evaluation that settings of a log are of (docs/experiments.md), or "other". They have every
+// word, without the seed.
+std::string_view preset_of(std::string_view settings);
+
 // Several units, of several programs, may be added to a folder at the same time.
 class SubmissionFolder {
  public:

@@ -6,10 +6,12 @@
 #include <set>
 
 #include "agents/experiment/phrase_seeds.hpp"
+#include "agents/experiment/play.hpp"
 #include "agents/experiment/row_tally.hpp"
 #include "games/files/toml_section.hpp"
 #include "recording/phrase_seed.hpp"
 #include "recording/sealed_file.hpp"
+#include "recording/submission_folder.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 
@@ -30,16 +32,20 @@ bool is_plain(std::string_view name) {
          std::ranges::all_of(name, [&](char c) { return is_letter(c) || c == '_' || c == '.' || c == '-'; });
 }
 
-// The phrase that the seeds follow from, if agent.toml has one.
-std::optional<std::string> phrase_of(const ResultsFolder& folder) {
+// What agent.toml says of the rows and their logs; nothing: it lacks the key.
+struct About {
+  std::optional<std::string> agent, preset, phrase;
+};
+
+About about_of(const ResultsFolder& folder) {
   const std::string path = folder.root() + "/agent.toml";
   const std::string text = read_input_file("description of the agent", path, kMostAgentBytes);
   const TomlSource source{text, path};
   const toml::table table = parse_toml(source);
   const Section top(source, table, "");
-  const auto phrase = top.text("phrase");
-  if (phrase) top.guard(*top.node("phrase"), "phrase", [&] { check_phrase(*phrase); });
-  return phrase;
+  About about{top.text("agent"), top.text("preset"), top.text("phrase")};
+  if (about.phrase) top.guard(*top.node("phrase"), "phrase", [&] { check_phrase(*about.phrase); });
+  return about;
 }
 
 bool is_divergence(const ResultRow& row) { return field(row, "end") == "diverged"; }
@@ -58,11 +64,14 @@ class SubmissionJudge {
   // All logs must have the settings of the first row's. Called before judge().
   void take_settings(const ResultRow& row) {
     try {
-      settings_ = settings_without_seed(log_of_row(row).first.settings);
+      const EpisodeLog log = log_of_row(row).first;
+      settings_ = settings_without_seed(log.settings);
+      preset_ = preset_of(words_of(settings_of(log), any_machine_));
     } catch (const std::exception&) {  // judge() says what is wrong
     }
   }
   bool has_settings() const { return settings_.has_value(); }
+  std::string_view preset() const { return preset_; }  // of the first row's settings; empty: unknown
 
  private:
   std::pair<EpisodeLog, std::string> log_of_row(const ResultRow& row) const {
@@ -85,19 +94,27 @@ class SubmissionJudge {
 
   const ResultsFolder& folder_;
   LogJudge logs_;
+  const Environment any_machine_{load_image("builtin:beamfall"), find_game("beamfall"), Settings{}};
   std::optional<std::string> settings_;
+  std::string_view preset_;
 };
 
 class SubmissionVerification {
  public:
   SubmissionVerification(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
                          const Finding& finding)
-      : folder_(folder), tally_(threads, finding), judge_(folder, images, tally_.threads(), cpu) {
-    if (auto phrase = phrase_of(folder)) phrase_.emplace(*std::move(phrase));
+      : folder_(folder),
+        about_(about_of(folder)),
+        tally_(threads, finding),
+        judge_(folder, images, tally_.threads(), cpu) {
+    if (about_.phrase) phrase_.emplace(*about_.phrase);
   }
 
   Verdict all() {
     each_result(folder_.results(), [&](const ResultRow& row, std::size_t line) { take(row, line); });
+    if (about_.preset && !judge_.preset().empty() && judge_.preset() != *about_.preset)
+      tally_.wrong("agent.toml: preset is '" + *about_.preset + "'; the settings of the logs are those of '" +
+                   std::string(judge_.preset()) + "'");
     if (phrase_) phrase_->each_gap([&](const std::string& sentence) { tally_.wrong(sentence); });
     tally_.find_surplus(folder_.logs(), [&](const std::string& path, bool is_folder) {
       return is_folder || logs_.contains(path);
@@ -119,11 +136,14 @@ class SubmissionVerification {
     const std::string& episode = field(row, "episode");
     if (!is_plain(row[0]) || !is_plain(episode))
       return "unit and episode are accepted with letters, digits, '_', '.' and '-'";
+    if (about_.agent && field(row, "agent") != *about_.agent)
+      return "agent is '" + field(row, "agent") + "'; agent.toml has '" + *about_.agent + "'";
     if (!logs_.insert(folder_.log(row[0], episode)).second) return "it stands twice";
     return phrase_ && !is_divergence(row) ? phrase_->fault(row) : "";
   }
 
   const ResultsFolder& folder_;
+  const About about_;
   RowTally tally_;
   SubmissionJudge judge_;
   std::optional<PhraseRows> phrase_;  // nothing: any seeds

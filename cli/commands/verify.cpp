@@ -43,6 +43,10 @@ Examples:
   racebeam verify results --roms ~/atari --rerun 3
   racebeam verify results/logs/pong-uct-1/1.episode --roms ~/atari)";
 
+// What the confirmed rows of a submission prove.
+constexpr auto kProof =
+    "a confirmed row proves that these actions give this score from this start, not who chose the actions";
+
 constexpr std::size_t kMostTableBytes = std::size_t{1} << 30;
 
 struct VerifyOptions {
@@ -149,7 +153,8 @@ int run(const VerifyOptions& options) {
   const ResultsFolder folder(options.results);
   const auto start = Clock::now();
   const Images images = images_of(options.images);
-  const auto check = is_submission(folder) ? verify_submission : verify;
+  const bool is_foreign = is_submission(folder);
+  const auto check = is_foreign ? verify_submission : verify;
   const Verdict verdict =
       check(folder, images, threads_of(options.images), options.images.cpu, print_finding);
   const double seconds = seconds_since(start);
@@ -160,6 +165,7 @@ int run(const VerifyOptions& options) {
   std::printf("%zu rows confirmed, %zu wrong, %zu could not be checked; %lld frames in %.1f s\n",
               verdict.confirmed, verdict.wrong, verdict.unchecked, static_cast<long long>(verdict.frames),
               seconds);
+  if (is_foreign) std::printf("%s\n", kProof);
   return status_of(verdict, others);
 }
 

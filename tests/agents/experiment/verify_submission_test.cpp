@@ -94,6 +94,15 @@ TEST_CASE("A submission's rows are confirmed without a plan, and every alteratio
     reseal(folder, 2, [&](EpisodeLog& log) { log.settings = other.settings; });
     refused("its log's settings are '");
   }
+  SECTION("another preset, and another agent") {
+    const std::string about = folder.root() + "/agent.toml";
+    write(about, std::string(kAgent) + "preset = \"machado2018\"\n");
+    refused("agent.toml: preset is 'machado2018'; the settings of the logs are those of 'other'");
+    write(about, std::string(kAgent) + "preset = \"other\"\n");
+    CHECK(of_submission(folder).verdict.wrong == 0);
+    write(about, "agent = \"yours\"\n");
+    refused("not confirmed: agent is 'mine'; agent.toml has 'yours'");
+  }
   SECTION("names that leave the folder") {
     for (const char* name : {"../mine-1", "..", "/etc", ""}) {
       write(folder.results(), altered_field(table, 1, 0, name));
