@@ -3,7 +3,6 @@
 #include <time.h>
 
 #include <algorithm>
-#include <iterator>
 #include <new>
 #include <numeric>
 
@@ -18,11 +17,11 @@ using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
 constexpr std::size_t kMostProbes = 60, kMostActions = 4;
-constexpr Seconds kLongestProbe{0.5};
-constexpr double kMostWaiting = 5;  // on a busy machine, a probe ends after so many times its share
+constexpr Seconds kLongestProbe{2};
+constexpr double kMostWaiting = 10;  // on a busy machine, a probe ends after so many times its share
 constexpr double kWarmUp = 0.3;     // of the time of a probe
 // The probe samples one in so many of the screens that facts are discovered from, but each of a trajectory.
-constexpr int kMostShare = 60, kLeastScreens = 600;
+constexpr int kMostShare = 12, kLeastScreens = 600;
 
 struct Enough {};  // ends an episode
 
@@ -125,15 +124,13 @@ class Probe {
   Sums sums_;
 };
 
-double mean_of(const std::vector<double>& numbers) {
-  return std::accumulate(numbers.begin(), numbers.end(), 0.0) / static_cast<double>(numbers.size());
+double sum_of(const std::vector<double>& numbers) {
+  return std::accumulate(numbers.begin(), numbers.end(), 0.0);
 }
 
-// An episode that was cut short counts if it was longer than the mean of the others by then.
-double mean_length(std::vector<double> lengths, const std::vector<double>& cut) {
-  const double mean = mean_of(lengths);
-  std::ranges::copy_if(cut, std::back_inserter(lengths), [mean](double frames) { return frames > mean; });
-  return mean_of(lengths);
+// All frames for each end: a mean of whole episodes would prefer short ones, since the time cuts long ones.
+double mean_length(const Sums& sums) {
+  return (sum_of(sums.whole) + sum_of(sums.cut)) / static_cast<double>(sums.whole.size());
 }
 
 // A search plays better than what can be measured in a moment, so that its episodes are taken to be as long
@@ -141,7 +138,7 @@ double mean_length(std::vector<double> lengths, const std::vector<double>& cut) 
 PlayRate rate_of(const Plan& plan, const PlanAgent& agent, const Sums& sums) {
   const double longest = plan.play.machine.max_episode_frames;
   const bool is_known = !sums.whole.empty() && agent.kind->role != Role::kPlanner;
-  return {.episode_frames = is_known ? std::min(mean_length(sums.whole, sums.cut), longest) : longest,
+  return {.episode_frames = is_known ? std::min(mean_length(sums), longest) : longest,
           .decisions_per_second = sums.decisions / sums.seconds,
           .discovery_seconds = sums.discovery_seconds};
 }
