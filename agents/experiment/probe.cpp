@@ -19,7 +19,7 @@ using Seconds = std::chrono::duration<double>;
 constexpr std::size_t kMostProbes = 60, kMostActions = 4;
 constexpr Seconds kLongestProbe{2};
 constexpr double kMostWaiting = 10;  // on a busy machine, a probe ends after so many times its share
-constexpr double kWarmUp = 0.3;     // of the time of a probe
+constexpr double kWarmUp = 0.3;      // of the time of a probe
 // The probe samples one in so many of the screens that facts are discovered from, but each of a trajectory.
 constexpr int kMostShare = 12, kLeastScreens = 600;
 
