@@ -57,8 +57,16 @@ class Results:
 
     def protocols(self, agent: str) -> list[Protocol]:
         """How the plans say that the agent was run, each way once; one that is unknown if no plan says it."""
-        protocols = [plan.protocol(agent) for plan in self.plans]
+        protocols = [self._as_far_as_run(plan.protocol(agent), agent) for plan in self.plans]
         return list(dict.fromkeys(each for each in protocols if each != Protocol())) or [Protocol()]
+
+    def _as_far_as_run(self, protocol: Protocol, agent: str) -> Protocol:
+        """The protocol with the number of trials that are here, if an experiment goes on: "1 of 3"."""
+        trials = self.episodes[self.episodes["agent"] == agent].groupby("game")["trial"].nunique()
+        planned = protocol.trials.replace(",", "")
+        if not len(trials) or not planned.isdigit() or trials.min() >= int(planned):
+            return protocol
+        return dataclasses.replace(protocol, trials=f"{trials.min()} of {protocol.trials}")
 
 
 def read_folder(folder: pathlib.Path) -> Results:

@@ -79,6 +79,15 @@ class Published(unittest.TestCase):
         self.assertIn("\nuct,here,paper2013,5,500 simulations of 300 frames,,2,1\n", found)
         self.assertIn("\nconst,Bellemare et al. 2013,paper2013,5,,,unknown,unknown\n", found)
 
+    def test_trials_of_an_experiment_that_goes_on_are_those_that_are_finished(self):
+        folder = self.results()
+        lines = (folder / "results.csv").read_text().splitlines(keepends=True)
+        trials = [line for line in lines if ",basic,1," not in line]
+        self.assertLess(len(trials), len(lines))
+        (folder / "results.csv").write_text("".join(trials))
+        found = tables(folder)["published-settings.csv"]
+        self.assertIn('\nbasic,here,paper2013,5,,"5,000 episodes",1 of 2,3\n', found)
+
     def test_agreement_is_reported_for_each_score(self):
         found = self.rows(tables(self.results())["beside-published.csv"])
         self.assertEqual(found["asterix", "basic"]["agrees"], "yes")  # 862.3 lies within
