@@ -51,7 +51,8 @@ class Conditions(Part):
             its rows, and gathers its figures. Times are
             seconds of processor time, so that other programs hardly change them. Rows, curves and digests of logs of
             long plans are kept in `docs/results/kept`. With the same command, another machine goes on with a plan
-            where it ended.""")
+            where it ended. By worth for their time, the plans to go on with are `learners`, `perturb`, `iw1`, `ram`,
+            `searches` and `blob_prost`.""")
         rows = []
         for name in (*PLANS, *({PARTIAL} & set(self.figures))):
             found = self.figures.get(name)
