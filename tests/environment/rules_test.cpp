@@ -48,6 +48,23 @@ Environment running(const std::shared_ptr<const Image>& image, const char* game,
 
 }  // namespace
 
+TEST_CASE("with the fixed rules, games end by their clocks") {
+  for (const auto& [name, last] :
+       {std::pair{"pitfall", 72000}, {"breakout", 65536}, {"video_pinball", 65467}, {"basic_math", 8064}}) {
+    const auto image = test::needed_rom_of(name);
+    if (!image) continue;
+    INFO(name);
+    for (const Rules rules : {Rules::kAle012, Rules::kFixed}) {
+      Environment environment(image, find_game(name), with(rules));
+      environment.act(name == std::string("pitfall") ? 1 : 0);  // Pitfall's clock waits for the player
+      environment.act_for(last - 200, 0);
+      CHECK_FALSE(environment.terminal());
+      environment.act_for(400, 0);
+      CHECK(environment.terminal() == (rules == Rules::kFixed));
+    }
+  }
+}
+
 TEST_CASE("both players' rewards are summed over a skip and clipped alike") {
   Settings settings = test::plain();
   settings.frame_skip = 2;

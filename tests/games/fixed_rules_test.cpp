@@ -130,8 +130,9 @@ const OtherScore kOtherScores[] = {
 
 // Games with corrections other than a wrap; each has a test case below. Klax has its score in the cartridge's
 // memory: environment/rules_test.cpp.
-const std::set<std::string> kOthers = {"adventure", "backgammon", "blackjack",  "casino",
-                                       "kaboom",    "klax",       "word_zapper"};
+const std::set<std::string> kOthers = {"adventure", "backgammon", "basic_math", "blackjack",
+                                       "breakout",  "casino",     "kaboom",     "klax",
+                                       "pitfall",   "space_war",  "word_zapper"};
 
 struct Frames {
   explicit Frames(std::shared_ptr<const Game> its_game) : game(std::move(its_game)), rule(*game) {}
@@ -230,6 +231,62 @@ TEST_CASE("Dark Chambers goes on when its score wraps, and ends when it falls") 
     frames({{0xCC, 0x50}});
     frames({{0xCC, 0x20}});
     CHECK(frames.rule.terminal());
+  }
+}
+
+TEST_CASE("Breakout and Video Pinball end when their counter begins anew, and not when it is cleared") {
+  struct Counter {
+    const char* game;
+    int low, high;
+  };
+  for (const auto& [name, low, high] : {Counter{"breakout", 0xDA, 0xDB}, {"video_pinball", 0x9A, 0x9B}}) {
+    INFO(name);
+    for (const bool mended : {false, true}) {
+      Frames frames(mended ? fixed(name) : find_game(name));
+      frames({{0xB9, 5}, {low, 0xFF}, {high, 0xFF}});
+      CHECK_FALSE(frames.rule.terminal());
+      frames({{low, 0}, {high, 0}});
+      CHECK(frames.rule.terminal() == mended);
+      frames({{low, 1}});
+      CHECK(frames.rule.terminal() == mended);
+    }
+    Frames frames(fixed(name));
+    frames({{0xB9, 5}, {low, 0x20}, {high, 0xF0}});
+    frames({{low, 0}, {high, 0}});
+    CHECK_FALSE(frames.rule.terminal());
+  }
+}
+
+TEST_CASE("Basic Math ends when nobody answers, and Space War when the fuel is used up") {
+  for (const bool mended : {false, true}) {
+    Frames math(mended ? fixed("basic_math") : find_game("basic_math"));
+    math({{0x82, 1}});
+    CHECK_FALSE(math.rule.terminal());
+    math({{0x9A, 1}});
+    CHECK(math.rule.terminal() == mended);
+
+    Frames war(mended ? fixed("space_war") : find_game("space_war"));
+    for (const auto& [fuel, ship] : {std::pair{9, 2}, {9, 0}, {16, 0}}) {
+      war({{0x80, 0x7A}, {0xA8, fuel}, {0xA9, ship}});
+      CHECK_FALSE(war.rule.terminal());
+    }
+    war({{0xA9, 2}});
+    CHECK(war.rule.terminal() == mended);
+  }
+}
+
+TEST_CASE("Pitfall ends at 0:00, once its clock has shown something else") {
+  for (const bool mended : {false, true}) {
+    Frames frames(mended ? fixed("pitfall") : find_game("pitfall"));
+    frames({{0x80, 0xA0}, {0xD8, 0}, {0xD9, 0}});
+    CHECK_FALSE(frames.rule.terminal());
+    for (const auto& [minutes, seconds] : {std::pair{0x20, 0}, {0x01, 0}, {0, 0x01}}) {
+      frames({{0xD8, minutes}, {0xD9, seconds}});
+      CHECK_FALSE(frames.rule.terminal());
+    }
+    frames({{0xD9, 0}});
+    CHECK(frames.rule.terminal() == mended);
+    CHECK(frames.rule.lives() == (mended ? 0 : 3));
   }
 }
 
