@@ -36,12 +36,19 @@ int Environment::Impl::act(const Presses& presses, int frames) {
     observe_ram();
     reward_a += rule.reward();
     reward_b += rule.reward_b();
+    if (makes_all_audio) make_audio();
     if (each_frame) each_frame();
   }
-  if (settings.sound) console.sound().generate(audio);
+  if (!makes_all_audio) make_audio();
   raw_rewards = {reward_a, reward_b};
   play.rewards = {clamped(reward_a, settings), clamped(reward_b, settings)};
   return play.rewards[0];
+}
+
+void Environment::Impl::make_audio() {
+  if (!settings.sound) return;
+  console.sound().generate(audio);
+  if (makes_all_audio) all_audio.insert(all_audio.end(), audio.begin(), audio.end());
 }
 
 void Environment::Impl::run_frame(const Presses& presses, bool draw) {

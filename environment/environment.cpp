@@ -124,6 +124,7 @@ Environment Environment::reload(std::uint32_t random_seed) {
   auto anew = std::make_unique<Impl>(impl_->image, impl_->game, settings, impl_->pace);
   anew->each_frame = impl_->each_frame;
   anew->drawing = impl_->drawing;
+  anew->makes_all_audio = impl_->makes_all_audio;
   return Environment(std::exchange(impl_, std::move(anew)));
 }
 
@@ -167,6 +168,9 @@ std::span<const std::uint64_t> Environment::previous_screen_lines() const {
 Format Environment::format() const { return impl_->console.format(); }
 const Sound& Environment::sound() const { return impl_->console.sound(); }
 std::span<const std::uint8_t, kAudioSize> Environment::audio() const { return impl_->audio; }
+std::span<const std::uint8_t> Environment::all_audio() const { return impl_->all_audio; }
+void Environment::make_all_audio(bool all) { impl_->makes_all_audio = all; }
+void Environment::begin_audio() { impl_->all_audio.clear(); }
 
 std::span<const std::uint8_t, kRamSize> Environment::ram() const {
   if (impl_->play.ram_is_stale != 0) return impl_->play.stale_ram;

@@ -63,7 +63,7 @@ class Environment {
   void reset_game();  // throws InvalidInput if the image does not reach the selected mode
 
   // Powers on anew with this random_seed, in the game's default mode, as if newly constructed. The settings
-  // of set_drawing() and watch() stay. Returns the environment as it was.
+  // of set_drawing(), make_all_audio() and watch() stay. Returns the environment as it was.
   Environment reload(std::uint32_t random_seed);
 
   // Acts for this number of frames: for no-ops at the start of an episode, or for an agent that chooses the
@@ -76,6 +76,11 @@ class Environment {
   // caller that reads only rewards and RAM.
   void set_drawing(Drawing drawing);
   Drawing drawing() const;
+
+  // With Settings::sound: makes samples in each frame of an act from now on, for all_audio(). audio() has
+  // those of the last frame then. The default makes them once for each act, as the reference does.
+  void make_all_audio(bool all);
+  void begin_audio();  // empties all_audio()
 
   // Releases the caches of drawing: about 40 KiB, or 80 KiB if objects flicker. For a machine that will not
   // act for a while.
@@ -107,7 +112,9 @@ class Environment {
   std::span<const std::uint64_t> previous_screen_lines() const;
   Format format() const;  // never Format::kAuto
   std::span<const std::uint8_t, kRamSize> ram() const;
-  std::span<const std::uint8_t, kAudioSize> audio() const;   // of the last act; zeros without Settings::sound
+  std::span<const std::uint8_t, kAudioSize> audio() const;  // of the last act; zeros without Settings::sound
+  // 512 samples for each frame since begin_audio(), with make_all_audio(); empty after a reset or a restore.
+  std::span<const std::uint8_t> all_audio() const;
   const Sound& sound() const;                                // the two channels that make it
   void set_ram(int index, std::uint8_t value);               // index 0-127, else std::out_of_range
   void tia_values(std::vector<std::uint8_t>& values) const;  // emulator/tia/registers/register_values.hpp

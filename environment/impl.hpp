@@ -41,6 +41,8 @@ struct Environment::Impl {
   const int lives_at_start;
   EpisodeState play;
   std::array<std::uint8_t, kAudioSize> audio{};
+  bool makes_all_audio = false;
+  std::vector<std::uint8_t> all_audio;  // since begin_audio()
   std::optional<BootFacts> boot_facts;  // of the image; studied at the first reset
   RawRewards raw_rewards;
   bool drew_at_reset = false;        // the generator took part in the last one
@@ -59,6 +61,7 @@ struct Environment::Impl {
   // act.cpp
   int act(const Presses& presses) { return act(presses, frames_of_act()); }
   int act(const Presses& presses, int frames);
+  void make_audio();
   int frames_of_act();
   void run_frame(const Presses& presses, bool draw);  // and the rule after it
   void step_console(bool draw);                       // without the rule

@@ -15,6 +15,7 @@ void Environment::Impl::reset() {
   play.episode_frames = 0;
   play.paddles = controller_input.middle();
   play.switches.moved = 0;
+  all_audio.clear();
   console.reset();
   controller_input.press(console.inputs(), {}, play.switches,
                          play.paddles);  // the first frame repeats this

@@ -8,7 +8,7 @@
 # What may follow each command. `=` at the end: a value follows.
 declare -rA _racebeam_follows=(
   [hello]='token='
-  [help]='settings presets fields encodings errors states hello help games load set modes difficulties actions names observe look act reset peek poke save restore drop export import branch open step restart close record log shot share unshare shared watch stats quit preset seed system_seed frame_skip sticky mode difficulty max_episode_frames life_loss noop_max autoreset action_set reward_min reward_max rules color_averaging sound scheme left right format ystart height paper2013 dqn2015 machado2018 gym-v5 reward reward_b raw_reward raw_reward_b terminated truncated game_over lives frame episode_frame acts frames ram tia state_hash screen rgb grey greyWxHxN rgbWxHxN palette audio hex rle delta base64 zlib raw bad-line line-too-long half-line unknown-command bad-arguments bad-value bad-action unknown-game bad-image no-game no-machines no-state bad-state recording no-log limit unauthorized busy idle stopping internal'
+  [help]='settings presets fields encodings errors states hello help games load set modes difficulties actions names observe look act reset peek poke save restore drop export import branch open step restart close record log shot share unshare shared watch stats quit preset seed system_seed frame_skip sticky mode difficulty max_episode_frames life_loss noop_max autoreset action_set reward_min reward_max rules color_averaging sound scheme left right format ystart height paper2013 dqn2015 machado2018 gym-v5 reward reward_b raw_reward raw_reward_b terminated truncated game_over lives frame episode_frame acts frames ram tia state_hash screen rgb grey greyWxHxN rgbWxHxN palette audio audio_all hex rle delta base64 zlib raw bad-line line-too-long half-line unknown-command bad-arguments bad-value bad-action unknown-game bad-image no-game no-machines no-state bad-state recording no-log limit unauthorized busy idle stopping internal'
   [games]='all'
   [load]='inline image= as= preset=paper2013 preset=dqn2015 preset=machado2018 preset=gym-v5 seed= system_seed= frame_skip= sticky= mode= difficulty= max_episode_frames= life_loss=ignored life_loss=reported life_loss=end life_loss=restart noop_max= autoreset=disabled autoreset=next-step autoreset=same-step action_set=full action_set=legal action_set=minimal action_set=console reward_min= reward_max= rules=ale-0.12 rules=fixed color_averaging=0 color_averaging=1 sound=0 sound=1 scheme= left=joystick left=paddles right=joystick right=paddles format=auto format=ntsc format=pal format=pal60 format=secam ystart= height='
   [settings]=''
@@ -44,7 +44,7 @@ declare -rA _racebeam_follows=(
   [stats]=''
   [quit]=''
 )
-readonly _racebeam_field_words='reward reward_b raw_reward raw_reward_b terminated truncated game_over lives frame episode_frame acts frames ram tia state_hash screen rgb grey greyWxHxN rgbWxHxN palette audio' _racebeam_encoding_words='hex rle delta base64 zlib raw'
+readonly _racebeam_field_words='reward reward_b raw_reward raw_reward_b terminated truncated game_over lives frame episode_frame acts frames ram tia state_hash screen rgb grey greyWxHxN rgbWxHxN palette audio audio_all' _racebeam_encoding_words='hex rle delta base64 zlib raw'
 
 _racebeam_complete() {
   local typed=${COMP_LINE:0:COMP_POINT} word words one before

@@ -65,6 +65,7 @@ void Environment::Impl::restore(const Saved& saved) {
   rule.restore(saved.values.rule);
   play = saved.values.play;
   audio = saved.values.audio;
+  all_audio.clear();
   raw_rewards = {};
   if (saved.random) random = *saved.random;
   blend_is_due = true;

@@ -17,7 +17,6 @@ namespace {
 constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
 constexpr std::int64_t kMostNumber = std::numeric_limits<int>::max();
 constexpr int kLeastReward = std::numeric_limits<int>::min(), kMostReward = std::numeric_limits<int>::max();
-constexpr int kMostFrameSkip = 1000;  // an act is never interrupted
 constexpr int kMostNoops = 1000;
 constexpr std::array<WordFor<ActionSet>, 4> kActionSets = {{{"full", ActionSet::kFull},
                                                             {"legal", ActionSet::kLegal},

@@ -15,6 +15,8 @@
 
 namespace racebeam {
 
+constexpr int kMostFrameSkip = 1000;  // an act is never interrupted
+
 struct PlaySettings {
   PlaySettings();  // the defaults of the line protocol
 

@@ -287,6 +287,7 @@ std::size_t Batch::size() const { return impl_->vector.size(); }
 std::size_t Batch::batch_size() const { return impl_->batch_size; }
 int Batch::height() const { return impl_->layout.height(); }
 std::size_t Batch::observation_size() const { return impl_->layout.observation_size(); }
+std::size_t Batch::audio_size() const { return racebeam::audio_size(impl_->settings.slot); }
 unsigned Batch::threads() const { return impl_->pool.threads(); }
 Slot& Batch::slot(std::size_t machine) {
   impl_->check_free(machine);

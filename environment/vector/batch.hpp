@@ -46,6 +46,7 @@ class Batch {
   std::size_t batch_size() const;
   int height() const;  // rows of the tallest machine's screen; zeros follow the rows of a lower one
   std::size_t observation_size() const;  // bytes for each machine
+  std::size_t audio_size() const;        // bytes of sound of each machine
   unsigned threads() const;
   BatchResults make_results() const;  // of batch_size() machines
 

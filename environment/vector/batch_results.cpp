@@ -14,7 +14,25 @@ void put(std::span<std::uint8_t> array, std::size_t position, std::span<const st
   if (!array.empty()) std::ranges::copy(bytes, &array[position * bytes.size()]);
 }
 
+// What the step did not play is silent.
+void put_audio(std::span<std::uint8_t> out, std::size_t position, const Slot& slot) {
+  if (out.empty()) return;
+  constexpr std::uint8_t kSilence = 128;
+  const std::size_t size = audio_size(slot.settings());
+  const Environment& environment = slot.environment();
+  std::span<const std::uint8_t> samples = environment.audio();
+  if (slot.settings().all_audio) samples = environment.all_audio();
+  const auto own = out.subspan(position * size, size);
+  const auto rest = std::ranges::copy(samples.first(std::min(size, samples.size())), own.begin()).out;
+  std::fill(rest, own.end(), kSilence);
+}
+
 }  // namespace
+
+std::size_t audio_size(const SlotSettings& settings) {
+  return std::size_t{kAudioSize} *
+         static_cast<std::size_t>(settings.all_audio ? settings.machine.frame_skip : 1);
+}
 
 BatchArrays BatchResults::arrays() {
   return {observations,
@@ -109,7 +127,7 @@ void ResultLayout::write(const Slot& slot, std::size_t number, std::size_t posit
   put(arrays.acts, position, outcome.acts);
   put(arrays.lives_lost, position, outcome.lives_lost);
   put(arrays.ram, position, environment.ram());
-  put(arrays.audio, position, environment.audio());
+  put_audio(arrays.audio, position, slot);
   write_stack(slot, arrays.observations, position);
   if (arrays.screens.empty()) return;
   const auto own = arrays.screens.subspan(position * whole_screen(), whole_screen());
@@ -120,7 +138,7 @@ void ResultLayout::write(const Slot& slot, std::size_t number, std::size_t posit
 void ResultLayout::write_final(const Slot& slot, std::size_t position, const BatchArrays& arrays) const {
   write_stack(slot, arrays.final_observations, position);
   put(arrays.final_ram, position, slot.environment().ram());
-  put(arrays.final_audio, position, slot.environment().audio());
+  put_audio(arrays.final_audio, position, slot);
   put(arrays.final_lives, position, slot.environment().lives());
   put(arrays.final_frames, position, slot.environment().frame_number());
   put(arrays.final_episode_frames, position, slot.environment().episode_frame_number());
@@ -131,6 +149,7 @@ void FinalResult::keep(const ResultLayout& layout, const Slot& slot) {
   BatchArrays own;
   own.final_observations = observation_;
   own.final_ram = ram_;
+  audio_.resize(audio_size(slot.settings()));
   own.final_audio = audio_;
   own.final_lives = {&lives_, 1};
   own.final_frames = {&frames_, 1};

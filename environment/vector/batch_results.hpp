@@ -28,10 +28,13 @@ struct BatchArrays {
   std::span<std::int32_t> numbers;                        // each machine's own, from 0
   // Frames of play in this game; acts of the request, none in a reset; and the lives that they lost.
   std::span<std::int32_t> elapsed, acts, lives_lost;
-  // machines x 512 samples of the last frame, and those of the episodes that ended; zeros without
-  // Settings::sound.
+  // machines x audio_size(): samples of the last frame or, with SlotSettings::all_audio, of the step, after
+  // which comes silence; and those of the episodes that ended. Zeros without Settings::sound.
   std::span<std::uint8_t> audio, final_audio;
 };
+
+// Bytes of sound of a machine.
+std::size_t audio_size(const SlotSettings& settings);
 
 // Owns memory for all arrays but those of the sound.
 struct BatchResults {
@@ -82,7 +85,7 @@ class FinalResult {
  private:
   std::vector<std::uint8_t> observation_;
   std::array<std::uint8_t, kRamSize> ram_{};
-  std::array<std::uint8_t, kAudioSize> audio_{};
+  std::vector<std::uint8_t> audio_;
   std::int32_t lives_ = 0, frames_ = 0, episode_frames_ = 0;
 };
 

@@ -69,12 +69,14 @@ Slot::Slot(const Cartridge& cartridge, const SlotSettings& settings, Pace* pace)
       environment_(cartridge.image, cartridge.game, machine_settings(settings), pace),
       actions_(actions_of(settings.action_set, environment_.game())),
       noops_(settings.machine.random_seed, settings.noop_max) {
+  environment_.make_all_audio(settings.all_audio);
   set_up();
   begin_request();
 }
 
 void Slot::begin_request() {
   outcome_ = {};
+  environment_.begin_audio();
   look_at_ends();
 }
 

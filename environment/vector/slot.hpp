@@ -66,7 +66,8 @@ struct SlotSettings {
   bool fire_at_reset = true;  // and with FIRE if the action set has it
   LifeLoss life_loss = LifeLoss::kIgnored;
   StackStart stack_start = StackStart::kZeros;
-  bool max_pool = true;  // each pixel of a stacked screen is the brighter of the step's last two frames
+  bool all_audio = false;  // make_all_audio()
+  bool max_pool = true;    // each pixel of a stacked screen is the brighter of the step's last two frames
 };
 
 // The results of the acts of one step, or of one request.

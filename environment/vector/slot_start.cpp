@@ -84,6 +84,7 @@ void Slot::begin_episode() {
       stepped = fire && press_as_baselines();
       break;
   }
+  environment_.begin_audio();
   begin_progress();
   begin_stack(false, stepped);
   if (pace_ != nullptr) reset_frames_ = std::max(reset_frames_, pace_->frames() - frames_before);
@@ -109,6 +110,7 @@ void Slot::begin_life() {
   }
   if (environment_.game_over()) return begin_episode();
   const bool goes_on = environment_.episode_frame_number() > frames;
+  environment_.begin_audio();
   begin_progress();
   if (goes_on) {
     progress_.score = before.score;

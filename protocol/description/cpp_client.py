@@ -142,7 +142,7 @@ def fields(protocol):
         + table("std::size_t", "kSizes", ((field.name, field.fixed_size) for field in fields if field.fixed_size))
         + "/// Bytes of a pixel of fields that have the size of the screen.\n"
         + table(
-            "std::size_t", "kPixels", ((field.name, field.bytes_of_pixel) for field in fields if not field.fixed_size)
+            "std::size_t", "kPixels", ((field.name, field.bytes_of_pixel) for field in fields if field.is_of_screen)
         )
         + "\n}  // namespace RACEBEAM_CLIENT_NAMESPACE::detail\n"
     )

@@ -148,7 +148,19 @@ class Field(Row):
     @property
     def fixed_size(self):
         """The bytes, where they are always the same."""
-        return math.prod(self.shape) if self.shape and all(isinstance(length, int) for length in self.shape) else None
+        if self.varies or not self.shape or not all(isinstance(length, int) for length in self.shape):
+            return None
+        return math.prod(self.shape)
+
+    @property
+    def varies(self):
+        """Whether the size changes from reply to reply: a length is -1."""
+        return -1 in self.shape
+
+    @property
+    def is_of_screen(self):
+        """Whether the size is that of the screen."""
+        return not self.varies and not self.fixed_size
 
     @property
     def bytes_of_pixel(self):

@@ -116,7 +116,7 @@ def fields(protocol):
     fields = protocol.byte_fields
     defaults = map_of((field.name, f"Encoding.{field.encoding.upper()}") for field in fields)
     sizes = map_of((field.name, field.fixed_size) for field in fields if field.fixed_size)
-    pixels = map_of((field.name, field.bytes_of_pixel) for field in fields if not field.fixed_size)
+    pixels = map_of((field.name, field.bytes_of_pixel) for field in fields if field.is_of_screen)
     return (
         f"{HEAD}import java.util.Map;\n\n/** The fields of bytes. */\nfinal class FieldTable {{\n"
         f"  /** What bytes are written in where the client does not say. */\n  static final Map<String, Encoding> "

@@ -126,7 +126,7 @@ def entries_of(protocol):
     return (
         [(field.name, f'"{field.encoding}"') for field in protocol.byte_fields],
         [(field.name, field.fixed_size) for field in protocol.byte_fields if field.fixed_size],
-        [(field.name, field.bytes_of_pixel) for field in protocol.byte_fields if not field.fixed_size],
+        [(field.name, field.bytes_of_pixel) for field in protocol.byte_fields if field.is_of_screen],
     )
 
 

@@ -32,7 +32,7 @@ struct Error {
   std::string_view name, meaning;
 };
 
-inline constexpr std::array<Field, 22> kFields = {{
+inline constexpr std::array<Field, 23> kFields = {{
     {"reward", "sum over the acts of the request; each act's reward is clamped as loaded", true, ""},
     {"reward_b", "the same for player B", true, ""},
     {"raw_reward", "the same before clamping", true, ""},
@@ -55,6 +55,7 @@ inline constexpr std::array<Field, 22> kFields = {{
     {"rgbWxHxN", "the same in colour: red, green and blue of each pixel", false, "zlib"},
     {"palette", "256 x 3: red, green, blue of each value of screen", false, "hex"},
     {"audio", "512 samples of the last act; needs sound=1", false, "hex"},
+    {"audio_all", "512 samples for each frame that the request ran; needs sound=1, and observe", false, "hex"},
 }};
 
 inline constexpr std::array<Choice, 24> kChoices = {{

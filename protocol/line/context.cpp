@@ -45,6 +45,14 @@ void Context::check_frames(std::int64_t acts, std::int64_t frames) const {
                                             " frames; it may ask for " + std::to_string(most));
 }
 
+void Context::check_audio(std::int64_t acts) const {
+  const Settings& machine = game.settings.machine;
+  const std::int64_t frames = acts * std::max(machine.frame_skip, machine.frame_skip_max);
+  if (frames <= kMostFrameSkip) return;
+  throw RequestError(ErrorCode::kLimit, "the request asks for audio_all of " + std::to_string(frames) +
+                                            " frames; it may ask for " + std::to_string(kMostFrameSkip));
+}
+
 void Context::allow_resets(std::size_t count) {
   pacer.allow_frames(service.limits.request_frames + kFreeResetFrames * static_cast<std::int64_t>(count));
 }

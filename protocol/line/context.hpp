@@ -78,6 +78,8 @@ class Context {
 
   // Throws RequestError if these acts, and these frames in addition, exceed --max-request-frames.
   void check_frames(std::int64_t acts, std::int64_t frames = 0) const;
+  // The same for acts whose sound the reply has, all of it.
+  void check_audio(std::int64_t acts) const;
   // Lets the request reset this many machines. The pacer then stops it at the frames that it may run.
   void allow_resets(std::size_t machines);
   // Throws RequestError if a reply of this estimated length would exceed the limit. `about` is its subject.

@@ -14,7 +14,7 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 using ByteBuffer = std::vector<std::uint8_t>;
 
-constexpr std::string_view kGreyStack = "greyWxHxN", kRgbStack = "rgbWxHxN";
+constexpr std::string_view kGreyStack = "greyWxHxN", kRgbStack = "rgbWxHxN", kAllAudio = "audio_all";
 constexpr int kDeepest = 16;
 
 using Number = std::int64_t (*)(const Environment&, const Outcome&);
@@ -95,6 +95,7 @@ constexpr std::array kFields = {
             return scratch;
           }),
     bytes("audio", [](const Environment& e, ByteBuffer&) -> Bytes { return e.audio(); }),
+    bytes(kAllAudio, [](const Environment& e, ByteBuffer&) { return e.all_audio(); }),
 };
 
 #undef NUMBER
@@ -142,6 +143,7 @@ constexpr std::size_t kTallScreen = 250 * std::size_t{kScreenWidth}, kRgbScreen 
 std::size_t most_bytes(const Field& field) {
   constexpr std::size_t kNoScreen = 1024;
   if (field.stack) return bytes_of(*field.stack);
+  if (field.row->name == kAllAudio) return std::size_t{kMostFrameSkip} * kAudioSize;
   if (field.row->looks_at == Drawing::kNone) return kNoScreen;
   return field.row->name == "rgb" ? kRgbScreen : kTallScreen;
 }
@@ -163,6 +165,8 @@ Field parse_field(std::string_view word) {
     throw RequestError(ErrorCode::kBadArguments, written + " is a number, and has no encoding");
   const auto chosen = encoding_of(encoding);
   if (!chosen) refuse_name("encoding", encoding, names_of(encodings()));
+  if (chosen == Encoding::kDelta && name == kAllAudio)
+    throw RequestError(ErrorCode::kBadArguments, "audio_all has another size in each reply, and no delta");
   return {&*row, *chosen, stack, std::move(written)};
 }
 
@@ -188,7 +192,12 @@ std::string_view row_of_field(std::string_view name) {
 }
 
 bool shows_audio(const std::vector<Field>& fields) {
-  return std::ranges::any_of(fields, [](const Field& field) { return field.row->name == "audio"; });
+  return std::ranges::any_of(fields, [](const Field& field) { return field.row->name == "audio"; }) ||
+         shows_all_audio(fields);
+}
+
+bool shows_all_audio(const std::vector<Field>& fields) {
+  return std::ranges::any_of(fields, [](const Field& field) { return field.row->name == kAllAudio; });
 }
 
 Drawing drawing_of(const std::vector<Field>& fields, bool averaging) {
@@ -237,7 +246,7 @@ std::size_t View::most_held(const std::vector<Field>& fields) {
   std::size_t bytes = 0;
   for (const Field& field : fields) {
     if (field.row->number) continue;
-    bytes += most_bytes(field);  // for scratch_
+    bytes += most_bytes(field);  // for scratch_, or in the machine
     if (field.stack)
       bytes += bytes_of(*field.stack) + kRgbScreen;  // itself, and the picture that it takes in
     if (field.encoding == Encoding::kZlib) bytes += kDeflater + most_bytes(field);

@@ -43,7 +43,8 @@ std::vector<Field> parse_fields(Words words);
 // Which screens of an act the fields need, on a machine with colour averaging or without.
 Drawing drawing_of(const std::vector<Field>& fields, bool averaging);
 
-bool shows_audio(const std::vector<Field>& fields);
+bool shows_audio(const std::vector<Field>& fields);      // or all of it
+bool shows_all_audio(const std::vector<Field>& fields);  // each frame's
 
 // The greatest length of the fields in a reply about `machine`. Numbers count with a typical length.
 std::size_t text_size(const std::vector<Field>& fields, const Environment& machine);

@@ -22,6 +22,7 @@ void observe(Slot& slot, const std::vector<Field>& fields) {
   const auto stacked =
       std::ranges::find_if(fields, [](const Field& field) { return field.stack.has_value(); });
   slot.set_drawing(drawing_of(fields, slot.environment().settings().color_averaging));
+  slot.environment().make_all_audio(shows_all_audio(fields));
   slot.set_stack(stacked == fields.end() ? std::nullopt : stacked->stack);
 }
 

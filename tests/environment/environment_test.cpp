@@ -180,6 +180,34 @@ TEST_CASE("Sound is made on request, once an act") {
   CHECK(std::ranges::any_of(audible.audio(), [](std::uint8_t sample) { return sample > 128; }));
 }
 
+TEST_CASE("All audio has the samples of each frame: those of acts of one frame") {
+  Settings settings = plain();
+  settings.sound = true;
+  Environment single = steered(settings);
+  settings.frame_skip = 3;
+  Environment skipping = steered(settings);
+  skipping.make_all_audio(true);
+  for (int act = 0; act < 20; ++act) {
+    skipping.begin_audio();
+    skipping.act(0);
+    std::vector<std::uint8_t> expected;
+    for (int frame = 0; frame < 3; ++frame) {
+      single.act(0);
+      expected.insert(expected.end(), single.audio().begin(), single.audio().end());
+    }
+    CHECK(std::ranges::equal(skipping.all_audio(), expected));
+    CHECK(std::ranges::equal(skipping.audio(), single.audio()));
+  }
+  const auto saved = skipping.save();
+  skipping.act(0);
+  CHECK(skipping.all_audio().size() == 6 * kAudioSize);
+  skipping.restore(*saved);
+  CHECK(skipping.all_audio().empty());
+  skipping.act(0);
+  skipping.reset_game();
+  CHECK(skipping.all_audio().empty());
+}
+
 TEST_CASE("Averaging blends the picture with the one before it") {
   Settings averaging = plain();
   averaging.color_averaging = true;

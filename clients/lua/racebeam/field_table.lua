@@ -2,7 +2,7 @@
 
 return {
   -- What bytes are written in where the client does not say.
-  usual = { ram = "hex", tia = "hex", state_hash = "hex", screen = "rle", rgb = "zlib", grey = "zlib", palette = "hex", audio = "hex" },
+  usual = { ram = "hex", tia = "hex", state_hash = "hex", screen = "rle", rgb = "zlib", grey = "zlib", palette = "hex", audio = "hex", audio_all = "hex" },
   -- Bytes of fields that always have the same number.
   sizes = { ram = 128, tia = 53, state_hash = 8, palette = 768, audio = 512 },
   -- Bytes of a pixel of fields that have the size of the screen.

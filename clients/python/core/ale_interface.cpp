@@ -27,6 +27,7 @@ void AleInterface::load(std::shared_ptr<const Image> image, const std::optional<
                        "; name the game whose rule it has, or use an image that `racebeam games` lists");
   auto rules = with_given(found.game, *image, keys_.console());
   machine_ = std::make_shared<Machine>(lock_, std::move(image), std::move(rules), keys_.settings());
+  machine_->environment.make_all_audio(keys_.bools.at("all_audio"));
   keys_of_machine_ = keys_;
 }
 
@@ -49,6 +50,7 @@ bool AleInterface::acts_can_be_joined() const {
 StepResult AleInterface::step(const Action& action, int times, View view) {
   Environment& machine = environment();
   machine.set_drawing(drawing_for(view, machine.settings().color_averaging));
+  machine.begin_audio();
   StepResult result;
   const int most = acts_can_be_joined() ? kFramesWithoutSignals : 1;
   for (int remaining = times, since_signals = 0; remaining > 0;) {

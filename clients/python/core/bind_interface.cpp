@@ -121,7 +121,18 @@ void bind_bytes(nb::class_<AleInterface>& interface) {
           [](AleInterface& self, const Fixed<kAudioSize>& buffer) {
             copy_audio(self, {buffer.data(), buffer.size()});
           },
-          "buffer"_a.noconvert());
+          "buffer"_a.noconvert())
+      .def(
+          "getAllAudio",
+          [](AleInterface& self) {
+            const Turn turn(self.lock());
+            const auto samples = self.environment().all_audio();
+            FreshBytes bytes(samples.size());
+            std::ranges::copy(samples, bytes.span().begin());
+            return std::move(bytes).array({samples.size()});
+          },
+          "Returns 512 samples for each frame of the last step(), if all_audio was True when the image was "
+          "loaded.");
 }
 
 // Acting

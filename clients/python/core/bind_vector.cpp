@@ -75,8 +75,8 @@ BatchArrays arrays_of(const Batch& batch, std::size_t count, const Results& resu
   BatchArrays to;
   to.observations = bytes_of(observations, screens);
   to.ram = bytes_of(ram, count * kRamSize);
-  to.audio = bytes_of(audio, count * kAudioSize);
-  to.final_audio = bytes_of(final_audio, count * kAudioSize);
+  to.audio = bytes_of(audio, count * batch.audio_size());
+  to.final_audio = bytes_of(final_audio, count * batch.audio_size());
   share_out(numbers, count,
             std::array{&to.rewards, &to.raw_rewards, &to.lives, &to.frames, &to.episode_frames, &to.numbers});
   share_out(flags, count, std::array{&to.terminated, &to.truncated, &to.finished, &to.game_over});

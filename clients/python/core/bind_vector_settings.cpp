@@ -58,6 +58,7 @@ void bind_vector_settings(nb::module_& module) {
   bind(settings, "rules", slot, machine, &Settings::rules);
   bind(settings, "sticky", slot, machine, &Settings::sticky);
   bind(settings, "sound", slot, machine, &Settings::sound);
+  bind(settings, "all_audio", slot, &SlotSettings::all_audio);
   bind(settings, "frame_skip", slot, machine, &Settings::frame_skip);
   bind(settings, "max_episode_frames", slot, machine, &Settings::max_episode_frames);
   bind(settings, "reward_min", slot, machine, &Settings::reward_min);

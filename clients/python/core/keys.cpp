@@ -53,6 +53,7 @@ Keys::Keys()
             {"send_rgb", false},
             {"sound", false},
             {"sound_obs", false},
+            {"all_audio", false},
             {"truncate_on_loss_of_life", false},
             {"clipvol", true},
             {"unknown_images", false}},

@@ -12,7 +12,7 @@ import operator
 import os
 import warnings
 from collections.abc import Iterable
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar
 
 from gymnasium import error
 
@@ -155,6 +155,27 @@ def action_space(name: str, value: Any) -> str:
             raise WrongValue(f"{name} is {value!r}; it takes True, False or 'console'")
         return value
     return "legal" if flag(name, value) else "minimal"
+
+
+def sound_flag(name: str, value: Any) -> bool | Literal["all"]:
+    """Checks whether observations have sound.
+
+    Args:
+        name: Name of the argument.
+        value: A truth value, or "all" for the samples of all frames.
+
+    Returns:
+        The truth value, or "all".
+
+    Raises:
+        WrongType: If `value` has no truth value, such as an array of several elements.
+        WrongValue: If `value` is another word.
+    """
+    if isinstance(value, str):
+        if value != "all":
+            raise WrongValue(f"{name} is {value!r}; it takes True, False or 'all'")
+        return "all"
+    return flag(name, value)
 
 
 def flag(name: str, value: Any) -> bool:

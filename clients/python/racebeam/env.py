@@ -24,6 +24,7 @@ from .arguments import (
     renamed,
     seconds,
     share,
+    sound_flag,
     value_or,
     warn_of,
 )
@@ -91,7 +92,8 @@ class AtariEnv(EnvWithView):
         max_num_frames_per_episode: Frames after which an episode is truncated; 0 for no limit.
         render_mode: "human" opens a window at 60 frames per second, or "rgb_array" makes `render` return the screen.
             All games of a process share one window, which shows the game that was stepped last.
-        sound_obs: Whether an observation is a dict of "image" and "sound", the 512 samples of the last frame.
+        sound_obs: Whether an observation is a dict of "image" and "sound", the 512 samples of the last frame. "all":
+            those of each frame of the step; frames that the step did not run are silent.
         preset: Name of a preset of `racebeam.presets`. It supplies `frameskip`, `repeat_action_probability`,
             `full_action_space`, `max_num_frames_per_episode`, `noop_max`, `life_loss` and `reward_range` where
             they are None.
@@ -158,7 +160,7 @@ class AtariEnv(EnvWithView):
         continuous_action_threshold: float = 0.5,
         max_num_frames_per_episode: int | None = None,
         render_mode: Literal["human", "rgb_array"] | None = None,
-        sound_obs: bool = False,
+        sound_obs: bool | Literal["all"] = False,
         *,
         preset: str = "ale",
         rules: str = "ale-0.12",
@@ -200,7 +202,7 @@ class AtariEnv(EnvWithView):
         self._two_player = two_player
         self.continuous = continuous
         self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
-        self.sound_obs = flag("sound_obs", sound_obs)
+        self.sound_obs = sound_flag("sound_obs", sound_obs)
         self.render_mode = render_mode
         self._sound = flag("sound", sound) and render_mode == "human"
         self._window = None

@@ -100,8 +100,8 @@ class AtariVectorEnv(PlayedVector):
         seed: Seed of the first environment, from which seeds count up. The first `reset` uses it. Default: random.
         render_mode: "rgb_array" makes `render` return the screens. "human" opens a window, which shows the first 16
             environments at 60 frames per second.
-        sound_obs: Whether an observation is a dict of "image" and "sound", the 512 samples of the last frame. All
-            frames of a step are heard. A server does not play it.
+        sound_obs: Whether an observation is a dict of "image" and "sound", the 512 samples of the last frame, or with
+            "all" those of each frame of the step; frames that it did not run are silent. A server does not play it.
         server: Address of the server that runs the environments, or a list of addresses to spread them over. Needs one
             game, and `batch_size` equal to `num_envs`.
         token: Token that the server asks for.
@@ -188,7 +188,7 @@ class AtariVectorEnv(PlayedVector):
         height: int | None = None,
         seed: SupportsIndex | None = None,
         render_mode: Literal["human", "rgb_array"] | None = None,
-        sound_obs: bool = False,
+        sound_obs: bool | Literal["all"] = False,
         server: str | Sequence[str] | None = None,
         token: str | None = None,
         timeout: float | None = None,

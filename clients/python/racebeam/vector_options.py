@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import secrets
-from typing import Any
+from typing import Any, Literal
 
 from . import _core
 from .arguments import (
@@ -19,6 +19,7 @@ from .arguments import (
     member,
     optional_integer,
     share,
+    sound_flag,
 )
 from .vector.autoreset import AutoresetMode
 
@@ -49,7 +50,6 @@ FLAGS = (
     "maxpool",
     "use_fire_reset",
     "grayscale",
-    "sound_obs",
 )
 WORDS = {"life_loss": _core.LifeLoss, "start": _core.ResetOrder, "stack_start": _core.StackStart}
 CHOICES = {"obs_type": OBS_TYPES, "render_mode": RENDER_MODES, "rules": tuple(RULES)}
@@ -162,7 +162,7 @@ class VectorOptions:
     rules: str = "ale-0.12"
     seed: int = dataclasses.field(default_factory=lambda: secrets.randbits(32))
     render_mode: str | None = None
-    sound_obs: bool = False
+    sound_obs: bool | Literal["all"] = False
     rows: int = 0
 
     def __post_init__(self) -> None:
@@ -171,6 +171,7 @@ class VectorOptions:
             self._set(name, integer(name, getattr(self, name), low, high))
         for name in FLAGS:
             self._set(name, flag(name, getattr(self, name)))
+        self._set("sound_obs", sound_flag("sound_obs", self.sound_obs))
         if self.action_set == "console" and self.continuous:
             raise WrongValue(
                 "full_action_space is 'console'; with continuous, an action moves a joystick, not a switch"
@@ -211,7 +212,8 @@ class VectorOptions:
         core.mode = self.mode
         core.difficulty = self.difficulty
         core.frame_skip = self.frameskip
-        core.sound = self.sound_obs
+        core.sound = bool(self.sound_obs)
+        core.all_audio = self.sound_obs == "all"
         core.sticky = self.repeat_action_probability
         core.action_set = _core.ActionSet.LEGAL if self.continuous else _core.ActionSet[self.action_set.upper()]
         core.reward_min, core.reward_max = (-1, 1) if self.reward_clipping else (-MOST - 1, MOST)

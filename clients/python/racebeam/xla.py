@@ -8,7 +8,7 @@ from __future__ import annotations
 import functools
 import importlib
 from collections.abc import Callable, Sequence
-from typing import Any, Protocol, TypeAlias
+from typing import Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -46,7 +46,7 @@ class Environments(Protocol):
     metadata: dict[str, Any]
     single_observation_space: spaces.Space[Any]
     continuous: bool
-    sound_obs: bool
+    sound_obs: bool | Literal["all"]
     continuous_action_threshold: float
 
     def machines(self) -> Machines:
@@ -73,7 +73,7 @@ def functions(envs: Environments, infos: tuple[str, ...]) -> tuple[Any, Callable
     if envs.batch_size < envs.num_envs:
         raise InvalidInput(f"batch_size is {envs.batch_size}; xla() steps all {envs.num_envs} environments")
     if envs.sound_obs:
-        raise InvalidInput("sound_obs is True; xla() takes False")
+        raise InvalidInput(f"sound_obs is {envs.sound_obs!r}; xla() takes False")
     count, shape = envs.num_envs, envs.single_observation_space.shape or ()
     shapes: Shapes = [((count, *shape), np.uint8), *(((count,), kind) for kind in RESULTS.values())]
 

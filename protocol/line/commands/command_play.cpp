@@ -21,6 +21,9 @@ void check_look(const std::vector<Field>& fields) {
     if (field.encoding == Encoding::kDelta)
       throw RequestError(ErrorCode::kBadArguments,
                          "delta is for observe: it tells what changed from reply to reply");
+    if (shows_all_audio({field}))
+      throw RequestError(ErrorCode::kBadArguments,
+                         "audio_all is for observe: samples of every frame are made from then on");
     if (field.stack && field.stack->depth > 1)
       throw RequestError(ErrorCode::kBadArguments,
                          "a stack is for observe: it is made of what replies have shown");
@@ -144,6 +147,7 @@ void run_act(Context& context, Words arguments, Reply& reply) {
   }
   const Autoreset autoreset = context.game.settings.autoreset;
   context.check_frames(acts, frames_of_reset(loaded.slot(), autoreset));
+  if (shows_all_audio(context.fields)) context.check_audio(acts);
   if (autoreset == Autoreset::kNextStep && loaded.slot().finished()) {
     run_reset(context, {}, reply);
     add_cut(context, reply);

@@ -62,6 +62,20 @@ class Playing(unittest.TestCase):
         env.step((18, 17))
         self.assertRaisesRegex(IndexError, "accepted: 0 to 17", env.step, (0, 18))
 
+    def test_all_the_sound_of_a_step(self):
+        every = racebeam.AtariEnv("beamfall", frameskip=1, sound_obs=True)
+        skipping = racebeam.AtariEnv("beamfall", frameskip=3, sound_obs="all")
+        self.assertEqual(skipping.observation_space["sound"].shape, (3 * 512,))
+        for env in (every, skipping):
+            env.reset(seed=3)
+        for action in self.actions[:50]:
+            expected = np.concatenate([every.step(action)[0]["sound"] for _ in range(3)])
+            self.assertEqual(skipping.step(action)[0]["sound"].tobytes(), expected.tobytes())
+        ranged = racebeam.AtariEnv("beamfall", frameskip=(2, 5), sound_obs="all")
+        self.assertTrue((ranged.reset(seed=1)[0]["sound"] == 128).all())
+        self.assertIn(ranged.step(1)[0], ranged.observation_space)
+        self.assertRaisesRegex(ValueError, "it takes True, False or 'all'", racebeam.AtariEnv, "pong", sound_obs="last")
+
     def test_a_restored_state_shows_what_it_showed(self):
         play(self.env, self.actions[:20])
         seen, ram, info = self.env.ale.getScreenRGB(), self.env.ale.getRAM(), self.env._get_info()

@@ -95,6 +95,19 @@ class Observations(unittest.TestCase):
         self.assertGreater(len(sounds), 5)
         self.assertTrue(np.array_equal(envs.show()[0]["sound"], seen["sound"]))
 
+    def test_all_the_sound_of_a_step_is_that_of_AtariEnv(self):
+        settings = {"obs_type": "ram", "sound_obs": "all", "frameskip": 3}
+        envs = AtariVectorEnv("beamfall", 2, noop_max=0, use_fire_reset=False, autoreset_mode="SameStep", **settings)
+        env = racebeam.AtariEnv("beamfall", repeat_action_probability=0.0, **settings)
+        envs.reset(seed=3)
+        env.ale.setInt("random_seed", 3)
+        env.load_game()
+        env.ale.reset_game()
+        for _ in range(40):
+            seen, single = envs.step([1, 0])[0], env.step(1)[0]
+            self.assertEqual(seen["sound"].shape, (2, 3 * 512))
+            self.assertTrue(np.array_equal(seen["sound"][0], single["sound"]))
+
     def test_the_sound_of_some_environments(self):
         envs, others = (
             AtariVectorEnv("beamfall", 3, sound_obs=True, **settings) for settings in ({"batch_size": 1}, {})

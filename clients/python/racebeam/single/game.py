@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from gymnasium.utils import seeding
@@ -28,7 +28,7 @@ class EnvWithGame(EnvWithActions):
     """
 
     ale: Any
-    sound_obs: bool
+    sound_obs: bool | Literal["all"]
     _game: str | None
     _game_file: str | None
     _game_mode: int | None
@@ -45,7 +45,8 @@ class EnvWithGame(EnvWithActions):
         if limit is not None:
             self.ale.setInt("max_num_frames_per_episode", limit)
         self.ale.setBool("truncate_on_loss_of_life", life_loss_truncates)
-        self.ale.setBool("sound_obs", self.sound_obs or self._sound)
+        self.ale.setBool("sound_obs", bool(self.sound_obs) or self._sound)
+        self.ale.setBool("all_audio", self.sound_obs == "all")
 
     def _set_console(self, words: dict[str, str], numbers: dict[str, int | None]) -> None:
         """Sets what the console must know of your own image."""

@@ -18,6 +18,7 @@ __all__ = ["VIEWS", "EnvWithView", "Observation", "Pixels"]
 Pixels: TypeAlias = npt.NDArray[np.uint8]
 Observation: TypeAlias = Pixels | dict[str, Pixels]
 
+SILENCE = 128
 VIEWS = {"rgb": View.RGB, "grayscale": View.GRAYSCALE, "ram": View.RAM}
 
 
@@ -31,6 +32,7 @@ class EnvWithView(EnvWithGame):
     """
 
     _is_closed: bool
+    _frameskip: int | tuple[int, int]
     _view: View
     _window: Window | None
 
@@ -40,10 +42,21 @@ class EnvWithView(EnvWithGame):
         image = spaces.Box(0, 255, shape[self._view], np.uint8)
         if not self.sound_obs:
             return image
-        return spaces.Dict({"image": image, "sound": spaces.Box(0, 255, (self.ale.getAudioSize(),), np.uint8)})
+        return spaces.Dict({"image": image, "sound": spaces.Box(0, 255, (self._samples(),), np.uint8)})
+
+    def _samples(self) -> int:
+        frames = self._frameskip if isinstance(self._frameskip, int) else self._frameskip[1] - 1
+        return int(self.ale.getAudioSize()) * (frames if self.sound_obs == "all" else 1)
 
     def _observation(self, image: Pixels) -> Observation:
-        return {"image": image, "sound": self.ale.getAudio()} if self.sound_obs else image
+        if not self.sound_obs:
+            return image
+        if self.sound_obs != "all":
+            return {"image": image, "sound": self.ale.getAudio()}
+        sound = np.full(self._samples(), SILENCE, np.uint8)
+        samples = self.ale.getAllAudio()[: len(sound)]
+        sound[: len(samples)] = samples
+        return {"image": image, "sound": sound}
 
     def _get_obs(self) -> Observation:
         show = {View.RGB: self.ale.getScreenRGB, View.GRAYSCALE: self.ale.getScreenGrayscale, View.RAM: self.ale.getRAM}

@@ -84,11 +84,14 @@ class VectorBase(VectorEnv[Any, Any, Any]):
         self._shape = self._shape_of_images()
         self.single_observation_space: spaces.Space[Any] = spaces.Box(0, 255, self._shape, np.uint8)
         if self.sound_obs:
-            sound = spaces.Box(0, 255, (SOUND_SIZE,), np.uint8)
+            sound = spaces.Box(0, 255, (self._samples(),), np.uint8)
             self.single_observation_space = spaces.Dict({"image": self.single_observation_space, "sound": sound})
         self.single_action_space = self._space_of_actions()
         self.observation_space = batch_space(self.single_observation_space, self.batch_size)
         self.action_space = batch_space(self.single_action_space, self.batch_size)
+
+    def _samples(self) -> int:
+        return SOUND_SIZE * (self._options.frameskip if self.sound_obs == "all" else 1)
 
     def _shape_of_images(self) -> tuple[int, ...]:
         if self._shows_ram:
@@ -123,7 +126,7 @@ class VectorBase(VectorEnv[Any, Any, Any]):
         results = Results.allocate(observations, ram, count, finals)
         if not self.sound_obs:
             return results
-        sound, final_sound = np.empty((2, count, SOUND_SIZE), np.uint8)
+        sound, final_sound = np.empty((2, count, self._samples()), np.uint8)
         return results._replace(sound=sound, final_sound=final_sound if self._has_finals else None)
 
     def _observations(self, results: Results) -> Any:

@@ -16,6 +16,7 @@ USUAL_ENCODING = {
     "grey": "zlib",
     "palette": "hex",
     "audio": "hex",
+    "audio_all": "hex",
 }
 SHAPES: dict[str, tuple[int | str, ...]] = {
     "ram": (128,),
@@ -26,6 +27,7 @@ SHAPES: dict[str, tuple[int | str, ...]] = {
     "grey": ("height", 160),
     "palette": (256, 3),
     "audio": (512,),
+    "audio_all": (-1, 512),
 }
 # end of fields
 

@@ -72,6 +72,7 @@ class RemoteGame:
         self._server, self._token, self._timeout = server, token, timeout
         self._keys = ALEInterface()
         self.action_set = "full"
+        self._all_audio = b""
         self.turn = threading.RLock()
         try:
             self.session: Session = connect(server, token=token, timeout=timeout)

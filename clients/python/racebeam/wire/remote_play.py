@@ -31,7 +31,8 @@ class RemotePlay(RemoteGame):
 
     def _observe(self, view: View) -> None:
         if view is not self._view:
-            self.ask(self.session.observe, *ALWAYS, *FIELDS[view])
+            sound = ("audio_all",) if self._keys.getBool("all_audio") else ()
+            self.ask(self.session.observe, *ALWAYS, *FIELDS[view], *sound)
             self._view = view
 
     @exclusive
@@ -63,6 +64,7 @@ class RemotePlay(RemoteGame):
         self._observe(view)
         word = f"{int(action)}@{float(paddle_strength):.9g}/{int(action_b) - 18}@{float(paddle_strength_b):.9g}"
         result = self.ask(self.session.act, f"{word}*{int(times)}")
+        self._all_audio = result.get("audio_all", b"")
         self._act_after_the_end(word, times - max(result["acts"], 1))
         return (
             self._decode(result, view),
@@ -183,6 +185,11 @@ class RemotePlay(RemoteGame):
         if not self._keys.getBool("sound_obs"):
             return _fill(np.zeros(512, np.uint8), buffer)
         return _fill(np.frombuffer(self._look("audio")["audio"], np.uint8).copy(), buffer)
+
+    @exclusive
+    def getAllAudio(self) -> Pixels:
+        """Returns 512 samples for each frame of the last `step`, with the key `all_audio`."""
+        return np.frombuffer(self._all_audio, np.uint8).copy()
 
     @exclusive
     def getScreenDims(self) -> tuple[int, int]:
