@@ -61,6 +61,10 @@ constexpr HotSpots kHotSpots[] = {
     {131072, 0x0800, 1, 32, 0, 10, 4, "SB"},          {262144, 0x0800, 1, 64, 0, 16, 4, "SB"},
     {131072, 0x1FC0, 1, 32, 0xE000, 28, 4, "DF"},     {262144, 0x1F80, 1, 64, 0xE000, 56, 4, "BF"},
 };
+constexpr std::string_view kElf =
+    "\x7F"
+    "ELF";                               // how an object file begins
+constexpr std::size_t kWdswSize = 8195;  // no other image has this size
 constexpr std::size_t kMostHotSpots = 64, kBank = 4096;
 
 bool has(std::string_view image, const Text& mark) {
@@ -117,6 +121,8 @@ bool is_wd(const Rom& rom) {
 
 std::string_view scheme_by_text(const Rom& rom) {
   const std::string_view image(reinterpret_cast<const char*>(rom.data()), rom.size());
+  if (image.starts_with(kElf)) return "ELF";  // before the texts that the program has
+  if (image.size() == kWdswSize) return "WDSW";
   const auto text = std::ranges::find_if(kTexts, [&](const Text& one) { return has(image, one); });
   return text != std::end(kTexts) ? text->scheme : std::string_view();
 }

@@ -231,6 +231,15 @@ TEST_CASE("An image with the text of a scheme that is not implemented is refused
   CHECK(scheme_of(mixed(32768, {{700, {'C', 'D', 'F'}}, {5700, {'C', 'D', 'F'}}})).name == "F4");
 }
 
+TEST_CASE("ELF shows by its first bytes, and WDSW by its size, and both are refused") {
+  for (const std::size_t size : {4096U, 8192U, 32768U, 65536U, 100000U}) {
+    CHECK_THROWS_WITH(scheme_of(mixed(size, {{0, {0x7F, 'E', 'L', 'F'}}, {700, {'D', 'P', 'C', '+'}}})),
+                      Catch::Contains("scheme ELF, which is not"));
+  }
+  CHECK(scheme_name(mixed(8192, {{1, {0x7F, 'E', 'L', 'F'}}})) == "F8");
+  CHECK_THROWS_WITH(scheme_of(mixed(8195)), Catch::Contains("scheme WDSW, which is not"));
+}
+
 TEST_CASE("Schemes are found by the text that their tools write") {
   check({{"EF", with_text(65536, "EFEF"), "EF"},
          {"EFSC", with_text(65536, "EFSC"), "EFSC"},
