@@ -216,8 +216,14 @@ def write_log(options, seed, actions):
     episode_log.write_log(options.log, options.game, actions, **how, agent="basic", agent_seed=options.agent_seed)
 
 
+def erase_progress():
+    """Makes room for a line, where a terminal shows the bar."""
+    if sys.stderr.isatty():
+        print(end="\r\033[K", file=sys.stderr, flush=True)
+
+
 def show_progress(options, steps, start):
-    """Shows how far the program is, and how long it still takes, if a person looks on."""
+    """Shows how far the program is, and how long it still takes, if standard error is a terminal."""
     if not sys.stderr.isatty():
         return
     if options.steps:
@@ -226,8 +232,7 @@ def show_progress(options, steps, start):
         done, total, unit = len(steps), options.training + options.evaluation, "episodes"
     remaining = (time.monotonic() - start) * (total - done) / done
     bar = "#" * (30 * done // total)
-    print(f"\r[{bar:30}] {done:,} of {total:,} {unit}, {remaining:.0f} s left ", end="", file=sys.stderr)
-    print(end="\n" if done == total else "", file=sys.stderr, flush=True)
+    print(end=f"[{bar:30}] {done:,} of {total:,} {unit}, {remaining:.0f} s left", file=sys.stderr, flush=True)
 
 
 def schedule(options, steps):
@@ -241,11 +246,15 @@ def schedule(options, steps):
         yield False, remaining == 0
 
 
+def value_or(value, default):
+    return default if value is None else value
+
+
 def read_options():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("server", help="the program racebeam, or the address of a server, such as tcp://HOST:PORT")
-    parser.add_argument("game", nargs="?", default="beamfall", help="(default: %(default)s)")
-    parser.add_argument("--training", type=int, default=20, help="episodes with learning (default: %(default)s)")
+    parser.add_argument("game", nargs="?", default="beamfall", help="a game (default: %(default)s)")
+    parser.add_argument("--training", type=int, help="episodes with learning (default: 20, with --play 0)")
     parser.add_argument(
         "--steps",
         type=int,
@@ -253,9 +262,11 @@ def read_options():
         "them is played to its end",
     )
     parser.add_argument(
-        "--evaluation", type=int, default=0, help="episodes after it, without learning (default: %(default)s)"
+        "--evaluation", type=int, help="episodes after it, without learning (default: 0, with --play 1)"
     )
-    parser.add_argument("--agent-seed", type=int, default=1, help="(default: %(default)s)")
+    parser.add_argument(
+        "--agent-seed", type=int, default=1, help="seed of the agent's random numbers (default: %(default)s)"
+    )
     parser.add_argument(
         "--seed", type=int, default=1, help="seed of the first episode; they count up (default: %(default)s)"
     )
@@ -266,12 +277,20 @@ def read_options():
     parser.add_argument("--actions", action="store_true", help="print the actions of each episode")
     parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores, beside that of random play")
     parser.add_argument("--keep", metavar="FILE", help="the file for what was learned, at the end")
-    parser.add_argument("--play", metavar="FILE", help="begin with what this file has; --training 0 only plays")
+    parser.add_argument(
+        "--play",
+        metavar="FILE",
+        help="begin with what this file has, and only play unless --training or --steps is given",
+    )
     parser.add_argument(
         "--film", metavar="NAME", help="record the last episode as NAME.gif, in the folder of a server if it has one"
     )
     parser.add_argument("--log", metavar="FILE", help="the log of the last episode, FILE.episode")
     options = parser.parse_args()
+    options.training = value_or(options.training, 0 if options.play else 20)
+    options.evaluation = value_or(options.evaluation, 1 if options.play else 0)
+    if not (options.steps or options.training or options.evaluation):
+        parser.error("--training and --evaluation are 0; one of them must be 1 or more")
     if options.film and options.steps and not options.evaluation:
         parser.error("--film is given with --steps; it takes --evaluation 1 or more, and films the last of these")
     return options
@@ -315,12 +334,15 @@ def play_all(session, agent, basic, options):
         steps.append(len(actions))
         scores.append(score)
         kind = "training" if agent.learning else "evaluation"
+        erase_progress()
         print(
             kind,
             f"episode {len(steps)}: score {score} in {len(actions)} decisions",
             *actions if options.actions else [],
+            flush=True,
         )
         show_progress(options, steps, start)
+    erase_progress()
     print(f"{sum(steps) / (time.monotonic() - start):.0f} decisions a second", file=sys.stderr)
     return steps, scores, actions
 

@@ -152,7 +152,7 @@ class Player:
 
     def __init__(self, options, **arguments):
         self.envs = make_envs(
-            options, options.envs, lives="end", autoreset_mode="SameStep", server=options.server, **arguments
+            options, options.envs, life_loss="end", autoreset_mode="SameStep", server=options.server, **arguments
         )
         self.observations, _ = self.envs.reset()
         self.sums, self.scores, self.seconds = np.zeros(options.envs, np.int64), [], 0.0
@@ -243,13 +243,14 @@ def film(path, frames):
     images[0].save(path, save_all=True, append_images=images[1:], duration=1000 * FRAME_SKIP // 60, loop=0)
 
 
-def show_progress(done, total, began):
-    """Shows how far the program is, and how long it still takes, if a person looks on."""
+def report(line, done, total, began):
+    """Prints a line for an update, with the time that remains. Below it, a terminal shows a bar."""
+    remaining = (time.perf_counter() - began) * (total - done) / done
     if sys.stderr.isatty():
-        remaining = (time.perf_counter() - began) * (total - done) / done
-        bar = "#" * (30 * done // total)
-        print(f"\r[{bar:30}] {done:,} of {total:,} steps, {remaining:.0f} s left ", end="", file=sys.stderr, flush=True)
-        print(end="\n" if done == total else "", file=sys.stderr)
+        print(end="\r\033[K", file=sys.stderr, flush=True)  # the bar is erased
+    print(f"{line}, {remaining:.0f} s left", flush=True)
+    if sys.stderr.isatty() and done < total:
+        print(end=f"[{'#' * (30 * done // total):30}] {done:,} of {total:,} steps", file=sys.stderr, flush=True)
 
 
 def random_score(options):
@@ -292,15 +293,11 @@ def learn(options, player, parameters, key):
         key, to_play, to_learn = jax.random.split(key, 3)
         batch = player.play(parameters, to_play, options.horizon)
         parameters, state = update(parameters, state, batch, to_learn, optimizer, options.epochs, options.parts)
-        show_progress(number * steps, updates * steps, began)
+        line = f"update {number}: {len(player.scores)} games"
         if player.scores:
             points.append((number * steps, float(np.mean(player.scores[-GAMES_OF_MEAN:]))))
-        if points and (number % 10 == 0 or number == updates):
-            print(
-                f"update {number}: {len(player.scores)} games, "
-                f"mean score of the last {GAMES_OF_MEAN}: {points[-1][1]:.1f}",
-                flush=True,
-            )
+            line += f", mean score of the last {GAMES_OF_MEAN}: {points[-1][1]:.1f}"
+        report(line, number * steps, updates * steps, began)
     seconds = time.perf_counter() - began
     print(
         f"{updates * steps / seconds:.0f} steps a second; the environments took "
@@ -313,9 +310,13 @@ def learn(options, player, parameters, key):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("game", nargs="?", default="updraft", help="(default: %(default)s)")
-    parser.add_argument("--observe", choices=("ram", "pixels"), default="ram", help="(default: %(default)s)")
-    parser.add_argument("--envs", type=int, default=32, help="(default: %(default)s)")
+    parser.add_argument(
+        "game", nargs="?", default="updraft", help="a game, or the file of an image (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--observe", choices=("ram", "pixels"), default="ram", help="what the agent sees (default: %(default)s)"
+    )
+    parser.add_argument("--envs", type=int, default=32, help="environments that play at once (default: %(default)s)")
     parser.add_argument(
         "--steps",
         type=int,
@@ -330,8 +331,8 @@ def main():
     parser.add_argument(
         "--rate", type=float, default=1e-3, help="initial learning rate, which falls to 0 (default: %(default)s)"
     )
-    parser.add_argument("--seed", type=int, default=1, help="(default: %(default)s)")
-    parser.add_argument("--server", help="the environments run there, such as unix:PATH")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the games and of the agent (default: %(default)s)")
+    parser.add_argument("--server", help="the address of a server that runs the environments, such as unix:PATH")
     parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores, beside that of random play")
     parser.add_argument("--keep", metavar="FILE", help="the file for the policy, at the end")
     parser.add_argument("--play", metavar="FILE", help="play with the policy of this file, and do not learn")
