@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import shutil
 
 from conan import ConanFile
 from conan.tools.cmake import CMake, CMakeToolchain
@@ -29,8 +30,12 @@ class Racebeam(ConanFile):
         self.version = re.search(r"project\(racebeam VERSION ([0-9.]+)", text)[1]
 
     def export_sources(self):
-        for pattern in ("CMakeLists.txt", "LICENSE", *(f"{part}/*" for part in PARTS)):
-            copy(self, pattern, self.tree, self.export_sources_folder)
+        # copy() walks the whole folder that it gets: here each part, rather than the tree with its builds.
+        into = pathlib.Path(self.export_sources_folder)
+        for name in ("CMakeLists.txt", "LICENSE"):
+            shutil.copy2(self.tree / name, into)
+        for part in PARTS:
+            copy(self, "*", self.tree / part, into / part)
 
     def requirements(self):
         self.requires("openssl/[>=3 <4]")
