@@ -142,7 +142,7 @@ class Bench {
     const double start = cpu_seconds();
     environment_.reset_game();
     if (environment_.game_over())
-      throw std::runtime_error("the game is over right after its reset: there is nothing to measure");
+      throw std::runtime_error("the game is over right after its reset: nothing can be measured");
     totals_.reset_seconds += cpu_seconds() - start;
     ++totals_.resets;
   }

@@ -95,7 +95,7 @@ class BenchSession {
     environment_.reset_game();
     first_frame_ = environment_.frame_number();
     if (environment_.game_over())
-      throw std::runtime_error("the game is over right after its reset: there is nothing to measure");
+      throw std::runtime_error("the game is over right after its reset: nothing can be measured");
     ++resets_;
     reset_seconds_ += cpu_seconds() - start;
   }

@@ -8,6 +8,6 @@
 
 extern "C" std::uint32_t arc4random() noexcept {
   std::uint32_t number = 0;
-  if (getentropy(&number, sizeof number) != 0) std::abort();  // as glibc's does: there is no way to report it
+  if (getentropy(&number, sizeof number) != 0) std::abort();  // as glibc's does: it cannot be reported
   return number;
 }

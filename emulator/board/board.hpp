@@ -40,7 +40,7 @@ class Board {
   CodeWindow code;    // where the CPU fetches; empty after the map has changed or the frame has closed
   bool stop = false;  // the CPU stops after this instruction: the frame has closed, or must be run again
 
-  // Accesses of the CPU where there is no plain memory. `latch` is the data bus before the access.
+  // Accesses of the CPU outside of plain memory. `latch` is the data bus before the access.
   std::uint8_t read(std::uint16_t address, std::uint8_t latch,
                     std::int32_t cycle);  // plain memory or a device
   std::uint8_t read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
@@ -71,7 +71,7 @@ class Board {
     return true;
   }
 
-  // Moves the code window to `pc`. Returns false if there is no plain memory, or too little for an
+  // Moves the code window to `pc`. Returns false if plain memory is missing there, or too short for an
   // instruction.
   bool find_code(std::uint16_t pc);
 

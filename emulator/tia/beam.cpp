@@ -164,7 +164,7 @@ void Beam::pass_to(std::int32_t clock) {
   while (clock > line_end()) {
     pass(tia_.left);
     end_line();
-    // At their ends, there is nothing to do.
+    // At their ends, nothing happens.
     const int others = tia_.cosmic ? 0 : (clock - 1 - tia_.cursor) / kLineClocks;
     pass_lines(others);
     if (others > 0 && is_since_hmove(tia_.cursor - kLineClocks + kCombEnd)) tia_.comb_armed = 0;

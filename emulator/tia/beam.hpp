@@ -129,7 +129,7 @@ class Beam {
   std::int32_t end() const { return end_; }
 
  private:
-  // Most writes are in the blank of a line, where there is nothing to draw.
+  // Most writes are in the blank of a line, where nothing is drawn.
   RACEBEAM_INLINE bool pass_blank(std::int32_t clock) {
     const std::int32_t clocks = clock - tia_.cursor;
     if (clocks > tia_.left - kLinePixels || tia_.cursor < start_ || tia_.cursor >= end_ || exact_spans())

@@ -78,7 +78,7 @@ void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& l
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
 
-// The word behind the last write tells the cycle before which there is no other. On the line of that cycle,
+// The word behind the last write tells the cycle before which no other write is. On the line of that cycle,
 // only writes that affect the `latches` need be played. Returns false if that line was left.
 bool Tia::play_log(std::int32_t cycle, Collisions latches) {
   const bool empty = log_->size() == 0;

@@ -26,7 +26,7 @@ class CodeOwner {
 };
 
 // Bounds the code of all images without an owner, with what belongs to it. Beyond that, instructions are
-// interpreted. There is no limit at first.
+// interpreted. Until the first call, it is unlimited.
 void limit_shared_code(std::size_t bytes);
 std::size_t shared_code();  // bytes of it now
 

@@ -56,12 +56,12 @@ class ImageCode {
   ImageCode(const ImageCode&) = delete;
   ImageCode& operator=(const ImageCode&) = delete;
 
-  // The view through this window of a machine's `rom`. Null if there is no view yet and `make` is false:
-  // making one takes as long as some thousand instructions. Null, too, if there is no room for it.
+  // The view through this window of a machine's `rom`. Null if it does not exist yet and `make` is false:
+  // making one takes as long as some thousand instructions. Null, too, if it does not fit.
   View* view(const CodeWindow& window, const Rom& rom, bool make);
 
-  // Translates code near `pc`, which must be in the view. Returns the block at `pc`, or null if there is no
-  // room for it.
+  // Translates code near `pc`, which must be in the view. Returns the block at `pc`, or null if it does
+  // not fit.
   const void* translate(View& view, std::uint16_t pc, const Layout& layout);
 
   // Runs code from `entry` on. Returns the new PC, combined with kInterpretNext where that applies.

@@ -145,7 +145,7 @@ std::shared_ptr<translator::ImageCode> Translator::Impl::code_of(Board& board, b
   return translator::ImageCode::of(board.slot.rom, wiring, make);
 }
 
-// False while there is no code. Begins a new generation when the code memory of the old one is full.
+// False while no code exists. Begins a new generation when the code memory of the old one is full.
 bool Translator::Impl::has_code(Board& board) {
   const bool is_useful = code != nullptr && !code->is_full();
   if (is_useful || !budget.covers_batch()) return code != nullptr;

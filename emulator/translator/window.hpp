@@ -15,7 +15,7 @@ struct Wiring {
   bool operator==(const Wiring&) const = default;
   bool cartridge_watches() const { return plain_registers == 0; }  // it reacts to accesses to the TIA
 
-  // The function that reads a port of the cartridge which selects no bank. Null if there is no such port at
+  // The function that reads a port of the cartridge without selecting a bank. Null if such a port is not at
   // `address`.
   PortReader port_reader(std::uint16_t address) const {
     return (address & 0x1000) != 0 && port_reader_at != nullptr ? port_reader_at(address) : nullptr;

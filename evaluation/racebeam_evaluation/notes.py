@@ -32,14 +32,14 @@ def of_left_out(scores: Scores, results: Results) -> list[str]:
     """The tables that the report does not have."""
     groups = [group.name for group in scores.groups]
     lacking = [
-        f"There are no {role}: the tables {group}-... are left out."
+        f"The results lack {role}: the tables {group}-... are left out."
         for role, group in (("learners", "learning"), ("planners", "planning"))
         if group not in groups
     ]
     if groups == ["baselines"]:
         lacking.append("There are only baselines: the tables groups, -tests, -means and -improvement are left out.")
     if results.curves is None:
-        lacking.append("There are no training episodes: the learning curves are left out.")
+        lacking.append("The results lack training episodes: the learning curves are left out.")
     return lacking
 
 

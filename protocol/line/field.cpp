@@ -211,7 +211,7 @@ std::vector<Field> parse_fields(Words words) {
   for (const std::string_view word : words) {
     if (word == "none") {
       if (words.size() == 1) break;
-      throw RequestError(ErrorCode::kBadArguments, "none stands alone; it chooses no field");
+      throw RequestError(ErrorCode::kBadArguments, "none accepts no other field beside it");
     }
     if (word == "ends") {
       add(fields, parse_field("terminated"));

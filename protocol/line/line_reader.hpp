@@ -1,5 +1,5 @@
 // Splits a client's input of the line protocol into lines. The buffer grows with the incoming line, up to a
-// limit. A longer line is reported once and skipped, and so is a line for which there is no memory.
+// limit. A longer line is reported once and skipped, and so is a line that memory does not suffice for.
 #pragma once
 
 #include <cstddef>
@@ -48,7 +48,7 @@ class LineReader {
   std::size_t begin_ = 0, end_ = 0;  // of what next() has not returned
   std::size_t searched_ = 0;         // bytes from begin_ that contain no LF
   bool skipping_ = false;            // within a line that was too long, or cut
-  bool cut_ = false;                 // there is no memory for the line
+  bool cut_ = false;                 // memory did not suffice for the line
   bool ended_ = false;
 };
 

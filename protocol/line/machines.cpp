@@ -122,7 +122,7 @@ void Machines::rest() {
 }
 
 // Checks whether `count` machines with these fields are possible. Throws RequestError if their replies would
-// exceed the limit, or if there is not enough memory. Returns the estimated length of a reply in bytes.
+// exceed the limit, or if memory does not suffice. Returns the estimated length of a reply in bytes.
 std::size_t Machines::check(const std::vector<Field>& fields, std::size_t count, Autoreset autoreset) {
   const std::size_t once = text_size(fields, context_.game.loaded->machine());
   const std::size_t reply = count * (autoreset == Autoreset::kSameStep ? 2 * once : once);

@@ -30,7 +30,7 @@ class Machines {
   Slot& slot(std::size_t number);
   Pacer& pacer(std::size_t number);  // paces this machine
   void close();
-  // What machine=TEXT means in a request. Throws RequestError if there is no such machine.
+  // What machine=TEXT means in a request. Throws RequestError for an unknown machine.
   std::size_t number_of(std::string_view text) const;
   void add_view(std::size_t number, Reply& reply);  // what this machine shows
   void observe(const std::vector<Field>& fields);   // may throw RequestError, and changes nothing then

@@ -90,7 +90,7 @@ bool Session::pauses() const {
 
 bool Session::waits() const { return context_.pacer.in_progress() && context_.waits_for_disk(); }
 
-// Works on a request until `end`. Returns false if there is nothing to do before more input comes.
+// Works on a request until `end`. Returns false if it can only wait for more input.
 bool Session::go_on(Clock::time_point end) {
   if (context_.pacer.in_progress()) {
     context_.pacer.go_on(end);
@@ -147,7 +147,7 @@ void Session::begin_request() {
   refused_ = false;
 }
 
-// A line for which there is no memory is cut, so that it gets a reply, and its rest is skipped.
+// A line that memory does not suffice for is cut, so that it gets a reply, and its rest is skipped.
 std::optional<LineReader::Line> Session::next_line() {
   const auto line = input_.next();
   const std::size_t growth = line || input_.ended() ? 0 : input_.growth();

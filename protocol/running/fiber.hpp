@@ -16,7 +16,7 @@ class Fiber {
   Fiber& operator=(const Fiber&) = delete;
 
   // Calls `body` until it returns or is suspended. Returns whether it has returned. `body` must not throw,
-  // and no other body may be in progress. Throws std::bad_alloc if there is no memory for a stack.
+  // and no other body may be in progress. Throws std::bad_alloc without memory for a stack.
   template <typename Body>
   bool start(Body body) {
     const auto call = [](void* context) {

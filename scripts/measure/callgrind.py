@@ -40,7 +40,7 @@ def available():
 def count(binary, game, setting, before, frames, cpu=None, environment=PLAIN):
     """Counts the instructions of `frames` frames after `before` frames of random play.
 
-    Raises LookupError if there is no image of the game, and RuntimeError, with its last lines, if the program fails.
+    Raises LookupError if the image of the game is missing, and RuntimeError, with its last lines, if the program fails.
     """
     actions = bench_settings.draw_actions(game, range(18), (before + frames) // setting.skip)
     first = before // setting.skip

@@ -51,7 +51,7 @@ class Client {
   const std::string& reason() const { return reason_; }      // for the log
 
   // What the session takes of the budget is a part of what its owner takes: a user of this machine, or an
-  // address. Null if there is no limit.
+  // address. Null if it is unlimited.
   const std::shared_ptr<MemoryBudget>& memory() const { return budget_; }
 
   // A reply of so many bytes is being sent. sent() says how many have gone.
@@ -61,7 +61,7 @@ class Client {
 
   // Called once in each pause: the session releases caches.
   void rest();
-  std::function<void()> on_rest;  // empty: there is nothing to release
+  std::function<void()> on_rest;  // empty: nothing has to be released
 
   Clock::time_point came() const { return came_; }
   Clock::time_point active() const { return active_; }  // when bytes were last received or sent

@@ -71,7 +71,7 @@ struct Answer {
   std::array<char, 4096> more{};
 };
 
-// The inode of the socket: 0 if no process has it. Nothing: there is no such socket.
+// The inode of the socket: 0 if no process has it. Nothing if the socket does not exist.
 std::optional<std::uint32_t> inode(const Question& question) {
   const int link = ::socket(AF_NETLINK, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_SOCK_DIAG);
   if (link < 0) return std::nullopt;

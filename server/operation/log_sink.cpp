@@ -121,7 +121,7 @@ bool LogSink::has_room() const {
   return ::poll(&state, 1, 0) > 0;
 }
 
-// Bytes that cannot be written, because there is no reader any more, are dropped.
+// Bytes that cannot be written, because the reader is gone, are dropped.
 bool LogSink::write(std::string& line) {
   const ssize_t count = write_some(line);
   if (count < 0) return errno != EAGAIN && errno != EINTR;

@@ -1,5 +1,5 @@
 // The destination of the log: standard error. It may be a pipe without a reader, or a file on a hanging disk.
-// Threads that serve never wait for it. Lines for which there is no room wait here, up to a limit; beyond it,
+// Threads that serve never wait for it. Lines that do not fit there wait here, up to a limit; beyond it,
 // the oldest lines are dropped and counted. The system cannot tell whether a file has room, so a file has a
 // thread that writes it.
 #pragma once
@@ -44,7 +44,7 @@ class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
   void lose_oldest();
   void tell_of_lost();
   bool has_room() const;
-  bool write(std::string& line);  // returns false if there is no room; the rest of the line stays in it
+  bool write(std::string& line);  // returns false if it is full; the rest of the line stays in it
   ssize_t write_some(const std::string& line) const;
 
   const int descriptor_;

@@ -35,7 +35,7 @@ bool begins_with(const std::string_view mark, int file) {
   return ::pread(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()) && text == mark;
 }
 
-// Opens a file of this kind. Returns its descriptor, or -1 if there is no file. Opens only regular files, and
+// Opens a file of this kind. Returns its descriptor, or -1 if it is missing. Opens only regular files, and
 // follows no link.
 int open_ours(const FileKind& kind, const std::string& path) {
   struct stat found {};

@@ -63,7 +63,7 @@ class Http {
   std::string name_;
   // Ordered by the latest request, or else the connection; the oldest is first.
   std::list<Connection> connections_;
-  int spare_ = -1;  // a file that is given up for a connection when there is no other
+  int spare_ = -1;  // a file that is given up for a connection when it is the last one
 };
 
 }  // namespace racebeam

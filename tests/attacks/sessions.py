@@ -139,7 +139,7 @@ def names(chance, times):
                     talk.ask(LOAD)
                     talk.ask(b"save root")
             outside = {path: data for path, data in files_in(place).items() if not path.startswith("records/")}
-            yield "" if outside == {"x": b"kept"} else f"outside of the folder there are now {list(outside)}"
+            yield "" if outside == {"x": b"kept"} else f"the folder's surroundings now have {list(outside)}"
             yield "" if (records / "kept.gif").read_bytes() == b"kept" else "a file was replaced"
 
 

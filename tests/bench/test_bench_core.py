@@ -169,7 +169,7 @@ class Measuring(unittest.TestCase):
 if __name__ == "__main__":
     if PYTHON is None:
         print(
-            "bench: not tested beside the reference: there is no ale-py here or in .venv "
+            "bench: not tested beside the reference: ale-py is missing here and in .venv "
             "(scripts/reference installs it)"
         )
         rest = unittest.main(argv=[sys.argv[0], "Reports", "Actions"], exit=False).result

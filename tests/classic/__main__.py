@@ -2,7 +2,7 @@
 
 The reference is a build of ALE's tag v0.6.0, made outside of this tree; give the path of its program `ale`.
 The actions, settings, saves, loads and resets of a run are random_run from its seed. The run's name contains all
-of that: --run repeats it. Status: 0 all identical, 1 a run differs, 2 usage error, 77 there is nothing to
+of that: --run repeats it. Status: 0 all identical, 1 a run differs, 2 usage error, 77 nothing to
 compare with.
 """
 

@@ -83,7 +83,7 @@ class Srun(unittest.TestCase):
             (
                 2,
                 "",
-                "racebeam-srun: there is no command; it takes COMMAND [ARGUMENT...], or serve --stdio [OPTION...]\n",
+                "racebeam-srun: the command is missing; accepted: COMMAND [ARGUMENT...], serve --stdio [OPTION...]\n",
             ),
         )
 

@@ -84,13 +84,19 @@ class Installed(unittest.TestCase):
             pathlib.Path(folder, "CMakeLists.txt").write_text(
                 f"cmake_minimum_required(VERSION 3.25)\nproject(agent LANGUAGES CXX)\n{project}\n"
             )
-            done = outcome_of("cmake", "-S", folder, "-B", f"{folder}/b", f"-DCMAKE_PREFIX_PATH={self.prefix}", *options)
+            done = outcome_of(
+                "cmake", "-S", folder, "-B", f"{folder}/b", f"-DCMAKE_PREFIX_PATH={self.prefix}", *options
+            )
             return done.returncode, " ".join(done.stdout.split())
 
     def test_without_OpenSSL_a_project_learns_what_the_client_needs(self):
         need = "needs OpenSSL with its headers, Debian's libssl-dev; OPENSSL_ROOT_DIR names its folder"
         for project, status, sentence in (
-            ("find_package(racebeam REQUIRED COMPONENTS client)", 1, f"Reason given by package: racebeam::client {need}."),
+            (
+                "find_package(racebeam REQUIRED COMPONENTS client)",
+                1,
+                f"Reason given by package: racebeam::client {need}.",
+            ),
             ("find_package(racebeam REQUIRED)", 0, f"racebeam: without racebeam::client, which {need}"),
         ):
             with self.subTest(project):

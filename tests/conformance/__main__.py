@@ -5,7 +5,7 @@ Without options, all games are played: 20,000 frames in the default settings wit
 2,000 frames in every other setting. That takes less than an hour on two cores. Results are stored in
 build/conformance; for a run that differs, also its picture and its actions. With --programs, random programs
 are played instead, and only what differs is stored. Status: 0 all identical, 1 a run differs, 2 usage error,
-77 there is nothing to compare with, 130 interrupted.
+77 nothing to compare with, 130 interrupted.
 """
 
 import pathlib

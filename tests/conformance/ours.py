@@ -69,7 +69,7 @@ def trace_command(run, image_path, script, extra=()):
 @dataclass
 class Printed:
     lines: list
-    end: str  # why there are no more lines
+    end: str  # why lines ceased
 
 
 def play(run, image, steps, extra=(), variables=None):

@@ -76,7 +76,7 @@ long allocated(EpisodeState& play) {
   return allocations - before;
 }
 
-// Each buffer is used for the first time, and each reset is met for the first time; then there is nothing
+// Each buffer is used for the first time, and each reset is met for the first time; then nothing is
 // left to allocate. When that is depends on which thread plays which machine, and on the clock, by which code
 // is made: on 25 rounds, or on several times as many where the machine is busy.
 TEST_CASE("A batch soon allocates nothing while it runs, episodes that end and begin included") {

@@ -149,16 +149,16 @@ class Reports(unittest.TestCase):
                 ("random", "const"),
                 {"baselines"},
                 (
-                    "There are no learners: the tables learning-... are left out.",
-                    "There are no planners: the tables planning-... are left out.",
+                    "The results lack learners: the tables learning-... are left out.",
+                    "The results lack planners: the tables planning-... are left out.",
                     "There are only baselines: the tables groups, -tests,",
                 ),
             ),
-            (("full", "uct"), {"planning"}, ("There are no learners: the tables learning-... are left out.",)),
+            (("full", "uct"), {"planning"}, ("The results lack learners: the tables learning-... are left out.",)),
             (
                 ("random", "full", "uct"),
                 {"planning"},
-                ("There are no learners: the tables learning-... are left out.",),
+                ("The results lack learners: the tables learning-... are left out.",),
             ),
         ):
             lines = results_of({key: value for key, value in made_up().items() if key[0].split("_")[0] in kinds})
@@ -172,7 +172,7 @@ class Reports(unittest.TestCase):
             )
             self.assertNotIn("learning-curves.csv", tables)
             report = files["report.md"].decode()
-            for sentence in (*sentences, "There are no training episodes: the learning curves are left out."):
+            for sentence in (*sentences, "The results lack training episodes: the learning curves are left out."):
                 self.assertIn(sentence, report)
         self.assertNotIn("left out", self.files["report.md"].decode())
 

@@ -276,7 +276,7 @@ TEST_CASE("Errors name what is accepted") {
   CHECK_THAT(client.ask("open 2 same-step"), Contains("; accepted: autoreset="));
   CHECK_THAT(client.ask("save a b"), Contains("save takes generator="));
   CHECK_THAT(client.ask("hello tok=1"), Contains("hello takes token="));
-  CHECK_THAT(client.ask("observe none reward"), Contains("none stands alone"));
+  CHECK_THAT(client.ask("observe none reward"), Contains("none accepts no other field"));
   CHECK_THAT(client.ask("load updraft as=x"), Contains("games all lists"));
   CHECK_THAT(client.ask("load beamfall rules=x"), Contains("ale-0.12 or fixed"));
   CHECK(client.ask("modes now") == "error bad-arguments modes takes no arguments, not 1: modes");

@@ -188,7 +188,7 @@ class Clients(unittest.TestCase):
             wire.close()
             self.assertTrue(play(connect_tcp(server.port())).endswith(b"DIE\n"))
 
-    @unittest.skipIf(sanitized(), "the sanitizer's own checks fail when there are no descriptors left")
+    @unittest.skipIf(sanitized(), "the sanitizer's own checks fail without free descriptors")
     def test_a_server_that_has_too_many_clients_takes_others_later(self):
         with listening("unix:s") as server:
             resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (20, 20))

@@ -51,7 +51,7 @@ TEST_CASE("Views of an image count, and those of shared images are bounded in al
     CHECK(before < 100);
     CHECK(shared_code() <= 2U << 20);
     const auto other = std::make_shared<const Rom>(512U << 10, 0xE8);
-    CHECK(ImageCode::of(*other, wiring, true) == nullptr);  // there is no room
+    CHECK(ImageCode::of(*other, wiring, true) == nullptr);  // it does not fit
     const CodeOwner owner(other);
     CHECK(owner.bytes() == 0);
     const auto own = ImageCode::of(*other, wiring, true);

@@ -162,7 +162,7 @@ local function unix(path, options)
   return connected("unix:" .. path, make(), options.timeout, path)
 end
 
--- Streams, with plain Lua. There are no time limits.
+-- Streams, with plain Lua. Time limits are not possible.
 
 local CLOSED = "it has closed the connection"
 

@@ -142,7 +142,7 @@ describe("a server that the client starts", function()
     end
   end)
 
-  it("that is not there is noticed", function()
+  it("whose program is missing raises an error", function()
     local done, problem = pcall(function()
       racebeam.launch({ program = "/nonexistent/racebeam" }):hello()
     end)

@@ -32,7 +32,7 @@ class Site:
 
 
 def build(folders: list[pathlib.Path], bootstrap: Bootstrap, viewer: str) -> Site:
-    """The pages of all folders that can be read. Raises BadInput if there is not one.
+    """The pages of all folders that can be read. Raises BadInput if none of them can.
 
     viewer: the address of a viewer in which links replay episodes; without one, there are links to logs only."""
     found: dict[str, Submission] = {}

@@ -5,7 +5,7 @@ import dataclasses
 import struct
 
 FLASH_SIZE, RAM_SIZE, RAM = 0x8000, 8192, 0x40000000
-DATA = 0x6000  # of the flash memory: from here on there is no code
+DATA = 0x6000  # of the flash memory: code ends here
 LENGTH = 24  # units of a program
 
 # R0 to R5 have any values. R6 points into the data of the flash memory and R7 into RAM, at words.

@@ -74,7 +74,7 @@ TEST_CASE("Halves and lists of words ignore the low bits of their address") {
   CHECK(chip.word(0xFFC) == chip[4]);
 }
 
-TEST_CASE("Where there is no memory, numbers are 0, and nothing is stored; the image cannot be written") {
+TEST_CASE("Outside of memory, numbers are 0, and nothing is stored; the image cannot be written") {
   for (const std::uint32_t address : {0x8000U, 0x3FFFFFFCU, 0x40002000U, 0xE0028000U, 0xFFFFFFFCU, 0x4010U}) {
     INFO(std::hex << address);
     Chip chip({ldr(0, 1, 0), ldrb(2, 1, 3), str(3, 1, 0), ldr(4, 1, 0), stmia(1, 1 << 3), bx(kLr)});
@@ -91,7 +91,7 @@ TEST_CASE("Where there is no memory, numbers are 0, and nothing is stored; the i
   }
 }
 
-TEST_CASE("A short image ends where a long one does; below it there is no memory") {
+TEST_CASE("A short image ends where a long one does; below it, memory is missing") {
   Chip chip({ldr(0, 1, 0), ldrb(2, 3, 0), bx(kLr)}, 29697);
   chip.flash[0] = 0x5A;  // at $0BFF
   chip[1] = 0xBFC;

@@ -163,7 +163,7 @@ TEST_CASE("AR: a read of $1850 loads what RAM $80 asks for") {
   Bench bench(ar_image(5), asking_for("AR"));
   bench.state.riot.ram[0] = 4;
   bench.see(0x1850);
-  CHECK(int{bench.state.riot.ram[0]} == 4);  // there is no load 4
+  CHECK(int{bench.state.riot.ram[0]} == 4);  // load 4 does not exist
   bench.state.riot.ram[0] = 5;
   bench.see(0x1850);
   CHECK(int{bench.state.riot.ram[0x7E]} == 0x34);

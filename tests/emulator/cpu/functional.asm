@@ -1,6 +1,6 @@
 ; A program that checks every documented instruction in every addressing mode on the machine that runs it.
 ; STEP counts the checks passed; a check that fails stops the processor with its number in STEP. At the end
-; RESULT is $A5. Everything happens in $80-$FF, as on a 2600 there is no other RAM.
+; RESULT is $A5. Everything happens in $80-$FF, the only RAM of a 2600.
         processor 6502
 
 STEP    = $80

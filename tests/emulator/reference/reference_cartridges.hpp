@@ -303,7 +303,7 @@ struct ModelMc : Copyable<ModelMc> {
   }
 };
 
-// Without loads, because there is no RIOT here.
+// Without loads, because the RIOT is missing here.
 struct ModelAr : Copyable<ModelAr> {
   using Copyable::Copyable;
   unsigned configuration = 0, hold = 0;

@@ -100,7 +100,7 @@ TEST_CASE("What ends the machine ends its recording, which is kept") {
   CHECK(!is_kept("record wav a machine=1", "open 2 autoreset=wrong"));
 }
 
-TEST_CASE("A recording that there is no memory for is refused, and leaves nothing") {
+TEST_CASE("A recording that memory does not suffice for is refused, and leaves nothing") {
   Studio studio;
   MemoryBudget& memory = *studio.client.service.memory;
   const std::uint64_t others = kMemory - memory.taken() - (1 << 20);

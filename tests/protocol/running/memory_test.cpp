@@ -221,7 +221,7 @@ TEST_CASE("A long line of few words needs memory for its image, and not for half
   CHECK(code(client.ask("load inline image=" + image)) != "limit");
 }
 
-TEST_CASE("A line of very many words is refused where there is no memory for them") {
+TEST_CASE("A line of very many words is refused where memory does not suffice for them") {
   const LineService service = service_with(4 * kMiB);
   LineClient client(service);
   client.ask("load beamfall");
@@ -231,7 +231,7 @@ TEST_CASE("A line of very many words is refused where there is no memory for the
   CHECK(code(client.ask("act 0")) == "");
 }
 
-TEST_CASE("A branch is refused where there is no memory for its lists, or for its reply") {
+TEST_CASE("A branch is refused where memory does not suffice for its lists, or for its reply") {
   LineClient client(service_with(16 * kMiB));
   CHECK(code(client.ask("load beamfall max_episode_frames=0")) == "");
   CHECK(code(client.ask("save a")) == "");

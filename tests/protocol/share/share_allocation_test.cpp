@@ -1,5 +1,5 @@
-// A share for which there is no memory leaves its name free. Allocations of this program fail on request, so
-// that it has no other tests.
+// A share that memory does not suffice for leaves its name free. Allocations of this program fail on request,
+// so that it has no other tests.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <new>

@@ -113,7 +113,7 @@ TEST_CASE("A share that is not the one of its name leaves that one alone") {
   CHECK(shares->find("one").get() == &first->share());
 }
 
-TEST_CASE("Without news there is no picture") {
+TEST_CASE("A watcher without news gets no picture") {
   Server server;
   server.share();
   CHECK_THAT(server.watcher.ask("watch room since=0 screen"), !Contains("screen="));

@@ -42,7 +42,7 @@ class Memory(unittest.TestCase):
                 wire.close()
 
 
-@unittest.skipIf(sanitized(), "the sanitizer's own checks fail when there are no descriptors left")
+@unittest.skipIf(sanitized(), "the sanitizer's own checks fail without free descriptors")
 class Files(unittest.TestCase):
     """A server that may open few files, all of which its clients take."""
 

@@ -62,7 +62,7 @@ test("one may go back and play on, again and again", () => {
   }
 });
 
-test("before the first act there is no way back", () => {
+test("before the first act, the history cannot go back", () => {
   assert.equal(new History(3, 4).back(0), undefined);
 });
 
