@@ -175,7 +175,7 @@ std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const I
   return std::make_shared<const Game>(with_image(*game, {image.md5, properties, game->accepts(image.md5)}));
 }
 
-std::string doubt_about(const Game& game, const Image& image) {
+std::string image_warning(const Game& game, const Image& image) {
   const bool lists_images = std::ranges::any_of(game.images, &GameImage::accepted);
   if (!game.has_rule() || !lists_images || game.accepts(image.md5)) return "";
   return "the MD5 of this image, " + image.md5 + ", is not that of the image which the rule of '" +

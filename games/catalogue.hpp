@@ -72,7 +72,7 @@ std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const I
                                        const GivenProperties& choices);
 
 // Warns that a game's rule was written for another image than this one. Empty if it was not.
-std::string doubt_about(const Game& game, const Image& image);
+std::string image_warning(const Game& game, const Image& image);
 
 // An image and its game. Both are const, so that any number of machines share them.
 struct Cartridge {

@@ -89,11 +89,11 @@ std::shared_ptr<const Game> Images::rules(std::string_view game) const {
   return found->second.cartridge.game;
 }
 
-std::vector<std::string> Images::doubts() const {
+std::vector<std::string> Images::warnings() const {
   std::vector<std::string> all;
   for (const auto& [md5, entry] : by_md5_) {
-    std::string doubt = doubt_about(*entry.cartridge.game, *entry.cartridge.image);
-    if (!doubt.empty()) all.push_back(std::move(doubt));
+    std::string warning = image_warning(*entry.cartridge.game, *entry.cartridge.image);
+    if (!warning.empty()) all.push_back(std::move(warning));
   }
   return all;
 }

@@ -33,7 +33,7 @@ class Images {
   std::vector<std::string_view> names() const;  // without the MD5s
   // A game of the catalogue, or of an available image. Null for an unknown game, and for one without a rule.
   std::shared_ptr<const Game> rules(std::string_view game) const;
-  std::vector<std::string> doubts() const;  // a warning for each image that another image's rule scores
+  std::vector<std::string> warnings() const;  // a warning for each image that another image's rule scores
 
  private:
   void add(std::shared_ptr<const Image> image, const Recognition& recognition,

@@ -21,8 +21,8 @@ void warn_about(const Recognition& recognition, const Image& image, const Tell& 
     tell(
         "'" + image.stem + "' (MD5 " + image.md5 +
         ") is not in the catalogue: it runs without a score; --game NAME or --game-file FILE selects a rule");
-  } else if (const std::string doubt = doubt_about(game, image); !doubt.empty()) {
-    tell(doubt);
+  } else if (const std::string warning = image_warning(game, image); !warning.empty()) {
+    tell(warning);
   }
 }
 

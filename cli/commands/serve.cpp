@@ -103,7 +103,7 @@ LineService line_service(const ServeOptions& options, ThreadPool& pool,
   service.disposal = disposal;
   service.version = RACEBEAM_VERSION;
   service.images = std::make_shared<Images>(offered_images(options));
-  for (const std::string& doubt : service.images->doubts()) log_warning(doubt);
+  for (const std::string& warning : service.images->warnings()) log_warning(warning);
   service.limits = options.limits;
   if (!options.record_folder.empty()) service.recorder = std::make_shared<Recorder>(options.record_folder);
   service.threads = static_cast<std::size_t>(options.server.threads);

@@ -41,7 +41,7 @@ class ControlCharacters(Case):
             with self.subTest(words=words):
                 self.check_refusal(status, self.SHOWN, *words)
 
-    def test_in_a_doubt_about_an_image(self):
+    def test_in_a_warning_about_an_image(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, self.NAME + ".bin")
             with open(path, "wb") as file:

@@ -150,7 +150,7 @@ class Log(unittest.TestCase):
                 self.assertRegex(event["time"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$")
                 self.assertEqual(event["level"], "info")
 
-    def test_doubts_and_failures_of_the_start_are_objects_too(self):
+    def test_warnings_and_failures_of_the_start_are_objects_too(self):
         with tempfile.TemporaryDirectory() as folder:
             image = os.path.join(folder, "unknown.bin")
             with open(image, "wb") as file:

@@ -303,9 +303,9 @@ void bind_game(nb::class_<AleInterface>& interface) {
             const Turn turn(self.lock());
             return self.environment().game().name;
           }, "Returns the name of the game.")
-      .def("doubt", [](AleInterface& self) {
+      .def("image_warning", [](AleInterface& self) {
             const Turn turn(self.lock());
-            return doubt_about(self.environment().game(), self.environment().image());
+            return image_warning(self.environment().game(), self.environment().image());
           }, "Returns a warning if the game's rule was written for another image, else an empty string.");
 }
 

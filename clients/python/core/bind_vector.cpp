@@ -247,12 +247,12 @@ void make(VectorMachines* self, const std::vector<GivenImage>& images, const Giv
 }
 
 // A sentence for each image that the rule of another one scores.
-std::vector<std::string> doubts(VectorMachines& self) {
+std::vector<std::string> image_warnings(VectorMachines& self) {
   const Turn turn(self.lock());
   std::set<std::string> sentences;
   for (std::size_t machine = 0; machine < self.batch().size(); ++machine) {
     const Cartridge& cartridge = self.cartridge(machine);
-    sentences.insert(doubt_about(*cartridge.game, *cartridge.image));
+    sentences.insert(image_warning(*cartridge.game, *cartridge.image));
   }
   sentences.erase("");
   return {sentences.begin(), sentences.end()};
@@ -294,7 +294,8 @@ void bind_vector(nb::module_& module) {
                "def __init__(self, images: list[tuple[str | os.PathLike[str] | bytes, str | None]], "
                "of_machines: NDArray[numpy.int32], settings: VectorSettings, game_file: str | None = None, "
                "console: dict[str, str] = {}) -> None"))
-      .def("doubts", doubts, "Returns a warning for each image that the rule of another image scores.")
+      .def("image_warnings", image_warnings,
+           "Returns a warning for each image that the rule of another image scores.")
       .def("step", step, "actions"_a.noconvert(), results)
       .def("step_joysticks", step_joysticks, "joysticks"_a.noconvert(), "threshold"_a, results)
       .def("send", send, "actions"_a.noconvert(), "machines"_a.noconvert())

@@ -316,7 +316,7 @@ def console_of(**settings: Any) -> dict[str, str]:
     return {key: str(value) for key, value in settings.items() if value is not None}
 
 
-def warn_of(doubts: list[str]) -> None:
+def warn_of(sentences: list[str]) -> None:
     """Warns the caller of an environment's constructor."""
-    for sentence in doubts:
+    for sentence in sentences:
         warnings.warn(sentence, UserWarning, stacklevel=3)

@@ -238,7 +238,7 @@ class AtariEnv(EnvWithView):
         )
         self.seed_game()
         self.load_game()
-        warn_of(list(filter(None, [self.ale.doubt()])))
+        warn_of(list(filter(None, [self.ale.image_warning()])))
         self._set_spaces(actions)
         self._open_window()
 

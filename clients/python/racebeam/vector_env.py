@@ -243,7 +243,7 @@ class AtariVectorEnv(PlayedVector):
             raise WrongValue(f"{' and '.join(unplayed)} cannot be given with server; AtariEnv takes both")
         else:
             machines = make_remote_machines(names, rom, options, server, token, seconds("timeout", timeout))
-        warn_of(machines.doubts())
+        warn_of(machines.image_warnings())
         self._use(machines, names, game_of_env, options, None if seed is None else options.seed)
         if log is not None:
             if own := [*console, *(["game_file"] if own_file else []), *(["server"] if server else [])]:

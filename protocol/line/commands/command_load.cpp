@@ -141,7 +141,7 @@ void add_loaded(const Context& context, Reply& reply) {
   reply.add("game", machine.game().name);
   reply.add("md5", machine.image().md5);
   reply.add("rule", machine.game().has_rule());
-  if (!doubt_about(machine.game(), machine.image()).empty()) reply.add("image", "other");
+  if (!image_warning(machine.game(), machine.image()).empty()) reply.add("image", "other");
   reply.add("width", kScreenWidth);
   reply.add("height", machine.height());
   reply.add("format", name_of(machine.format()));

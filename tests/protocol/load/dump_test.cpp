@@ -101,9 +101,11 @@ TEST_CASE("as= takes a game of the server's own game file") {
 
 TEST_CASE("A service warns of each image that the rule of another one scores") {
   const Scratch folder;
-  const auto doubts = [&](const Bytes& image) { return paddle_duel_service(folder, image).images->doubts(); };
-  CHECK(doubts(*counter_image()->bytes).empty());
-  const auto doubts_of_dump = doubts(dump_of(*counter_image()));
-  REQUIRE(doubts_of_dump.size() == 1);
-  CHECK_THAT(doubts_of_dump.front(), Contains("the rule of 'duel' was written for"));
+  const auto warnings = [&](const Bytes& image) {
+    return paddle_duel_service(folder, image).images->warnings();
+  };
+  CHECK(warnings(*counter_image()->bytes).empty());
+  const auto warnings_of_dump = warnings(dump_of(*counter_image()));
+  REQUIRE(warnings_of_dump.size() == 1);
+  CHECK_THAT(warnings_of_dump.front(), Contains("the rule of 'duel' was written for"));
 }

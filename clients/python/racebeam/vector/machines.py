@@ -69,7 +69,7 @@ class Machines(Protocol):
     def actions_of(self, machine: int) -> list[int]:
         """Returns the action set of a machine, as numbers of `Action`."""
 
-    def doubts(self) -> list[str]:
+    def image_warnings(self) -> list[str]:
         """Returns a warning for each image that the rule of another image scores."""
 
     def height(self) -> int:

@@ -202,7 +202,7 @@ class RemoteGame:
         return str(self.ask(self.session.settings)["game"])
 
     @exclusive
-    def doubt(self) -> str:
+    def image_warning(self) -> str:
         """Returns a warning if the game's rule was written for another image, else an empty string."""
         values = self.ask(self.session.settings)
         if values.get("image") != "other":

@@ -122,9 +122,9 @@ class RemoteMachines(Halves):
         """Returns the action set of a machine, as numbers of `Action`."""
         return self._actions
 
-    def doubts(self) -> list[str]:
+    def image_warnings(self) -> list[str]:
         """Returns a warning if the rule of another image scores this one."""
-        return list(filter(None, [self._machine.doubt()]))
+        return list(filter(None, [self._machine.image_warning()]))
 
     def height(self) -> int:
         """Returns the rows of the screens."""

@@ -166,9 +166,9 @@ class SpreadMachines(Halves):
         """Returns the action set of a machine, as numbers of `Action`."""
         return self._parts[0].machines.actions_of(0)
 
-    def doubts(self) -> list[str]:
+    def image_warnings(self) -> list[str]:
         """Returns a warning if the rule of another image scores this one."""
-        return self._parts[0].machines.doubts()
+        return self._parts[0].machines.image_warnings()
 
     def height(self) -> int:
         """Returns the rows of the screens."""
