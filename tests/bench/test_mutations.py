@@ -36,6 +36,29 @@ class Edits(unittest.TestCase):
         self.assertEqual(mutations.mutants("#include <a>\n// a < 1\nstatic_assert(a < 1);\n"), [])
 
 
+class Python(unittest.TestCase):
+    def edits(self, line):
+        return set(mutations.edits_of(line, mutations.PYTHON))
+
+    def test_words_and_divisions_are_exchanged(self):
+        self.assertEqual(self.edits("    if not a and b in c:"), {"    if a and b in c:", "    if not a or b in c:"})
+        self.assertEqual(self.edits("    return a / max(b)"), {"    return a * max(b)", "    return a / min(b)"})
+        self.assertEqual(self.edits("    return a not in b"), {"    return a in b"})
+
+    def test_a_statement_that_defines_a_name_is_not_dropped(self):
+        for line in ("    call(a)", "    a.b = c", "    a[b] = c", "    a += b"):
+            self.assertIn("    pass", self.edits(line), line)
+        for line in ("    a = b", "    return call(a)", "    raise Error(a)"):
+            self.assertNotIn("    pass", self.edits(line), line)
+
+    def test_docstrings_are_not_code_and_each_mutant_compiles(self):
+        source = 'def f(a):\n    """a < 1\n\n    b < 2."""\n    return a < 3\n'
+        found = mutations.mutants(source, mutations.PYTHON)
+        self.assertEqual([each.after.strip() for each in found], ["return a <= 3", "return a < 4"])
+        self.assertEqual(mutations.mutants("call(1,\n     b)\n", mutations.PYTHON)[0].after, "call(2,")
+        self.assertFalse(mutations.compiles("call(\n"))
+
+
 class Mutants(unittest.TestCase):
     SOURCE = "int f(int a) {\n  return a + 1;\n}\n"
 
