@@ -126,6 +126,19 @@ class Server:
     def alive(self):
         return self.process.poll() is None
 
+    def processor_seconds(self):
+        with open(f"/proc/{self.process.pid}/stat") as stat:
+            fields = stat.read().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def wait_until_it_works(self):
+        """Waits until the server is in the middle of a long request: it has used some processor time from now on."""
+        until, deadline = self.processor_seconds() + 0.05, time.monotonic() + PATIENCE
+        while self.processor_seconds() < until:
+            if time.monotonic() > deadline:
+                raise AssertionError("the server does not work")
+            time.sleep(0.005)
+
 
 class Wire:
     """Both directions of a client's connection."""

@@ -85,12 +85,6 @@ def health_wait(server):
     return time.monotonic() - start
 
 
-def processor_seconds(server):
-    with open(f"/proc/{server.process.pid}/stat") as stat:
-        fields = stat.read().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / 100
-
-
 class Case(unittest.TestCase):
     """A server, and connections to it, which are closed at the end of the test."""
 
@@ -127,7 +121,7 @@ class OneThread(Case):
 def add_long_request(name, first, request):
     def test(self):
         begin(self.connect(), first, request)
-        time.sleep(0.05)
+        self.server.wait_until_it_works()
         self.check_that_others_are_answered()
 
     setattr(OneThread, "test_others_are_answered_beside_" + name.replace(" ", "_").replace("-", "_"), test)
@@ -176,12 +170,12 @@ class Departure(Case):
 
     def check_that_it_is_given_up(self, wire, first, request):
         begin(wire, first, request)
-        time.sleep(0.1)
+        self.server.wait_until_it_works()
         wire.close()
         self.server.wait_for(r"client 1: .*(left|stopped)")
-        seconds = processor_seconds(self.server)
+        seconds = self.server.processor_seconds()
         time.sleep(0.5)
-        self.assertLess(processor_seconds(self.server) - seconds, 0.2)
+        self.assertLess(self.server.processor_seconds() - seconds, 0.2)
 
     def test_a_request_of_a_client_that_left_over_tcp_is_given_up(self):
         self.start(serve("--grace", "0", *MANY_FRAMES))
@@ -260,7 +254,7 @@ class End(unittest.TestCase):
             ):
                 wire = connect(server)
                 begin(wire, first, request)
-                time.sleep(0.1)
+                server.wait_until_it_works()
                 start = time.monotonic()
                 server.process.send_signal(signal.SIGTERM)
                 server.wait()

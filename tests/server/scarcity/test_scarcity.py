@@ -16,7 +16,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from harness import BINARY, PATIENCE, Server, ask, connect_tcp, main, sanitized
-from test_hostile import health_wait, processor_seconds
+from test_hostile import health_wait
 
 LIBRARY = os.environ.get("RACEBEAM_SCARCE_LIBRARY", "")
 LIFE = b"""hello
@@ -118,9 +118,9 @@ class Memory(Scarce):
         while self.scarcity.get("alive") > alive + 200 and time.monotonic() < deadline:
             time.sleep(0.05)
         self.assertLess(self.scarcity.get("alive"), alive + 200)
-        seconds = processor_seconds(server)
+        seconds = server.processor_seconds()
         time.sleep(0.5)
-        self.assertLess(processor_seconds(server) - seconds, 0.25)
+        self.assertLess(server.processor_seconds() - seconds, 0.25)
 
     def check_every_allocation(self, port, said, failures, step=1):
         server = self.server

@@ -114,7 +114,7 @@ class Hostile(Case):
         wire = self.connect()
         self.assertTrue(wire.ask(load_inline(JUMP_TO_ITSELF) + b" frame_skip=1000").startswith(b"ok "))
         wire.send(b"act NOOP*1999")
-        time.sleep(0.05)
+        self.server.wait_until_it_works()
         wire.close()
         self.server.wait_for(r"client 2: the client left in the middle of a request")
         self.check_bystander()
