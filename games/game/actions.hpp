@@ -17,7 +17,7 @@ constexpr int kConsoleActions = 26;  // all of player A's
 
 constexpr int kReferenceReset = 40;  // the reference's number of RESET; its act() takes that for NOOP
 
-constexpr bool is_of_console(int action) { return action >= kActions && action < kConsoleActions; }
+constexpr bool is_of_console(int action) { return action >= kResetAction && action <= kBlackAndWhiteAction; }
 
 std::string_view action_name(int action);                 // player A's; "" for other numbers
 std::optional<int> action_number(std::string_view name);  // player A's

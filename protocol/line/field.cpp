@@ -4,6 +4,7 @@
 #include <array>
 
 #include "emulator/tia/palette.hpp"
+#include "environment/settings/play_settings.hpp"
 #include "protocol/description/tables.hpp"
 #include "protocol/request_error.hpp"
 #include "system/named_rows.hpp"
