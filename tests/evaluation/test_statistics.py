@@ -125,6 +125,15 @@ class Normalisation(unittest.TestCase):
         self.assertEqual(found["training + testing", "bass"], (2, 1))
 
 
+class Distribution(unittest.TestCase):
+    def test_a_share_counts_the_games_with_that_score_or_more(self):
+        scores = scores_of(results_of({("basic", "pong"): [[2]], ("basic", "boxing"): [[8]]}))
+        ranges = Ranges("made", pd.Series({"pong": 0.0, "boxing": 0}), pd.Series({"pong": 10.0, "boxing": 10}))
+        rows = aggregate.distribution_rows(scores, ranges, Group("learning", ("basic",)))
+        shares = [dict(zip(each["score"], each["share of games"])) for _, each in rows.groupby("set")]
+        self.assertIn({0.2: 1, 0.8: 0.5}, shares)
+
+
 class Paired(unittest.TestCase):
     def verdicts(self, first, second):
         (pair,) = paired.pairs(
@@ -231,6 +240,12 @@ class Bootstrap(unittest.TestCase):
         self.assertTrue((estimate.low < estimate.value).all() and (estimate.value < estimate.high).all())
         single = FEW.estimate(bootstrap.aggregates, self.first[:1])
         self.assertTrue(np.isnan(single.low).all() and np.isnan(single.high).all() and not np.isnan(single.value).any())
+
+    def test_an_interval_of_two_agents_needs_two_trials_of_each(self):
+        for pair in ((self.first, self.second[:1]), (self.first[:1], self.second)):
+            estimate = FEW.estimate(bootstrap.improvement, *pair)
+            self.assertEqual(estimate.value.tolist(), bootstrap.improvement(*pair).tolist())
+            self.assertTrue(np.isnan(estimate.low).all() and np.isnan(estimate.high).all())
 
     def test_low_and_high_are_the_bounds_of_the_interval(self):
         # One game, whose trials are 0 or 1 alike: the mean of n draws is binomial. 95 % of 16 draws are 4 to 12.
