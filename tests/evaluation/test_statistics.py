@@ -126,6 +126,12 @@ class Normalisation(unittest.TestCase):
 
 
 class Distribution(unittest.TestCase):
+    def test_aggregates_are_over_game_means_only_if_no_agent_has_trials(self):
+        scores = scores_of(results_of({("basic", "pong"): [[1], [2]], ("random", "pong"): [[0], [1]]}))
+        for agents, over in ((("basic", "random"), ""), (("random",), " over game means")):
+            names = aggregate.statistics(scores, Group("made", agents))
+            self.assertEqual(names, ["average", "median", f"IQM{over}", f"optimality gap{over}"])
+
     def test_a_share_counts_the_games_with_that_score_or_more(self):
         scores = scores_of(results_of({("basic", "pong"): [[2]], ("basic", "boxing"): [[8]]}))
         ranges = Ranges("made", pd.Series({"pong": 0.0, "boxing": 0}), pd.Series({"pong": 10.0, "boxing": 10}))
@@ -184,6 +190,11 @@ class Paired(unittest.TestCase):
         self.assertEqual(
             paired.counts(found, agents, "higher", "lower", "games")["bass"].to_list(), ["0--1", "---", "n/a"]
         )
+
+    def test_a_game_in_which_two_groups_tie_is_only_equal(self):
+        first = pd.DataFrame({"a": [1.0, 2, 3], "b": [5.0, 0, 0]}, index=["x", "y", "z"])
+        second = pd.DataFrame({"c": [4.0, 2, 9], "d": [0.0, 1, 0]}, index=["x", "y", "z"])
+        self.assertEqual(paired.group_against(first, second), (["x"], ["y"], ["z"]))
 
     def test_the_first_of_a_tie_is_best(self):
         best, ties = paired.times_best(pd.DataFrame({"a": [1.0, 5], "b": [1.0, 6], "c": [0.0, 6]}, index=["x", "y"]))
