@@ -9,6 +9,8 @@
 
 #include <boost/asio/ip/address.hpp>
 
+#include "system/printable.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -127,7 +129,7 @@ Endpoint parse_endpoint(const std::string& text) {
     return endpoint;
   }
   throw std::invalid_argument(
-      "'" + text +
+      "'" + printable(text) +
       "' is not an address to listen on; accepted: tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT and "
       "wss://HOST:PORT (an IP address or a host name; port 0 picks a free one), unix:PATH, systemd or "
       "systemd:NAME, stdio and pipes:PREFIX; "
@@ -137,7 +139,7 @@ Endpoint parse_endpoint(const std::string& text) {
 TcpAddress parse_host_and_port(const std::string& text) {
   if (const auto address = parse_tcp(text)) return *address;
   throw std::invalid_argument(
-      "'" + text + "' is not HOST:PORT, with an IP address or a host name; port 0 picks a free one");
+      "'" + printable(text) + "' is not HOST:PORT, with an IP address or a host name; port 0 picks a free one");
 }
 
 std::string to_string(const Address& address) { return std::visit(Writer{}, address); }
