@@ -72,7 +72,8 @@ TEST_CASE("An invalid endpoint is refused with the valid forms") {
     CHECK_THROWS_AS(parse_endpoint(text), std::invalid_argument);
   }
   CHECK_THROWS_WITH(parse_endpoint("udp://1.2.3.4:1"), Catch::Contains("accepted: tcp://HOST:PORT"));
-  CHECK_THROWS_WITH(parse_endpoint("ws://[::1]:\xCF"), Catch::StartsWith("'ws://[::1]:\\xcf' is not an address"));
+  CHECK_THROWS_WITH(parse_endpoint("ws://[::1]:\xCF"),
+                    Catch::StartsWith("'ws://[::1]:\\xcf' is not an address"));
 }
 
 TEST_CASE("Only loopback addresses are loopback") {
