@@ -139,7 +139,8 @@ Endpoint parse_endpoint(const std::string& text) {
 TcpAddress parse_host_and_port(const std::string& text) {
   if (const auto address = parse_tcp(text)) return *address;
   throw std::invalid_argument(
-      "'" + printable(text) + "' is not HOST:PORT, with an IP address or a host name; port 0 picks a free one");
+      "'" + printable(text) +
+      "' is not HOST:PORT, with an IP address or a host name; port 0 picks a free one");
 }
 
 std::string to_string(const Address& address) { return std::visit(Writer{}, address); }
