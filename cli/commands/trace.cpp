@@ -11,6 +11,7 @@
 
 #include "cli/arguments/actions.hpp"
 #include "cli/arguments/options.hpp"
+#include "environment/input/has_paddles.hpp"
 
 namespace racebeam {
 namespace {
@@ -81,10 +82,20 @@ class Tracer {
  private:
   int act(const ScriptedStep& step) {
     try {
-      return environment_.act(step.action, kNoopB, step.strength);
+      return environment_.act(reference_action(step.action), kNoopB, step.strength);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument("line " + std::to_string(step.line) + " of the actions: " + error.what());
     }
+  }
+
+  // The numbers of the console's switches mean nothing to the reference: it refuses them, or with paddles
+  // presses nothing.
+  int reference_action(int action) const {
+    if (!is_of_console(action)) return action;
+    if (has_paddles(environment_)) return kReferenceReset;
+    throw std::invalid_argument(
+        "action " + std::to_string(action) +
+        " of player A is out of range; accepted: 0 to 17, and 40 which presses nothing");
   }
 
   static std::string name(const ScriptedStep& step) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "environment/input/has_paddles.hpp"
 #include "protocol/encoding/text.hpp"
 
 namespace racebeam {
@@ -18,11 +19,6 @@ enum Special { kSaveState = 43, kLoadState = 44, kSystemReset = 45 };
 
 bool is_player_a(int a) { return a >= 0 && a < kActions; }
 bool is_player_b(int b) { return b >= kActions && b < 2 * kActions; }
-
-bool has_paddles(const Environment& environment) {
-  const Properties properties = environment.game().properties_for(environment.image().md5);
-  return properties.left == Controller::kPaddles || properties.right == Controller::kPaddles;
-}
 
 void require(std::size_t found, std::size_t needed, const std::string& line) {
   if (found == needed) return;

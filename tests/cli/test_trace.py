@@ -202,7 +202,7 @@ class Refusals(unittest.TestCase):
         self.check_refusal("line 1: .* is not a number", 0, b"1" * (1 << 20))
 
     def test_an_action_that_does_not_exist(self):
-        for action in (b"18", b"39", b"41", b"99", b"2147483647"):
+        for action in (b"18", b"25", b"39", b"41", b"99", b"2147483647"):
             with self.subTest(action=action):
                 self.check_refusal(r"line 3 .*" + re.escape(action.decode()), 3, b"1\n0\n" + action + b"\n0\n")
 
