@@ -38,7 +38,8 @@ class Places:
             "empty": "",
             "other": "x\n",
             "torn.json": "{",
-            "new.json": '{"version": 99}',
+            "new.json": '{"racebeam_announce": 99}',
+            "no-address": "# nothing\n",
             "bad.bin": "x" * 6,
             "game.toml": "x",
         }
@@ -140,7 +141,7 @@ class Sentences(unittest.TestCase):
                     words = longest_constant(sentence)
                     if words and words not in text:
                         missing.append(f"{path.name}: {words}")
-        self.assertLessEqual(len(missing), 42, "\n".join(missing))
+        self.assertLessEqual(len(missing), 41, "\n".join(missing))
 
 
 def longest_constant(sentence):
