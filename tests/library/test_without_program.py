@@ -1,20 +1,40 @@
-"""With RACEBEAM_PROGRAM=OFF, the library for C++ and `golden` are built without Boost, OpenSSL and other libraries."""
+"""With RACEBEAM_PROGRAM=OFF, library and Python module are built without Boost, OpenSSL and others, and play.
+
+The module is left out where `scripts/wheel --venv` has not installed what it needs.
+"""
 
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-BUILD = pathlib.Path(sys.argv.pop())  # is kept, so that the next run compiles only what has changed
+BUILD = pathlib.Path(sys.argv.pop()).resolve()  # is kept, so that the next run compiles only what has changed
 ABSENT = ("Boost", "OpenSSL", "PNG", "spdlog", "nlohmann_json", "Catch2")
+PYTHON = SOURCE / "build/python"
+PLAY = """
+import racebeam
+game = racebeam.ALEInterface()
+game.setInt("random_seed", 7)
+game.setInt("frame_skip", 4)
+game.setFloat("repeat_action_probability", 0)
+game.loadROM("builtin:beamfall")
+print(sum(game.act(racebeam.Action.FIRE) for _ in range(100)), game.getEpisodeFrameNumber())
+try:
+    racebeam.launch()
+except FileNotFoundError as error:
+    print(error)
+"""
+SCORE = "82 400"  # protocol/PROTOCOL.md, "States"
 
 
-def run(*command):
+def run(*command, **options):
     """What a command prints. The test fails if the command does."""
-    done = subprocess.run(list(map(str, command)), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    words = list(map(str, command))
+    done = subprocess.run(words, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
     if done.returncode != 0:
         raise AssertionError(f"{' '.join(map(str, command))}\n{done.stdout}")
     return done.stdout
@@ -37,8 +57,8 @@ class WithoutProgram(unittest.TestCase):
         needed = set(re.findall(r"NEEDED.*\[(\w+)", table))
         self.assertEqual(needed - {"libstdc", "libm", "libgcc_s", "libc", "ld", "libpthread"}, {"libz"})
 
-    def test_the_program_is_not_a_target(self):
-        self.assertNotIn("\nracebeam:", run("cmake", "--build", BUILD, "--target", "help"))
+    def test_the_server_is_not_a_target(self):
+        self.assertNotIn("\nracebeam_server:", run("cmake", "--build", BUILD, "--target", "help"))
 
     def test_what_is_installed_plays(self):
         prefix = BUILD / "installed"
@@ -54,7 +74,23 @@ class WithoutProgram(unittest.TestCase):
         )
         run("cmake", "-S", consumer / "project", "-B", consumer / "built", f"-DCMAKE_PREFIX_PATH={prefix}", absent)
         run("cmake", "--build", consumer / "built")
-        self.assertRegex(run(consumer / "built/in_process"), r"^[\d.]+ 82 400\n$")  # protocol/PROTOCOL.md, "States"
+        self.assertRegex(run(consumer / "built/in_process"), rf"^[\d.]+ {SCORE}\n$")
+
+    def test_the_python_module_plays_and_launch_says_what_to_install(self):
+        builder, player = (PYTHON / folder / "bin/python" for folder in ("tools", "venv"))
+        if not (builder.exists() and player.exists()):
+            self.skipTest("no environments of scripts/wheel --venv")
+        absent = (f"--config-settings=cmake.define.CMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ABSENT)
+        package = BUILD / "package"
+        shutil.rmtree(package, ignore_errors=True)
+        run(builder, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "--no-index",
+            "--target", package, "--config-settings=cmake.define.RACEBEAM_PROGRAM=OFF", *absent,
+            "--config-settings=cmake.build-type=Debug", f"--config-settings=build-dir={BUILD}/python", SOURCE)  # fmt: skip
+        self.assertEqual([file for file in package.rglob("racebeam") if file.is_file()], [])
+        plain = {key: value for key, value in os.environ.items() if key != "RACEBEAM_PROGRAM"}
+        score, sentence = run(player, "-B", "-c", PLAY, env={**plain, "PYTHONPATH": package, "PATH": ""}).splitlines()
+        self.assertEqual(score, SCORE)
+        self.assertRegex(sentence, "the program racebeam is neither .*; install a wheel that has it")
 
 
 if __name__ == "__main__":

@@ -25,8 +25,8 @@ def path() -> str:
     found = str(installed) if installed is not None else shutil.which("racebeam")
     if found is None:
         raise FileNotFoundError(
-            "the program racebeam is neither beside this package nor on the PATH; install the package with "
-            "pip, or set RACEBEAM_PROGRAM to the program"
+            "the program racebeam is neither beside this package nor on the PATH; install a wheel that has it, or the "
+            ".deb or .tar.gz of racebeam, or set RACEBEAM_PROGRAM to the program; connect() needs no program here"
         )
     return found
 
