@@ -5,9 +5,13 @@ export const DOWN = 2;
 export const LEFT = 4;
 export const RIGHT = 8;
 export const FIRE = 16;
+export const RESET = 32; // switches of the console, which only player A has
+export const SELECT = 64;
 
 export const ACTIONS = ["NOOP", "FIRE", "UP", "RIGHT", "LEFT", "DOWN", "UPRIGHT", "UPLEFT", "DOWNRIGHT", "DOWNLEFT", "UPFIRE", "RIGHTFIRE",
-  "LEFTFIRE", "DOWNFIRE", "UPRIGHTFIRE", "UPLEFTFIRE", "DOWNRIGHTFIRE", "DOWNLEFTFIRE"] as const;
+  "LEFTFIRE", "DOWNFIRE", "UPRIGHTFIRE", "UPLEFTFIRE", "DOWNRIGHTFIRE", "DOWNLEFTFIRE", "RESET", "SELECT", "LEFT_A", "LEFT_B", "RIGHT_A",
+  "RIGHT_B", "COLOR", "BW"] as const;
+export const JOYSTICK_ACTIONS = 18; // the others need action_set=console
 
 /** One of two opposite directions, or neither. */
 function either(pressed: number, one: number, other: number, names: [string, string]): string {
@@ -15,9 +19,9 @@ function either(pressed: number, one: number, other: number, names: [string, str
   return both === one ? names[0] : both === other ? names[1] : "";
 }
 
-/** The number of the action that presses these. Opposite directions cancel each other. */
+/** The number of the action that presses these. Opposite directions cancel each other, and a switch releases the joystick. */
 export function actionOf(pressed: number): number {
-  const name = either(pressed, UP, DOWN, ["UP", "DOWN"]) + either(pressed, RIGHT, LEFT, ["RIGHT", "LEFT"]) + (pressed & FIRE ? "FIRE" : "");
+  const name = pressed & RESET ? "RESET" : pressed & SELECT ? "SELECT" : either(pressed, UP, DOWN, ["UP", "DOWN"]) + either(pressed, RIGHT, LEFT, ["RIGHT", "LEFT"]) + (pressed & FIRE ? "FIRE" : "");
   return name ? ACTIONS.indexOf(name as typeof ACTIONS[number]) : 0;
 }
 

@@ -1,9 +1,10 @@
-import { DOWN, FIRE, LEFT, RIGHT, UP } from "./actions.js";
+import { DOWN, FIRE, LEFT, RESET, RIGHT, SELECT, UP } from "./actions.js";
 
 const TILT = 0.5; // of an axis, which counts as a direction
 
 /** Buttons of the standard gamepad. */
-const BUTTONS: readonly (readonly [number, number])[] = [[12, UP], [13, DOWN], [14, LEFT], [15, RIGHT], [0, FIRE], [1, FIRE], [2, FIRE], [3, FIRE]];
+const BUTTONS: readonly (readonly [number, number])[] = [[12, UP], [13, DOWN], [14, LEFT], [15, RIGHT], [0, FIRE], [1, FIRE], [2, FIRE], [3, FIRE],
+  [8, SELECT], [9, RESET]];
 
 /** What a gamepad presses. */
 export function pressedOn({ axes, buttons }: Pick<Gamepad, "axes" | "buttons">): number {

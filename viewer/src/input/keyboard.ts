@@ -1,8 +1,9 @@
-import { DOWN, FIRE, LEFT, RIGHT, UP } from "./actions.js";
+import { DOWN, FIRE, LEFT, RESET, RIGHT, SELECT, UP } from "./actions.js";
 
 /** Keys by KeyboardEvent.code, so that they lie where they lie on every layout. */
 const KEYS: readonly ReadonlyMap<string, number>[] = [
-  new Map([["ArrowUp", UP], ["ArrowDown", DOWN], ["ArrowLeft", LEFT], ["ArrowRight", RIGHT], ["Space", FIRE], ["ControlRight", FIRE]]),
+  new Map([["ArrowUp", UP], ["ArrowDown", DOWN], ["ArrowLeft", LEFT], ["ArrowRight", RIGHT], ["Space", FIRE], ["ControlRight", FIRE],
+    ["KeyR", RESET], ["KeyE", SELECT]]),
   new Map([["KeyW", UP], ["KeyS", DOWN], ["KeyA", LEFT], ["KeyD", RIGHT], ["KeyG", FIRE]]),
 ];
 

@@ -40,7 +40,7 @@ export class Touch {
 }
 
 /** Calls `held` with each event of a finger on the element, and with none when the finger leaves. */
-function hold(element: HTMLElement, held: (event?: PointerEvent) => void): void {
+export function hold(element: HTMLElement, held: (event?: PointerEvent) => void): void {
   element.addEventListener("pointerdown", (event) => {
     element.setPointerCapture(event.pointerId);
     held(event);

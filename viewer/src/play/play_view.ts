@@ -2,6 +2,7 @@ import { RefusedError, type Group, type Session } from "racebeam";
 import { actWord } from "../input/actions.js";
 import { gamepad } from "../input/gamepad.js";
 import { Keyboard } from "../input/keyboard.js";
+import { Switches } from "../input/switches.js";
 import { Touch } from "../input/touch.js";
 import { Inspector } from "../inspect/inspector.js";
 import { byId, tell } from "../page/elements.js";
@@ -35,6 +36,7 @@ export class PlayView {
   readonly #choice: GameChoice;
   readonly #keyboard: Keyboard;
   readonly #touch: Touch;
+  readonly #switches: Switches;
   #player: Player | undefined;
   #session: Session | undefined;
   #lost = false;
@@ -48,6 +50,7 @@ export class PlayView {
     const press = (time: number) => this.#player?.latency.press(time);
     this.#keyboard = new Keyboard(this.#stage, press);
     this.#touch = new Touch(byId("pad", HTMLElement), byId("fire", HTMLElement), press);
+    this.#switches = new Switches(byId("reset", HTMLElement), byId("select", HTMLElement), () => this.#useSwitch());
     byId("touch", HTMLElement).hidden = !matchMedia("(pointer: coarse)").matches;
     this.#listen();
     this.#inspector.search.about = () => {
@@ -188,6 +191,8 @@ export class PlayView {
       KeyM: () => this.#mute(),
       KeyF: () => void this.#fill(),
       KeyI: () => void this.#inspect(),
+      KeyR: () => this.#useSwitch(),
+      KeyE: () => this.#useSwitch(),
       KeyT: () => this.#showFigures(),
       Digit1: () => byId("left-switch", HTMLButtonElement).click(),
       Digit2: () => byId("right-switch", HTMLButtonElement).click(),
@@ -213,6 +218,13 @@ export class PlayView {
     }
   }
 
+  /** A switch of the console is used: the game must run to notice it. */
+  #useSwitch(): void {
+    if (this.#player?.motion !== "playing") {
+      this.#go();
+    }
+  }
+
   #move(motion: Motion): void {
     const player = this.#player;
     if (player) {
@@ -228,7 +240,7 @@ export class PlayView {
 
   /** What players A and B press. */
   #pressed(): [number, number] {
-    return [this.#keyboard.pressed(0) | this.#touch.pressed() | gamepad(0), this.#keyboard.pressed(1) | gamepad(1)];
+    return [this.#keyboard.pressed(0) | this.#touch.pressed() | this.#switches.pressed() | gamepad(0), this.#keyboard.pressed(1) | gamepad(1)];
   }
 
   /** Goes a frame onward, with what is pressed, or a frame back, and stops there. */
@@ -275,7 +287,7 @@ export class PlayView {
     const { game, acts = [] } = this.#player ?? {};
     if (game) {
       const { name, mode, difficulty, seed } = game;
-      const settings = { seed: String(seed), mode: String(mode), difficulty: String(difficulty), sticky: "0", frame_skip: "1" };
+      const settings = { seed: String(seed), mode: String(mode), difficulty: String(difficulty), sticky: "0", frame_skip: "1", action_set: "console" };
       this.replay({ title: `${titleOf(name)}, played here`, game: name, settings, acts: [...acts] });
     }
   }

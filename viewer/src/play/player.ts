@@ -108,7 +108,7 @@ export class Player {
     const { game, seed = newSeed(), ...settings } = choice;
     this.#busy = true;
     try {
-      this.#game = described(await this.#session.load(game, { sticky: 0, sound: 1, frame_skip: 1, seed, ...settings }));
+      this.#game = described(await this.#session.load(game, { sticky: 0, sound: 1, frame_skip: 1, action_set: "console", seed, ...settings }));
       this.#pacer.restart(frameRate(this.#game.format));
       await this.#begin(acts);
       return this.#game;

@@ -1,5 +1,7 @@
 // Logs of episodes: docs/episodes.md describes the file.
 
+import { ACTIONS, JOYSTICK_ACTIONS } from "../input/actions.js";
+
 export interface Episode {
   /** For people. */
   title: string;
@@ -19,7 +21,6 @@ const MAGIC = "RBEPISOD";
 const VERSION = 1;
 const HEADER = 24; // bytes before the contents
 const LARGEST = 2 * 1024 * 1024; // bytes, of the file and of its contents
-const LAST_ACTION = 17;
 export const HASH_EVERY = 256; // decisions
 const HASH_SIZE = 8;
 
@@ -121,16 +122,18 @@ export async function readLog(file: Uint8Array, name: string): Promise<Episode> 
   if (load[0] !== "load" || !load[1] || image[0] !== "image" || from[0] !== "from" || ended[0] !== "ended") {
     throw new Error("the log's text does not begin with load, image, from and ended");
   }
+  const settings = pairs(load.slice(2));
+  const lastAction = (settings.action_set === "console" ? ACTIONS.length : JOYSTICK_ACTIONS) - 1;
   const { score, frames, decisions, end = "", lives } = pairs(ended);
   const hashes = contents.subarray(start, start + HASH_SIZE * (Math.floor(Number(decisions) / HASH_EVERY) + 1));
   const actions = contents.subarray(start + hashes.length);
-  if (actions.length !== Number(decisions) || actions.some((action) => action > LAST_ACTION)) {
-    throw new Error(`the log has ${actions.length} actions; its text says ${decisions}, from 0 to ${LAST_ACTION}`);
+  if (actions.length !== Number(decisions) || actions.some((action) => action > lastAction)) {
+    throw new Error(`the log has ${actions.length} actions; its text says ${decisions}, from 0 to ${lastAction}`);
   }
   return {
     title: pairs(from).unit ? `${pairs(from).unit}, episode ${pairs(from).episode}` : name,
     game: load[1],
-    settings: pairs(load.slice(2)),
+    settings,
     acts: Array.from(actions, String),
     ended: { score: Number(score), frames: Number(frames), decisions: Number(decisions), end, lives: Number(lives) },
     hashes: digits(hashes),

@@ -121,6 +121,39 @@ describe("the view Play", () => {
     await frames(10);
   });
 
+  test("RESET clears the score as on the console, by a key, a click or the keyboard's way to the button", async () => {
+    const uses = [() => page.keyboard.press("KeyR", { delay: 100 }), () => page.locator("#reset").click(), () => page.locator("#reset").press("Enter")];
+    for (const use of uses) {
+      await begin();
+      await page.keyboard.down("Space");
+      await until(async () => await numberIn(page, "#score") > 0, "a score");
+      await page.keyboard.up("Space");
+      const before = await frame();
+      await use();
+      await until(async () => await numberIn(page, "#score") === 0, "no score");
+      assert.ok(await frame() > before); // the episode goes on
+      await page.locator("#stage").focus();
+    }
+  });
+
+  test("a switch of the console continues a game that pauses", async () => {
+    await page.keyboard.press("KeyP");
+    await paused(page);
+    await page.locator("#select").click();
+    await page.locator('#stage[data-motion="playing"]').waitFor();
+    await frames(5);
+  });
+
+  test("an episode with RESET replays to the score that was seen", async () => {
+    await page.keyboard.press("KeyP");
+    await paused(page);
+    const score = await numberIn(page, "#score");
+    await page.locator("#replay-this").click();
+    await page.locator("#decks").getByText(`score 0 of ${score} `).waitFor();
+    await page.getByRole("link", { name: "Play", exact: true }).click();
+    await page.locator("#stage").focus();
+  });
+
   test("a new game, another difficulty, another game", async () => {
     await begin();
     const left = page.locator("#left-switch");

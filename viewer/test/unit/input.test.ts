@@ -1,12 +1,12 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { ACTIONS, actionOf, actWord, DOWN, FIRE, joined, LEFT, RIGHT, spoken, UP } from "../../src/input/actions.js";
+import { ACTIONS, actionOf, actWord, DOWN, FIRE, joined, JOYSTICK_ACTIONS, LEFT, RESET, RIGHT, SELECT, spoken, UP } from "../../src/input/actions.js";
 import { pressedOn } from "../../src/input/gamepad.js";
 import { directionAt } from "../../src/input/touch.js";
 
 test("each combination of direction and button is an action of its own", () => {
   const pressed = [0, UP, DOWN].flatMap((y) => [0, LEFT, RIGHT].flatMap((x) => [0, FIRE].map((fire) => x | y | fire)));
-  assert.deepEqual(pressed.map(actionOf).sort((a, b) => a - b), Array.from(ACTIONS.keys()));
+  assert.deepEqual(pressed.map(actionOf).sort((a, b) => a - b), Array.from({ length: JOYSTICK_ACTIONS }, (_, action) => action));
   assert.equal(ACTIONS[actionOf(UP | RIGHT | FIRE)], "UPRIGHTFIRE");
   assert.equal(ACTIONS[actionOf(DOWN | LEFT)], "DOWNLEFT");
 });
@@ -14,6 +14,12 @@ test("each combination of direction and button is an action of its own", () => {
 test("opposite directions cancel each other", () => {
   assert.equal(ACTIONS[actionOf(LEFT | RIGHT | UP)], "UP");
   assert.equal(actionOf(LEFT | RIGHT | UP | DOWN), 0);
+});
+
+test("a switch of the console releases the joystick", () => {
+  assert.equal(ACTIONS[actionOf(RESET | UP | FIRE)], "RESET");
+  assert.equal(ACTIONS[actionOf(SELECT | LEFT)], "SELECT");
+  assert.equal(actWord(SELECT, FIRE), "19/1");
 });
 
 test("an act has player B if B presses something", () => {
@@ -33,6 +39,7 @@ test("a gamepad has a stick, a cross and buttons", () => {
   assert.equal(pad([-1, 0.9], []), LEFT | DOWN);
   assert.equal(pad([0.3, -0.3], []), 0);
   assert.equal(pad([], [12, 15, 0]), UP | RIGHT | FIRE);
+  assert.equal(pad([], [8, 9]), SELECT | RESET);
 });
 
 test("a thumb points in eight directions, or rests", () => {

@@ -51,6 +51,12 @@ test("the number of hashes follows from that of decisions", async () => {
   assert.deepEqual(acts, actions.map(String));
 });
 
+test("a log has the console's switches where its settings say so", async () => {
+  const text = TEXT.replace("sticky=0", "sticky=0 action_set=console");
+  assert.deepEqual((await readLog(sealed(contents(text, 1, [18, 19, 25])), "")).acts, ["18", "19", "25"]);
+  await assert.rejects(readLog(sealed(contents(text, 1, [18, 19, 26])), ""), /from 0 to 25$/);
+});
+
 test("every log that was cut or altered is refused", async () => {
   const whole = sealed(contents());
   for (let size = 0; size < whole.length; ++size) {
