@@ -28,7 +28,7 @@ Each file is one of:
   by-name   another image, but the file is named like a game: it plays as that game, with a warning
   unknown   it plays without a score; --game NAME or --game-file FILE selects a rule
   unusable  it cannot be read, or no cartridge scheme fits it
-Then the command lists the games of the catalogue that the folder has no image of.
+The last line counts the images, and the games of the catalogue that the folder has no image of.
 
 Example:
   racebeam roms ~/atari)";
@@ -59,9 +59,13 @@ RomFinding judge(const Image& image) {
   if (recognition.how == RecognisedBy::kFileName)
     return {"", "by-name", name, image.md5, scheme, "not the image that its rule was written for"};
   const std::string dump = other_dump_of(image.md5);
-  return {"",     "unknown",
-          "",     image.md5,
-          scheme, dump.empty() ? "needs --game" : "another dump of " + dump + ": try --game " + dump};
+  return {"",
+          "unknown",
+          "",
+          image.md5,
+          scheme,
+          dump.empty() ? "--game NAME or --game-file FILE selects a rule"
+                       : "another dump of " + dump + ": try --game " + dump};
 }
 
 RomFinding examine(const fs::path& path) {
@@ -86,7 +90,8 @@ std::vector<std::string> games_without(const std::vector<RomFinding>& findings) 
   return missing;
 }
 
-void print_text(const std::vector<RomFinding>& findings, const std::vector<std::string>& missing) {
+void print_text(const std::vector<RomFinding>& findings, const std::vector<std::string>& missing,
+                bool names_missing) {
   for (const RomFinding& finding : findings) {
     const std::string game = finding.game.empty() ? "-" : finding.game;
     std::printf("%-8s  %-20s %-32s  %-5s %s%s%s\n", finding.verdict.c_str(), game.c_str(),
@@ -94,8 +99,11 @@ void print_text(const std::vector<RomFinding>& findings, const std::vector<std::
                 finding.scheme.empty() ? "-" : finding.scheme.c_str(), printable(finding.file).c_str(),
                 finding.note.empty() ? "" : ": ", printable(finding.note).c_str());
   }
-  for (const std::string& name : missing) std::printf("missing   %s\n", name.c_str());
-  std::printf("%zu images; %zu games without one\n", findings.size(), missing.size());
+  if (names_missing) {
+    for (const std::string& name : missing) std::printf("missing   %s\n", name.c_str());
+  }
+  std::printf("%zu image%s; %zu games without one%s\n", findings.size(), findings.size() == 1 ? "" : "s",
+              missing.size(), names_missing || missing.empty() ? "" : " (--missing lists them)");
 }
 
 void print_json(const std::vector<RomFinding>& findings, const std::vector<std::string>& missing) {
@@ -115,26 +123,29 @@ void print_json(const std::vector<RomFinding>& findings, const std::vector<std::
             << '\n';
 }
 
-void run(const std::string& folder, bool json) {
+struct Options {
+  std::string folder;
+  bool json = false;
+  bool names_missing = false;
+};
+
+void run(const Options& options) {
   std::vector<RomFinding> findings;
-  for (const fs::path path : image_files(folder)) findings.push_back(examine(path));
+  for (const fs::path path : image_files(options.folder)) findings.push_back(examine(path));
   const auto missing = games_without(findings);
-  json ? print_json(findings, missing) : print_text(findings, missing);
+  options.json ? print_json(findings, missing) : print_text(findings, missing, options.names_missing);
 }
 
 }  // namespace
 
 void add_roms(Subcommand& program) {
-  struct Options {
-    std::string folder;
-    bool json = false;
-  };
   const auto options = std::make_shared<Options>();
   Subcommand command = program.add_subcommand(
       "roms", "List which images in a folder are known, and which games lack one", kRomsFooter);
   command.option("DIR", options->folder, "The folder with the images").required();
   command.flag("--json", options->json, "Print a JSON object instead of text");
-  command.runs([options] { run(options->folder, options->json); });
+  command.flag("--missing", options->names_missing, "Also list the games that the folder has no image of");
+  command.runs([options] { run(*options); });
 }
 
 }  // namespace racebeam

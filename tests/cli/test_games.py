@@ -192,9 +192,17 @@ class Roms(unittest.TestCase):
 
     def test_the_text_ends_with_the_counts(self):
         self.put("mystery.bin", b"\xea" * 4096)
-        lines = answer("roms", self.folder).splitlines()
-        self.assertRegex(lines[0], r"^unknown +- +[0-9a-f]{32}  2K +mystery\.bin: needs --game$")
-        self.assertRegex(lines[-1], r"^1 images; \d+ games without one$")
+        image, counts = answer("roms", self.folder).splitlines()
+        hint = "--game NAME or --game-file FILE selects a rule"
+        self.assertRegex(image, rf"^unknown +- +[0-9a-f]{{32}}  2K +mystery\.bin: {hint}$")
+        self.assertRegex(counts, r"^1 image; \d+ games without one \(--missing lists them\)$")
+
+    def test_the_games_without_an_image_are_listed_on_request(self):
+        self.put("mystery.bin", b"\xea" * 4096)
+        lines = answer("roms", self.folder, "--missing").splitlines()
+        missing = [line.split()[1] for line in lines if line.startswith("missing ")]
+        self.assertEqual(missing, self.findings()[1])
+        self.assertEqual(lines[-1], f"1 image; {len(missing)} games without one")
 
     def check_refusal(self, folder, complaint):
         status, printed, errors = run("roms", folder)
