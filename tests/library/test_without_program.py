@@ -85,7 +85,8 @@ class WithoutProgram(unittest.TestCase):
         shutil.rmtree(package, ignore_errors=True)
         run(builder, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "--no-index",
             "--target", package, "--config-settings=cmake.define.RACEBEAM_PROGRAM=OFF", *absent,
-            "--config-settings=cmake.build-type=Debug", f"--config-settings=build-dir={BUILD}/python", SOURCE)  # fmt: skip
+            "--config-settings=cmake.build-type=Debug", f"--config-settings=build-dir={BUILD}/python",
+            SOURCE)  # fmt: skip
         self.assertEqual([file for file in package.rglob("racebeam") if file.is_file()], [])
         plain = {key: value for key, value in os.environ.items() if key != "RACEBEAM_PROGRAM"}
         score, sentence = run(player, "-B", "-c", PLAY, env={**plain, "PYTHONPATH": package, "PATH": ""}).splitlines()

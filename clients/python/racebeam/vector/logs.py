@@ -198,7 +198,7 @@ def _start_of(options: VectorOptions, game: str, rom: Rom | None) -> Start:
         options.frameskip,
         options.repeat_action_probability,
         options.max_num_frames_per_episode,
-        options.action_set,
+        "full" if options.action_set == "legal" else options.action_set,
         options.rules,
         "restart" if options.life_loss == "restart" else "ignored",
         options.mode,
