@@ -23,6 +23,7 @@ const HEADER = 24; // bytes before the contents
 const LARGEST = 2 * 1024 * 1024; // bytes, of the file and of its contents
 export const HASH_EVERY = 256; // decisions
 const HASH_SIZE = 8;
+const OLD_WORDS: Readonly<Record<string, string>> = { life_loss_ends: "0", autoreset: "0" }; // of logs, with the values that are usual
 
 const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, byte) => {
   let crc = byte;
@@ -93,6 +94,11 @@ function pairs(words: readonly string[]): Record<string, string> {
   }));
 }
 
+/** Settings without old words that change nothing, of which a server warns. */
+function newWords(settings: Record<string, string>): Record<string, string> {
+  return Object.fromEntries(Object.entries(settings).filter(([key, value]) => OLD_WORDS[key] !== value));
+}
+
 /** The digits of hashes, whose lowest byte comes first. */
 function digits(hashes: Uint8Array): string[] {
   return Array.from({ length: hashes.length / HASH_SIZE }, (_, number) => hexOf(hashes.slice(number * HASH_SIZE, (number + 1) * HASH_SIZE).reverse()));
@@ -122,7 +128,7 @@ export async function readLog(file: Uint8Array, name: string): Promise<Episode> 
   if (load[0] !== "load" || !load[1] || image[0] !== "image" || from[0] !== "from" || ended[0] !== "ended") {
     throw new Error("the log's text does not begin with load, image, from and ended");
   }
-  const settings = pairs(load.slice(2));
+  const settings = newWords(pairs(load.slice(2)));
   const lastAction = (settings.action_set === "console" ? ACTIONS.length : JOYSTICK_ACTIONS) - 1;
   const { score, frames, decisions, end = "", lives } = pairs(ended);
   const hashes = contents.subarray(start, start + HASH_SIZE * (Math.floor(Number(decisions) / HASH_EVERY) + 1));

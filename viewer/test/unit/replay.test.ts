@@ -45,6 +45,13 @@ test("a log is read", async () => {
   });
 });
 
+test("a server is not asked for what is usual in old words", async () => {
+  const { settings } = await readLog(sealed(contents(TEXT.replace("sticky=0", "life_loss_ends=0 autoreset=0"))), "");
+  assert.deepEqual(settings, { seed: "7", frame_skip: "5" });
+  const { settings: unusual } = await readLog(sealed(contents(TEXT.replace("sticky=0", "life_loss_ends=1"))), "");
+  assert.equal(unusual.life_loss_ends, "1");
+});
+
 test("the number of hashes follows from that of decisions", async () => {
   const actions = new Array<number>(600).fill(3);
   const { acts } = await readLog(sealed(contents(TEXT.replace("decisions=3", "decisions=600"), 3, actions)), "");
