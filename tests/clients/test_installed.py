@@ -10,8 +10,9 @@ import tempfile
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(SOURCE / "tests/server"))
+sys.path[:0] = [str(SOURCE / "tests/server"), str(SOURCE / "tests/support")]
 
+from commands import outcome_of, output_of  # noqa: E402
 from harness import BINARY, SKIPPED  # noqa: E402
 
 BUILD = pathlib.Path(os.environ["RACEBEAM_BUILD"])
@@ -26,23 +27,13 @@ SCORE = f"{VERSION} 82 400\n"  # as in protocol/PROTOCOL.md, "States"
 PLAIN = {key: value for key, value in os.environ.items() if not key.startswith("CMAKE")}
 
 
-def outcome_of(*command, **variables):
-    """Runs a command, whose output and errors are one text."""
-    return subprocess.run(
-        [str(word) for word in command],
-        env={**PLAIN, "RACEBEAM_PROGRAM": BINARY, **variables},
-        text=True,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-    )
+def with_program(**variables):
+    """The environment of a command that finds the program that was built."""
+    return {**PLAIN, "RACEBEAM_PROGRAM": BINARY, **variables}
 
 
 def run(*command, **variables):
-    """What a command prints. The test fails if the command does."""
-    done = outcome_of(*command, **variables)
-    if done.returncode != 0:
-        raise AssertionError(f"{' '.join(map(str, command))}\n{done.stdout}")
-    return done.stdout
+    return output_of(*command, env=with_program(**variables))
 
 
 def name_of(header):
@@ -79,14 +70,13 @@ class Installed(unittest.TestCase):
                 self.assertEqual(run(self.built / name, LD_LIBRARY_PATH=str(self.libraries)), SCORE)
 
     def configured(self, project, *options):
-        """What CMake says of a project in a fresh folder, on one line."""
+        """Configures a project in a fresh folder. Returns the status, and what CMake printed, on one line."""
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "CMakeLists.txt").write_text(
                 f"cmake_minimum_required(VERSION 3.25)\nproject(agent LANGUAGES CXX)\n{project}\n"
             )
-            done = outcome_of(
-                "cmake", "-S", folder, "-B", f"{folder}/b", f"-DCMAKE_PREFIX_PATH={self.prefix}", *options
-            )
+            prefix = f"-DCMAKE_PREFIX_PATH={self.prefix}"
+            done = outcome_of("cmake", "-S", folder, "-B", f"{folder}/b", prefix, *options, env=with_program())
             return done.returncode, " ".join(done.stdout.split())
 
     def test_without_OpenSSL_a_project_learns_what_the_client_needs(self):

@@ -1,4 +1,4 @@
-"""What the documents say of the program's words, settings and ends is so."""
+"""Tests claims of the documents: on the program's words, its settings, and how it ends."""
 
 import os
 import pathlib

@@ -7,11 +7,14 @@ import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / "tests/support"))
+
+from commands import output_of as run  # noqa: E402
+
 BUILD = pathlib.Path(sys.argv.pop()).resolve()  # is kept, so that the next run compiles only what has changed
 ABSENT = ("Boost", "OpenSSL", "PNG", "spdlog", "nlohmann_json", "Catch2")
 PYTHON = SOURCE / "build/python"
@@ -29,15 +32,6 @@ except FileNotFoundError as error:
     print(error)
 """
 SCORE = "82 400"  # protocol/PROTOCOL.md, "States"
-
-
-def run(*command, **options):
-    """What a command prints. The test fails if the command does."""
-    words = list(map(str, command))
-    done = subprocess.run(words, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
-    if done.returncode != 0:
-        raise AssertionError(f"{' '.join(map(str, command))}\n{done.stdout}")
-    return done.stdout
 
 
 class WithoutProgram(unittest.TestCase):
