@@ -19,6 +19,7 @@ from gymnasium import error
 from . import images
 
 Member = TypeVar("Member", bound=enum.Enum)
+Word = TypeVar("Word", bound=str)
 MOST = 2**31 - 1
 
 
@@ -136,6 +137,15 @@ def optional_integer(name: str, value: Any) -> int | None:
     return None if value is None else integer(name, value, 0, MOST)
 
 
+def _flag_or_word(name: str, value: Any, word: Word) -> bool | Word:
+    """Checks an argument that takes a truth value, or a single word."""
+    if not isinstance(value, str):
+        return flag(name, value)
+    if value != word:
+        raise WrongValue(f"{name} is {value!r}; it takes True, False or {word!r}")
+    return word
+
+
 def action_space(name: str, value: Any) -> str:
     """Checks which actions an environment takes.
 
@@ -150,11 +160,8 @@ def action_space(name: str, value: Any) -> str:
         WrongType: If `value` has no truth value, such as an array of several elements.
         WrongValue: If `value` is another word.
     """
-    if isinstance(value, str):
-        if value != "console":
-            raise WrongValue(f"{name} is {value!r}; it takes True, False or 'console'")
-        return value
-    return "legal" if flag(name, value) else "minimal"
+    chosen = _flag_or_word(name, value, "console")
+    return chosen if isinstance(chosen, str) else "legal" if chosen else "minimal"
 
 
 def sound_flag(name: str, value: Any) -> bool | Literal["all"]:
@@ -171,11 +178,7 @@ def sound_flag(name: str, value: Any) -> bool | Literal["all"]:
         WrongType: If `value` has no truth value, such as an array of several elements.
         WrongValue: If `value` is another word.
     """
-    if isinstance(value, str):
-        if value != "all":
-            raise WrongValue(f"{name} is {value!r}; it takes True, False or 'all'")
-        return "all"
-    return flag(name, value)
+    return _flag_or_word(name, value, "all")
 
 
 def flag(name: str, value: Any) -> bool:
