@@ -173,9 +173,9 @@ class Agents(Part):
         self.lacks(*(name for name in ("learners", "ram", "blob_prost") if name not in plans))
         if not plans:
             return
-        self.say("""As long as in the paper: 5,000 episodes of training and 500 of evaluation (Blob-PROST: 2,000 of
-            training). A score is the mean over trials of the mean over their episodes. The interval is at 95 %, by
-            Student's t over trials. A dash is that of a single trial.""")
+        self.say("""Training and evaluation are as long as in the paper: 5,000 and 500 episodes. Blob-PROST trains for
+            2,000. A score is the mean over trials of the mean over their episodes. The interval is at 95 %, by
+            Student's t over trials. A single trial has no interval.""")
         rows, curves = [], []
         for game, agent, found in self.trained(plans):
             theirs, score = self.paper[game].get(agent), found["scores"][agent][game]
