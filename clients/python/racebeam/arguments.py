@@ -178,7 +178,8 @@ def sound_flag(name: str, value: Any) -> bool | Literal["all"]:
         WrongType: If `value` has no truth value, such as an array of several elements.
         WrongValue: If `value` is another word.
     """
-    return _flag_or_word(name, value, "all")
+    word: Literal["all"] = "all"
+    return _flag_or_word(name, value, word)
 
 
 def flag(name: str, value: Any) -> bool:
