@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "environment/settings/setting_tables.hpp"
 #include "recording/result_row.hpp"
 #include "recording/sealed_file.hpp"
 #include "system/input_file.hpp"
@@ -106,16 +106,7 @@ void append_text(std::string& out, std::string_view key, std::string_view text) 
   if (!text.empty()) out.append(key).append(" = \"").append(text).append("\"\n");
 }
 
-// The presets of evaluation, with the words of a log that make them (docs/experiments.md).
-struct Preset {
-  std::string_view name, words;
-};
-constexpr std::array<Preset, 4> kPresets = {{
-    {"paper2013", "frame_skip=5 sticky=0 action_set=full max_episode_frames=18000 noop_max=0"},
-    {"machado2018", "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000 noop_max=0"},
-    {"atari100k", "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=108000 noop_max=30"},
-    {"dqn2015", "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=18000 noop_max=30"},
-}};
+// What a log of an evaluation preset has besides (docs/experiments.md).
 constexpr std::string_view kOfAllPresets = "rules=ale-0.12 life_loss_ends=0";
 
 std::string text_of(const AboutAgent& about, std::string_view preset) {
@@ -171,7 +162,7 @@ std::string first_log(const std::string& folder) {
 std::string_view preset_of(std::string_view settings) {
   std::vector<std::string_view> words, expected;
   split(settings, words);
-  for (const Preset& preset : kPresets) {
+  for (const description::EvaluationPreset& preset : description::kEvaluationPresets) {
     const std::string all = std::string(preset.words).append(" ").append(kOfAllPresets);
     split(all, expected);
     const auto has = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };

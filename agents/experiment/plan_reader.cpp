@@ -9,6 +9,7 @@
 #include "agents/experiment/game_sets.hpp"
 #include "agents/experiment/plan_keys.hpp"
 #include "agents/experiment/play.hpp"
+#include "environment/settings/setting_tables.hpp"
 #include "games/files/toml_section.hpp"
 #include "recording/phrase_seed.hpp"
 #include "system/input_file.hpp"
@@ -27,28 +28,22 @@ constexpr std::int64_t kMostUnits = 100000, kMostRows = 20000000;  // of results
 // Settings of the literature, which a plan then changes.
 struct PlanPreset {
   std::string_view name;
-  std::string_view environment;  // words of `load`
-  std::string_view training;     // what training has otherwise
+  std::string_view training;  // words of `load`: what training has otherwise
   TrialLength learners;
 };
 constexpr std::array kPresets = {
-    PlanPreset{"paper2013",
-               "frame_skip=5 sticky=0 action_set=full max_episode_frames=18000",
-               "",
-               {.trials = 30, .training_episodes = 5000, .evaluation_episodes = 500}},
-    PlanPreset{"machado2018",
-               "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000",
-               "",
-               {.trials = 24, .training_frames = 200000000, .evaluation_episodes = 100}},
+    PlanPreset{"paper2013", "", {.trials = 30, .training_episodes = 5000, .evaluation_episodes = 500}},
+    PlanPreset{"machado2018", "", {.trials = 24, .training_frames = 200000000, .evaluation_episodes = 100}},
     PlanPreset{"atari100k",
-               "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=108000 noop_max=30",
                "preset=dqn2015 life_loss=end max_episode_frames=108000",
                {.trials = 5, .training_frames = 400000, .evaluation_episodes = 100}},
     PlanPreset{"dqn2015",
-               "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=18000 noop_max=30",
                "preset=dqn2015 life_loss=end",
                {.trials = 1, .training_frames = 200000000, .evaluation_episodes = 30}},
 };
+
+static_assert(std::ranges::equal(kPresets, description::kEvaluationPresets, {}, &PlanPreset::name,
+                                 &description::EvaluationPreset::name));
 
 std::string number_text(double value) {
   std::string text;
@@ -116,7 +111,7 @@ class PlanReader {
     if (found == kPresets.end())
       top_.refuse(*top_.node("preset"), "preset",
                   "unknown value " + quote(name) + "; accepted: " + list_of(kPresets));
-    read_words(std::string(found->environment), plan_.play);
+    read_words(std::string(description::kEvaluationPresets[found - kPresets.begin()].words), plan_.play);
     training_words_ = found->training;
     learners_ = found->learners;
   }

@@ -16,6 +16,10 @@ struct Preset {
   std::string_view name, words, source;
 };
 
+struct EvaluationPreset {
+  std::string_view name, words;
+};
+
 inline constexpr std::array<Setting, 24> kSettings = {{
     {"preset", "none or a preset's name", "a set of settings from the literature; other keys override it", false},
     {"seed", "random, or 1 to 4294967295", "seed of everything that is random in play; random: the server chooses one", false},
@@ -48,6 +52,13 @@ inline constexpr std::array<Preset, 4> kPresets = {{
     {"dqn2015", "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=18000 life_loss=restart noop_max=30 reward_min=-1 reward_max=1", "Mnih et al. 2015, as in training; evaluate with life_loss=ignored and unclamped rewards"},
     {"machado2018", "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000", "Machado et al. 2018"},
     {"gym-v5", "frame_skip=4 sticky=0.25 action_set=minimal max_episode_frames=108000", "Gymnasium's ALE/...-v5"},
+}};
+
+inline constexpr std::array<EvaluationPreset, 4> kEvaluationPresets = {{
+    {"paper2013", "frame_skip=5 sticky=0 action_set=full max_episode_frames=18000 noop_max=0"},
+    {"machado2018", "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000 noop_max=0"},
+    {"atari100k", "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=108000 noop_max=30"},
+    {"dqn2015", "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=18000 noop_max=30"},
 }};
 
 }  // namespace racebeam::description

@@ -19,12 +19,14 @@ _UNKNOWN = "unknown"
 
 _NAMES = ("frame_skip", "sticky", "action_set", "max_episode_frames", "noop_max")
 # The values of `load` that make a preset of evaluation (docs/experiments.md), in the order of _NAMES.
+# generated: evaluation presets, from protocol/protocol.toml
 PRESETS = {
     "paper2013": ("5", "0", "full", "18000", "0"),
     "machado2018": ("5", "0.25", "full", "18000", "0"),
     "atari100k": ("4", "0", "minimal", "108000", "30"),
     "dqn2015": ("4", "0", "minimal", "18000", "30"),
 }
+# end of evaluation presets
 _USUAL = {"noop_max": "0", "life_loss": "ignored", "life_loss_ends": "0"}  # of words that leave it out
 _BUDGETS = ("simulations", "frames")  # an agent's settings that bound its search for a decision
 

@@ -14,6 +14,7 @@ NEEDS = ("nothing", "admission", "game", "machines")
 TYPES = ("int", "seed", "real", "text", "flag", "ints", "texts", "hex", "base64", "rewards", "names")
 SEVERAL = ("fields", "actions", "lists", "settings", "texts")  # types of arguments of several words
 RETURNS = re.compile(r"first|groups|nothing|own|(list|ints) \w+")
+EVALUATION_SETTINGS = ("frame_skip", "sticky", "action_set", "max_episode_frames", "noop_max")
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 
 
@@ -120,6 +121,11 @@ class Setting(Row):
         return words if len(words) > 1 and not any(" " in word for word in words) else []
 
 
+def words_by_name(text):
+    """The values of words KEY=VALUE, by their keys."""
+    return dict(word.split("=") for word in text.split())
+
+
 @dataclasses.dataclass(frozen=True)
 class Preset(Row):
     name: str
@@ -127,6 +133,21 @@ class Preset(Row):
     sets: str
     since: str
     deprecated: str = ""
+
+    @property
+    def settings(self):
+        return words_by_name(self.sets)
+
+
+@dataclasses.dataclass(frozen=True)
+class EvaluationPreset:
+    name: str
+    sets: str
+    since: str
+
+    @property
+    def settings(self):
+        return words_by_name(self.sets)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -207,6 +228,7 @@ class Protocol:
     aliases: dict[str, str]
     settings: tuple[Setting, ...]
     presets: tuple[Preset, ...]
+    evaluation_presets: tuple[EvaluationPreset, ...]
     fields: tuple[Field, ...]
     old_fields: dict[str, str]
     encodings: tuple[Encoding, ...]
@@ -311,6 +333,11 @@ def check(protocol):
             not field.encoding or field.encoding in encodings,
             f"field {field.name}: unknown encoding {field.encoding!r}",
         )
+    for preset in protocol.evaluation_presets:
+        expect(
+            tuple(preset.settings) == EVALUATION_SETTINGS,
+            f"evaluation_preset {preset.name}: sets {preset.sets!r}; it sets {', '.join(EVALUATION_SETTINGS)}",
+        )
     for table in (protocol.commands, protocol.settings, protocol.presets, protocol.fields, protocol.encodings):
         names = [row.name for row in table]
         expect(
@@ -329,6 +356,7 @@ def read(path=SOURCE):
         aliases=document["aliases"],
         settings=tuple(settings.values()),
         presets=tuple(rows("preset", Preset, document)),
+        evaluation_presets=tuple(rows("evaluation_preset", EvaluationPreset, document)),
         fields=tuple(rows("field", Field, document)),
         old_fields=document["old_fields"],
         encodings=tuple(rows("encoding", Encoding, document)),

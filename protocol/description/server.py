@@ -88,6 +88,10 @@ struct Setting {
 struct Preset {
   std::string_view name, words, source;
 };
+
+struct EvaluationPreset {
+  std::string_view name, words;
+};
 """
 
 
@@ -121,6 +125,11 @@ def setting_tables(protocol):
                 "Preset",
                 "kPresets",
                 (braced(quoted(row.name), quoted(row.sets), quoted(row.summary_text)) for row in protocol.presets),
+            ),
+            array(
+                "EvaluationPreset",
+                "kEvaluationPresets",
+                (braced(quoted(row.name), quoted(row.sets)) for row in protocol.evaluation_presets),
             ),
             END,
         )

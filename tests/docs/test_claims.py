@@ -9,6 +9,7 @@ import sys
 import tempfile
 import unittest
 
+import tomllib
 from test_numbers import page, table
 from tree import ROOT
 
@@ -92,12 +93,14 @@ class Presets(unittest.TestCase):
 
     def test_the_page_on_experiments_has_the_presets_of_plans(self):
         rows = table(page("docs/experiments.md"), "| Preset | Frames of a decision |")
-        source = page("agents/experiment/plan_reader.cpp")
+        listed = {
+            preset["name"]: preset["sets"]
+            for preset in tomllib.loads(page("protocol/protocol.toml"))["evaluation_preset"]
+        }
+        self.assertEqual([name.strip("`") for name, *_ in rows], list(listed))
         for name, frames, sticky, actions, noops, longest, *_ in rows:
             words = f"frame_skip={frames} sticky={sticky} action_set={actions} max_episode_frames={longest}"
-            words = words.replace(",", "") + (f" noop_max={noops}" if noops != "0" else "")
-            listed = re.search(rf'PlanPreset{{"{name.strip("`")}",\s*"(.*)"', source)
-            self.assertEqual(listed[1], words)
+            self.assertEqual(listed[name.strip("`")], words.replace(",", "") + f" noop_max={noops}")
 
     def test_random_and_perturb_decide_on_every_frame_and_other_agents_as_the_preset_says(self):
         with tempfile.TemporaryDirectory() as folder:

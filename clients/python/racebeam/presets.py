@@ -19,13 +19,15 @@ class Preset(NamedTuple):
     reward_range: tuple[int, int] | None = None
 
 
+# generated: presets, from protocol/protocol.toml
 PRESETS = {
     "ale": Preset(),
-    "gym-v5": Preset(max_num_frames_per_episode=108000),
     "paper2013": Preset(5, 0.0, True, 18000),
     "dqn2015": Preset(4, 0.0, False, 18000, life_loss="restart", noop_max=30, reward_range=(-1, 1)),
     "machado2018": Preset(5, 0.25, True, 18000),
+    "gym-v5": Preset(4, 0.25, False, 108000),
 }
+# end of presets
 
 
 class VectorPreset(NamedTuple):
@@ -41,13 +43,25 @@ class VectorPreset(NamedTuple):
     reward_clipping: bool = True
 
 
-# Episodes begin as in ale_py, except where the literature says how they begin.
+def _as_published(preset: Preset) -> VectorPreset:
+    """The preset for `AtariVectorEnv`, with episodes that begin as in the literature.
+
+    Where the protocol's preset begins a new game at a lost life, a vector ends the episode and goes on with the game,
+    as the authors did.
+    """
+    return VectorPreset(
+        *preset[:4],  # type: ignore[arg-type]  # only "ale" may draw its frames from a range
+        noop_max=preset.noop_max,
+        use_fire_reset=False,
+        life_loss="end" if preset.life_loss == "restart" else preset.life_loss,
+        reward_clipping=preset.reward_range is not None,
+    )
+
+
 VECTOR_PRESETS = {
     "ale": VectorPreset(),
     "gym-v5": VectorPreset(repeat_action_probability=0.25),
-    "paper2013": VectorPreset(5, 0.0, True, 18000, 0, False, reward_clipping=False),
-    "dqn2015": VectorPreset(4, 0.0, False, 18000, 30, False, "end"),
-    "machado2018": VectorPreset(5, 0.25, True, 18000, 0, False, reward_clipping=False),
+    **{name: _as_published(PRESETS[name]) for name in ("paper2013", "dqn2015", "machado2018")},
 }
 
 

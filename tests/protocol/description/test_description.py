@@ -49,6 +49,25 @@ class Rows(unittest.TestCase):
         self.assertIn("| `shadow` | what was | delta |\n", files["protocol/PROTOCOL.md"])
         self.assertIn(".B shadow\nwhat was\n", files["protocol/racebeam-protocol.7"])
 
+    def test_a_preset_of_evaluation_reaches_those_who_read_plans_and_logs(self):
+        sets = "frame_skip=3 sticky=0.5 action_set=legal max_episode_frames=77 noop_max=0"
+        files = changed(f'[[evaluation_preset]]\nname = "brief"\nsets = "{sets}"\n')
+        self.assertEqual(
+            {
+                path: next(line.strip() for line in text.splitlines() if '"brief"' in line)
+                for path, text in files.items()
+            },
+            {
+                "environment/settings/setting_tables.hpp": f'{{"brief", "{sets}"}},',
+                "evaluation/racebeam_evaluation/plan.py": '"brief": ("3", "0.5", "legal", "77", "0"),',
+                "clients/python/racebeam/single/submission.py": '"brief": (3, 0.5, "legal", 77),',
+            },
+        )
+
+    def test_a_preset_of_evaluation_sets_what_decides_scores(self):
+        with self.assertRaisesRegex(ValueError, "evaluation_preset brief: sets 'sticky=0'; it sets frame_skip, sticky"):
+            changed('[[evaluation_preset]]\nname = "brief"\nsets = "sticky=0"\n')
+
     def test_a_command_has_a_method_in_every_client_and_completes_in_bash(self):
         files = changed(
             '[[command]]\nname = "rewind"\nneeds = "game"\nsummary = "go back"\nreturns = "first"\n'

@@ -21,7 +21,12 @@ COLUMNS = (
 PATIENCE = 5  # seconds, for the lock of the table
 # The presets of evaluation: frame_skip, sticky, action_set and max_episode_frames. Those with no-ops are missing, since
 # no-ops that an environment plays are not in a log.
-PRESETS = {"paper2013": (5, 0.0, "full", 18000), "machado2018": (5, 0.25, "full", 18000)}
+# generated: evaluation presets, from protocol/protocol.toml
+PRESETS = {
+    "paper2013": (5, 0.0, "full", 18000),
+    "machado2018": (5, 0.25, "full", 18000),
+}
+# end of evaluation presets
 
 
 class Submission:
