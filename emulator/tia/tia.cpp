@@ -149,6 +149,14 @@ void Tia::play(const std::uint32_t* next) {
   if (beam_.exact_spans()) beam_.draw_to(reached_);
 }
 
+// Plays the remaining writes of the cursor's line, and draws the line to its end.
+void Tia::play_rest(const std::uint32_t* next) {
+  beam_.enter_line(recorded_ != nullptr);
+  RegisterEffects(tia_, frame_, video_, LinePolicy{{beam_, reached_}}).play(played_, next, log_->base);
+  played_ = next;
+  beam_.finish_line();
+}
+
 // Plays writes that need no drawing.
 void Tia::skip(const std::uint32_t* next) {
   if (next == played_) return;
@@ -261,24 +269,25 @@ bool Tia::draw_line(std::uint32_t origin) {
     recorded_->open(tia_.registers());
     beam_.look_afresh();
   }
-  if (!record_writes(origin)) return false;
-  beam_.finish_line();
+  const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;
+  if (recorded_ == nullptr)
+    while (LineWrite(*next, origin).acts_here()) ++next;
+  if (!LineWrite(*next, origin).is_of_line())
+    play_rest(next);
+  else if (play(next); ends_early(next, origin))
+    beam_.finish_line();
+  else
+    return false;
   close_record();
   return true;
 }
 
-// Plays and records the writes of the cursor's line. Returns true if they are complete. Writes that act on
-// two lines, or are too many, are left, and the line is not recorded.
-bool Tia::record_writes(std::uint32_t origin) {
-  const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;
-  if (recorded_ == nullptr)
-    while (LineWrite(*next, origin).acts_here()) ++next;
-  play(next);
-  const LineWrite write(*next, origin);
-  if (!write.is_of_line()) return true;
+// Whether only late writes of the line are left. Otherwise writes that act on two lines, or are too many, are
+// left, and the line is not recorded.
+bool Tia::ends_early(const std::uint32_t* next, std::uint32_t origin) {
   // In Cosmic Ark mode, the end of a line has a further effect, and it matters whether that comes before a
   // late write.
-  if (write.is_late() && recorded_ != nullptr && tia_.cosmic == 0) return true;
+  if (LineWrite(*next, origin).is_late() && recorded_ != nullptr && tia_.cosmic == 0) return true;
   if (next != log_->next) recorded_ = nullptr;
   return false;
 }

@@ -46,6 +46,7 @@ class Tia {
   bool play_log(std::int32_t cycle, Collisions latches);
   bool follow_log();
   void play(const std::uint32_t* next);
+  void play_rest(const std::uint32_t* next);
   void skip(const std::uint32_t* next);
   const std::uint32_t* end_of_unseen() const;
   bool at_line() const;
@@ -55,7 +56,7 @@ class Tia {
   bool recall_lines(std::uint32_t& origin, Collisions latches);
   void play_recalled(const std::uint32_t* next, LineRecord& record);
   bool draw_line(std::uint32_t origin);
-  bool record_writes(std::uint32_t origin);
+  bool ends_early(const std::uint32_t* next, std::uint32_t origin);
   void close_record();
 
   TiaState& tia_;
