@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from .env import AtariEnv
     from .single.record_log import RecordLog
     from .vector_env import AtariVectorEnv
+    from .vector_options import VectorOptions
 
 __version__ = importlib.metadata.version("racebeam")
 
@@ -49,6 +50,7 @@ __all__ = [
     "Refused",
     "Session",
     "UnknownGame",
+    "VectorOptions",
     "connect",
     "find_image",
     "find_images",
@@ -58,7 +60,12 @@ __all__ = [
     "register_ale_ids",
 ]
 
-_NEED_GYMNASIUM = {"AtariEnv": ".env", "AtariVectorEnv": ".vector_env", "RecordLog": ".single.record_log"}
+_NEED_GYMNASIUM = {
+    "AtariEnv": ".env",
+    "AtariVectorEnv": ".vector_env",
+    "RecordLog": ".single.record_log",
+    "VectorOptions": ".vector_options",
+}
 _HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
 
 

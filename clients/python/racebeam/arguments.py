@@ -6,14 +6,17 @@ whose message names the argument, its value and what is accepted.
 
 from __future__ import annotations
 
+import difflib
 import enum
 import math
 import operator
 import os
+import sys
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, Literal, TypeVar
 
+import gymnasium
 from gymnasium import error
 
 from . import images
@@ -21,6 +24,7 @@ from . import images
 Member = TypeVar("Member", bound=enum.Enum)
 Word = TypeVar("Word", bound=str)
 MOST = 2**31 - 1
+LIBRARIES = tuple(os.path.dirname(os.path.abspath(file)) + os.sep for file in (__file__, gymnasium.__file__))
 
 
 class WrongType(error.Error, TypeError):
@@ -52,7 +56,7 @@ def renamed(old: str, old_value: Any, name: str, value: Any) -> Any:
         return value
     if value is not None:
         raise WrongValue(f"{old} is the old name of {name}; only one of them may be given")
-    warnings.warn(f"{old} is the old name of {name}", DeprecationWarning, stacklevel=3)
+    warn(f"{old} is the old name of {name}", DeprecationWarning)
     return old_value
 
 
@@ -320,7 +324,35 @@ def console_of(**settings: Any) -> dict[str, str]:
     return {key: str(value) for key, value in settings.items() if value is not None}
 
 
-def warn_of(sentences: list[str]) -> None:
-    """Warns the caller of an environment's constructor."""
-    for sentence in sentences:
-        warnings.warn(sentence, UserWarning, stacklevel=3)
+# Names and warnings
+
+
+def check_names(names: Iterable[str], known: Sequence[str], where: str) -> None:
+    """Checks the names of options.
+
+    Args:
+        names: The names.
+        known: Accepted names.
+        where: What lists the accepted names.
+
+    Raises:
+        WrongType: If a name is not one of `known`. The message suggests similar names.
+    """
+    for name in names:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, n=3)
+            hint = f"did you mean {' or '.join(near)}?" if near else f"{where} lists the options"
+            raise WrongType(f"unknown option {name!r}; {hint}")
+
+
+def warn(sentence: str, category: type[Warning] = UserWarning) -> None:
+    """Warns of a line of the program that uses this package, also through Gymnasium.
+
+    Args:
+        sentence: Text of the warning.
+        category: Class of the warning.
+    """
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(LIBRARIES):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(sentence, category, stacklevel=level)

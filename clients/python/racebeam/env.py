@@ -26,13 +26,14 @@ from .arguments import (
     share,
     sound_flag,
     value_or,
-    warn_of,
+    warn,
 )
 from .interface import ALEInterface
 from .presets import preset as preset_of
 from .single.actions import PlayerAction
 from .single.arguments import check_reward_range, check_rules, frameskip_of
 from .single.life_loss import LIFE_LOSSES, LifeLoss
+from .single.skipping import warn_of_second_skip
 from .single.view import VIEWS, EnvWithView, Observation, closed_error
 from .wire.remote import RemoteInterface
 
@@ -207,6 +208,7 @@ class AtariEnv(EnvWithView):
         self._sound = flag("sound", sound) and render_mode == "human"
         self._window = None
         self._is_closed = False
+        self._was_reset = False
         self._name = str(game)
         check_reward_range(self._reward_range)
         sticky = share(
@@ -238,7 +240,8 @@ class AtariEnv(EnvWithView):
         )
         self.seed_game()
         self.load_game()
-        warn_of(list(filter(None, [self.ale.image_warning()])))
+        if warning := self.ale.image_warning():
+            warn(warning)
         self._set_spaces(actions)
         self._open_window()
 
@@ -274,6 +277,8 @@ class AtariEnv(EnvWithView):
     ) -> tuple[Observation, AtariEnvStepMetadata]:
         """Begins an episode.
 
+        The first call warns if a wrapper skips frames that are skipped already.
+
         Args:
             seed: Seed with which the console is powered on anew. Default: continue the random generators.
             options: Ignored.
@@ -285,6 +290,9 @@ class AtariEnv(EnvWithView):
             gymnasium.error.Error: If `seed` is invalid.
         """
         self._check_open("reset()")
+        if not self._was_reset:
+            warn_of_second_skip(self, self._frameskip)
+            self._was_reset = True
         seeds = None
         if seed is not None:
             seeds = self.seed_game(seed)

@@ -10,34 +10,39 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 from gymnasium.vector import AutoresetMode
 from stable_baselines3.common import monitor, vec_env  # type: ignore[import-not-found,unused-ignore]
 
-from .arguments import WrongValue
-from .vector_env import AtariVectorEnv
+from .arguments import WrongType, WrongValue
+from .vector_env import AtariVectorEnv, VectorArguments
 from .vector_options import autoreset_of
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # a part of typing from Python 3.11 on
 
 __all__ = ["VecEnv"]
 
-DEFAULTS: dict[str, Any] = {"autoreset_mode": "SameStep", "start": "baselines", "life_loss": "end"}
+DEFAULTS: VectorArguments = {"autoreset_mode": "SameStep", "start": "baselines", "life_loss": "end"}
 
 
-def _check(settings: dict[str, Any]) -> None:
+def _check(arguments: VectorArguments) -> None:
     """Checks the arguments that AtariVectorEnv accepts and VecEnv does not."""
-    mode = settings.get("autoreset_mode", AutoresetMode.SAME_STEP)
+    if "options" in arguments:
+        raise WrongType("options are given; VecEnv takes them one by one, as keyword arguments")
+    mode = arguments.get("autoreset_mode", AutoresetMode.SAME_STEP)
     if autoreset_of(mode) is not AutoresetMode.SAME_STEP:
         raise WrongValue(f"autoreset_mode is {mode!r}; VecEnv takes SameStep")
-    if settings.get("life_loss") == "reported":
+    if arguments.get("life_loss") == "reported":
         raise WrongValue(
             "life_loss is 'reported', with which an episode goes on after a step that is done; VecEnv takes ignored, "
             "end, restart"
         )
-    if settings.get("batch_size"):
-        raise WrongValue(f"batch_size is {settings['batch_size']!r}; VecEnv takes 0, for all environments")
+    if arguments.get("batch_size"):
+        raise WrongValue(f"batch_size is {arguments['batch_size']!r}; VecEnv takes 0, for all environments")
 
 
 class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
@@ -57,9 +62,9 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
     Args:
         game: Name of a game, or one name for each environment.
         num_envs: Number of environments. Default: 1, or the number of names in `game`.
-        seed: Seed of the first environment, from which seeds count up. Default: random.
-        **settings: Arguments of `AtariVectorEnv`, except `batch_size`. `autoreset_mode` must be SAME_STEP, and
-            `life_loss` must not be "reported", since an episode ends where a step is done.
+        **arguments: Keyword arguments of `AtariVectorEnv` such as `seed`, except `batch_size` and `options`.
+            `autoreset_mode` must be SAME_STEP, and `life_loss` must not be "reported", since an episode ends where a
+            step is done.
 
     Raises:
         gymnasium.error.Error: If an argument is wrong; also a TypeError or a ValueError.
@@ -76,11 +81,12 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
     """
 
     def __init__(
-        self, game: str | Sequence[str], num_envs: int | None = None, *, seed: int | None = None, **settings: Any
+        self, game: str | Sequence[str], num_envs: int | None = None, **arguments: Unpack[VectorArguments]
     ) -> None:
-        _check(settings)
-        self._envs = AtariVectorEnv(game, num_envs, seed=seed, **{**DEFAULTS, **settings})
-        self._restarts = settings.get("life_loss") == "restart"  # each episode is a game
+        _check(arguments)
+        merged: VectorArguments = {**DEFAULTS, **arguments}
+        self._envs = AtariVectorEnv(game, num_envs, **merged)
+        self._restarts = merged.get("life_loss") == "restart"  # each episode is a game
         self._start_time = time.time()
         self._actions: Any = None
         count = self._envs.num_envs

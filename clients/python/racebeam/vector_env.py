@@ -3,40 +3,42 @@
 from __future__ import annotations
 
 import os
-import secrets
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, SupportsIndex
+from typing import TYPE_CHECKING, Any
 
 from . import images, xla
-from .arguments import (
-    WrongValue,
-    check_source,
-    console_of,
-    image,
-    path_of,
-    real,
-    renamed,
-    seconds,
-    value_or,
-    warn_of,
-)
+from .arguments import WrongType, WrongValue, check_source, image, path_of, seconds, value_or, warn
 from .errors import InvalidInput
-from .presets import vector_preset
-from .vector.autoreset import AutoresetMode, check_supported
+from .vector.autoreset import check_supported
 from .vector.logs import VectorLogs
+from .vector.machines import Machines
 from .vector.making import Rom, make_local_machines, make_remote_machines, parse_games
 from .vector.play import PlayedVector
-from .vector_options import VectorOptions, life_loss_of, merge_life_flags
+from .vector_options import OptionArguments, VectorOptions
 
-__all__ = ["AtariVectorEnv"]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # a part of typing from Python 3.11 on
+
+__all__ = ["AtariVectorEnv", "VectorArguments"]
+
+
+class VectorArguments(OptionArguments, total=False):
+    """The keyword arguments of `AtariVectorEnv` except `options`, for functions that hand them on."""
+
+    preset: str | None
+    rom: Rom | None
+    game_file: str | os.PathLike[str] | None
+    server: str | Sequence[str] | None
+    token: str | None
+    timeout: float | None
+    log: dict[str, Any] | None
 
 
 class AtariVectorEnv(PlayedVector):
     """A vector of environments of one or several games, stepped on threads or on servers.
 
-    With default arguments, it returns what ale_py's AtariVectorEnv returns, byte for byte. Arguments of None take the
-    value of `preset`. Calls from two threads take turns. All returned arrays belong to the caller, and later calls
-    leave them unchanged.
+    With default arguments, it returns what ale_py's AtariVectorEnv returns, byte for byte. Calls from two threads take
+    turns. All returned arrays belong to the caller, and later calls leave them unchanged.
 
     Rewards are int32. In the shapes below, n is `batch_size`. `info` has these arrays of shape (n,):
 
@@ -53,44 +55,63 @@ class AtariVectorEnv(PlayedVector):
     Args:
         game: Name of a game, or one name for each environment. Several games must have the same number of actions,
             which `full_action_space=True` ensures.
-        num_envs: Number of environments. Default: 1, or the number of names in `game`.
-        batch_size: Number of environments that `recv` waits for; 0 for all.
-        num_threads: Number of threads; 0 for one per processor that the process may use.
+        num_envs: Number of environments. Default: that of `options`, or the number of names in `game`, or 1.
+        options: Options that are the defaults of the keyword arguments below.
+        preset: Name of a preset of `racebeam.presets`, which supplies the defaults that are said to be its own.
+            Default: "ale". Excludes `options`.
+        rom: Path or bytes of the cartridge image. Default: the image that `racebeam.find_image` finds.
+        game_file: Path of a game file with the rules of `rom`, instead of `game`. Without both, the image decides; an
+            unknown one has no score.
+        server: Address of the server that runs the environments, or a list of addresses to spread them over. Needs one
+            game, and `batch_size` equal to `num_envs`.
+        token: Token that the server asks for.
+        timeout: Seconds to wait for each reply of the server. Default: no limit.
+        log: A dict with "folder", and with other arguments of `RecordLog` except `env` and `phrase`. `step` then writes
+            a log of each game into this new folder, a submission. Environment i plays the trial `trial` + i. Each game
+            begins at power-on, with another seed. Needs NEXT_STEP or DISABLED, `noop_max=0`, `use_fire_reset=False`,
+            and another `life_loss` than "end". Excludes `server`, `send` and `xla`.
+        **arguments: The options below. `help(racebeam.vector_options.OptionArguments)` lists their types.
+
+    Keyword Args:
+        batch_size: Number of environments that `recv` waits for. Default: 0, for all.
+        num_threads: Number of threads. Default: 0, for one per processor that the process may use.
         thread_affinity_offset: Index into the processors that the process may use. Threads are bound to this one and
-            those after it; -1 does not bind them.
-        max_num_frames_per_episode: Frames after which an episode is truncated; 0 for no limit.
-        repeat_action_probability: Probability that a frame repeats the previous action.
+            those after it. Default: -1, which does not bind them.
+        max_num_frames_per_episode: Frames after which an episode is truncated; 0 for no limit. Default: the preset's,
+            108000 with "ale".
+        repeat_action_probability: Probability that a frame repeats the previous action. Default: the preset's, 0 with
+            "ale".
         full_action_space: Whether actions are all 18 legal ones, or only those that have an effect in the game.
-            "console" adds those of `ConsoleAction`, which press or move a switch of the console.
-        continuous: Whether actions are float32 (radius, angle, fire) instead of indices.
-        continuous_action_threshold: Deflection from which a direction or the button counts as pressed.
-        autoreset_mode: NEXT_STEP, SAME_STEP or DISABLED of Gymnasium's AutoresetMode, or its name or value.
-        img_height: Rows of an observation: 9 to twice those of the game's screen, or 0 for its own rows.
-        img_width: Columns of an observation: 1 to 320, or 0 for the 160 of the screen.
-        grayscale: Whether observations are shades of grey. If False, they have a last axis of 3 colours.
-        stack_num: Screens in an observation, 1 to 16, oldest first.
-        frameskip: Frames per step, 1 to 1000. A step stops early if the episode ends.
-        maxpool: Whether a screen is the pixelwise maximum of the last two frames of a step.
-        noop_max: Upper limit of the random number of NOOP frames that begin an episode: 0 to `noop_max` - 1.
-        episodic_life: Same as `life_loss="restart"`; for compatibility with ale_py.
-        life_loss_info: Same as `life_loss="reported"`; for compatibility with ale_py.
-        reward_clipping: Whether rewards are clipped to [-1, 1].
-        use_fire_reset: Whether an episode begins with FIRE, if the game has this action.
-        preset: Name of a preset of `racebeam.presets`, which supplies the arguments that are None.
-        mode: Mode of the game, or None for its default.
-        difficulty: Difficulty of the game, or None for its default.
+            "console" adds those of `ConsoleAction`, which press or move a switch of the console. Default: the
+            preset's, False with "ale".
+        continuous: Whether actions are float32 (radius, angle, fire) instead of indices. Default: False.
+        continuous_action_threshold: Deflection from which a direction or the button counts as pressed. Default: 0.5.
+        autoreset_mode: NEXT_STEP, SAME_STEP or DISABLED of Gymnasium's AutoresetMode, or its name or value. Default:
+            NEXT_STEP.
+        img_height: Rows of an observation: 9 to twice those of the game's screen, or 0 for its own rows. Default: 84.
+        img_width: Columns of an observation: 1 to 320, or 0 for the 160 of the screen. Default: 84.
+        grayscale: Whether observations are shades of grey. If False, they have a last axis of 3 colours. Default: True.
+        stack_num: Screens in an observation, 1 to 16, oldest first. Default: 4.
+        frameskip: Frames per step, 1 to 1000. A step stops early if the episode ends. Default: the preset's, 4 with
+            "ale".
+        maxpool: Whether a screen is the pixelwise maximum of the last two frames of a step. Default: True.
+        noop_max: Upper limit of the random number of NOOP frames that begin an episode: 0 to `noop_max` - 1. Default:
+            the preset's, 30 with "ale".
+        reward_clipping: Whether rewards are clipped to [-1, 1]. Default: the preset's, True with "ale".
+        use_fire_reset: Whether an episode begins with FIRE, if the game has this action. Default: the preset's, True
+            with "ale".
+        mode: Mode of the game. Default: that of the game.
+        difficulty: Difficulty of the game. Default: that of the game.
         obs_type: "rgb" or "grayscale" for screens of full size, or "ram" for the 128 bytes of RAM. Default: screens of
             `img_height` x `img_width`.
         life_loss: Effect of a lost life. "ignored": none. "reported": the step is terminated, and the episode goes on.
             "end": the episode ends, and the next one continues the game, as in DQN. "restart": the episode ends, and
-            the next one is a new game.
+            the next one is a new game. Default: the preset's, "ignored" with "ale".
         start: How an episode begins: "fire-noops" as in ale_py, "noops-fire" as in EnvPool, or "baselines" as in
-            Stable-Baselines3.
-        stack_start: Whether the first stack of an episode has "zeros", or "repeats" of its first screen.
-        rules: "ale-0.12" for the rewards and ends of ALE 0.12, or "fixed" for corrected ones.
-        rom: Path or bytes of the cartridge image. Default: the image that `racebeam.find_image` finds.
-        game_file: Path of a game file with the rules of `rom`, instead of `game`. Without both, the image decides; an
-            unknown one has no score.
+            Stable-Baselines3. Default: "fire-noops".
+        stack_start: Whether the first stack of an episode has "zeros", or "repeats" of its first screen. Default:
+            "zeros".
+        rules: "ale-0.12" for the rewards and ends of ALE 0.12, or "fixed" for corrected ones. Default: "ale-0.12".
         scheme: Cartridge scheme of the images, such as "F8", or "auto". Default: those of the games.
         left: Controller in the left port, "joystick" or "paddles". Default: that of the game.
         right: Controller in the right port, "joystick" or "paddles". Default: that of the game.
@@ -99,18 +120,13 @@ class AtariVectorEnv(PlayedVector):
         height: Lines of the picture, 100 to 256. Default: that of the game.
         seed: Seed of the first environment, from which seeds count up. The first `reset` uses it. Default: random.
         render_mode: "rgb_array" makes `render` return the screens. "human" opens a window, which shows the first 16
-            environments at 60 frames per second.
+            environments at 60 frames per second. Default: None.
         sound_obs: Whether an observation is a dict of "image" and "sound", the 512 samples of the last frame, or with
             "all" those of each frame of the step; frames that it did not run are silent. A server does not play it.
-        server: Address of the server that runs the environments, or a list of addresses to spread them over. Needs one
-            game, and `batch_size` equal to `num_envs`.
-        token: Token that the server asks for.
-        timeout: Seconds to wait for each reply of the server. Default: no limit.
+            Default: False.
+        episodic_life: Same as `life_loss="restart"`; for compatibility with ale_py.
+        life_loss_info: Same as `life_loss="reported"`; for compatibility with ale_py.
         lives: Old name of `life_loss`.
-        log: A dict with "folder", and with other arguments of `RecordLog` except `env` and `phrase`. `step` then writes
-            a log of each game into this new folder, a submission. Environment i plays the trial `trial` + i. Each game
-            begins at power-on, with a seed of its own. Needs NEXT_STEP or DISABLED, `noop_max=0`,
-            `use_fire_reset=False`, and another `life_loss` than "end". Excludes `server`, `send` and `xla`.
 
     Raises:
         gymnasium.error.Error: If an argument is wrong; also a TypeError or a ValueError.
@@ -150,103 +166,36 @@ class AtariVectorEnv(PlayedVector):
         game: str | Sequence[str] | None = None,
         num_envs: int | None = None,
         *,
-        batch_size: int = 0,
-        num_threads: int = 0,
-        thread_affinity_offset: int = -1,
-        max_num_frames_per_episode: int | None = None,
-        repeat_action_probability: float | None = None,
-        full_action_space: bool | Literal["console"] | None = None,
-        continuous: bool = False,
-        continuous_action_threshold: float = 0.5,
-        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
-        img_height: int = 84,
-        img_width: int = 84,
-        grayscale: bool = True,
-        stack_num: int = 4,
-        frameskip: int | None = None,
-        maxpool: bool = True,
-        noop_max: int | None = None,
-        episodic_life: bool = False,
-        life_loss_info: bool = False,
-        reward_clipping: bool | None = None,
-        use_fire_reset: bool | None = None,
-        preset: str = "ale",
-        mode: int | None = None,
-        difficulty: int | None = None,
-        obs_type: Literal["rgb", "grayscale", "ram"] | None = None,
-        life_loss: str | None = None,
-        start: str = "fire-noops",
-        stack_start: str = "zeros",
-        rules: str = "ale-0.12",
+        options: VectorOptions | None = None,
+        preset: str | None = None,
         rom: Rom | None = None,
         game_file: str | os.PathLike[str] | None = None,
-        scheme: str | None = None,
-        left: str | None = None,
-        right: str | None = None,
-        format: str | None = None,
-        ystart: int | None = None,
-        height: int | None = None,
-        seed: SupportsIndex | None = None,
-        render_mode: Literal["human", "rgb_array"] | None = None,
-        sound_obs: bool | Literal["all"] = False,
         server: str | Sequence[str] | None = None,
         token: str | None = None,
         timeout: float | None = None,
-        lives: str | None = None,
         log: dict[str, Any] | None = None,
+        **arguments: Unpack[OptionArguments],
     ) -> None:
         check_supported("AtariVectorEnv")
         rom, own_file = image(rom), path_of(game_file)
         check_source(game, rom, own_file, server)
+        if isinstance(options, VectorOptions) and (game is None or isinstance(game, str)):
+            num_envs = value_or(num_envs, options.num_envs)
         names, game_of_env = parse_games(game, num_envs, self._check_game, server is None)
-        console = console_of(scheme=scheme, left=left, right=right, format=format, ystart=ystart, height=height)
-        defaults = vector_preset(preset)
-        options = VectorOptions(
-            num_envs=len(game_of_env),
-            batch_size=batch_size,
-            num_threads=num_threads,
-            thread_affinity_offset=thread_affinity_offset,
-            max_num_frames_per_episode=value_or(max_num_frames_per_episode, defaults.max_num_frames_per_episode),
-            repeat_action_probability=value_or(repeat_action_probability, defaults.repeat_action_probability),
-            full_action_space=value_or(full_action_space, defaults.full_action_space),
-            continuous=continuous,
-            autoreset_mode=autoreset_mode,
-            img_height=img_height,
-            img_width=img_width,
-            grayscale=grayscale,
-            stack_num=stack_num,
-            frameskip=value_or(frameskip, defaults.frameskip),
-            maxpool=maxpool,
-            noop_max=value_or(noop_max, defaults.noop_max),
-            reward_clipping=value_or(reward_clipping, defaults.reward_clipping),
-            use_fire_reset=value_or(use_fire_reset, defaults.use_fire_reset),
-            mode=mode,
-            difficulty=difficulty,
-            obs_type=obs_type,
-            life_loss=value_or(
-                merge_life_flags(
-                    renamed("lives", life_loss_of(lives), "life_loss", life_loss), episodic_life, life_loss_info
-                ),
-                defaults.life_loss,
-            ),
-            start=start,
-            stack_start=stack_start,
-            rules=rules,
-            render_mode=render_mode,
-            sound_obs=sound_obs,
-            seed=value_or(seed, secrets.randbits(32)),
-        )
-        self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
+        is_seeded = options is not None or arguments.get("seed") is not None
+        options = _merge(options, preset, len(game_of_env), arguments)
+        machines: Machines
         if server is None:
-            machines = make_local_machines(names, game_of_env, rom, options, own_file, console)
-        elif unplayed := [*console, *(["sound_obs"] if options.sound_obs else [])]:
+            machines = make_local_machines(names, game_of_env, rom, options, own_file)
+        elif unplayed := [*options.console(), *(["sound_obs"] if options.sound_obs else [])]:
             raise WrongValue(f"{' and '.join(unplayed)} cannot be given with server; AtariEnv takes both")
         else:
             machines = make_remote_machines(names, rom, options, server, token, seconds("timeout", timeout))
-        warn_of(machines.image_warnings())
-        self._use(machines, names, game_of_env, options, None if seed is None else options.seed)
+        for warning in machines.image_warnings():
+            warn(warning)
+        self._use(machines, names, game_of_env, options, options.seed if is_seeded else None)
         if log is not None:
-            if own := [*console, *(["game_file"] if own_file else []), *(["server"] if server else [])]:
+            if own := [*options.console(), *(["game_file"] if own_file else []), *(["server"] if server else [])]:
                 raise WrongValue(f"{' and '.join(own)} cannot be given with log")
             self._logs = VectorLogs(log, options, [names[game] for game in game_of_env], rom, machines)
 
@@ -273,3 +222,16 @@ class AtariVectorEnv(PlayedVector):
         functions = xla.functions(self, self._xla_infos)
         self._first_seed = None
         return functions
+
+
+def _merge(
+    options: VectorOptions | None, preset: str | None, num_envs: int, arguments: OptionArguments
+) -> VectorOptions:
+    """Merges the two forms in which options are given: an object, and keyword arguments."""
+    if options is None:
+        return VectorOptions.of_preset(value_or(preset, "ale"), num_envs, **arguments)
+    if not isinstance(options, VectorOptions):
+        raise WrongType(f"options are {options!r}; they must be VectorOptions")
+    if preset is not None:
+        raise WrongValue(f"preset is {preset!r} and options are given; VectorOptions.of_preset() takes a preset")
+    return options.with_changes(num_envs, **arguments)

@@ -1,10 +1,10 @@
-"""The checked options of a vector of environments."""
+"""The options of a vector of environments: as keyword arguments, and as an object that has checked them."""
 
 from __future__ import annotations
 
 import dataclasses
 import secrets
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, SupportsIndex, TypedDict
 
 from . import _core
 from .arguments import (
@@ -13,17 +13,25 @@ from .arguments import (
     WrongValue,
     action_space,
     check_choice,
+    check_names,
+    console_of,
     flag,
     integer,
     join,
     member,
     optional_integer,
+    real,
+    renamed,
     share,
     sound_flag,
 )
+from .presets import VectorPreset, vector_preset
 from .vector.autoreset import AutoresetMode
 
-__all__ = ["SEEDS", "VectorOptions", "autoreset_of", "life_loss_of", "merge_life_flags"]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # a part of typing from Python 3.11 on
+
+__all__ = ["SEEDS", "OptionArguments", "VectorOptions", "autoreset_of"]
 
 OBS_TYPES = (None, "rgb", "grayscale", "ram")
 RENDER_MODES = (None, "human", "rgb_array")
@@ -44,14 +52,10 @@ INTEGERS = {
     "img_height": (0, 1000),
     "seed": SEEDS,
 }
-FLAGS = (
-    "continuous",
-    "reward_clipping",
-    "maxpool",
-    "use_fire_reset",
-    "grayscale",
-)
+FLAGS = ("continuous", "reward_clipping", "maxpool", "use_fire_reset", "grayscale")
+NONE_IS_DEFAULT = (*VectorPreset._fields, "seed")
 WORDS = {"life_loss": _core.LifeLoss, "start": _core.ResetOrder, "stack_start": _core.StackStart}
+CONSOLE = ("scheme", "left", "right", "format", "ystart", "height")
 CHOICES = {"obs_type": OBS_TYPES, "render_mode": RENDER_MODES, "rules": tuple(RULES)}
 
 
@@ -76,18 +80,71 @@ def autoreset_of(mode: object) -> AutoresetMode:
     )
 
 
-def life_loss_of(lives: object) -> Any:
-    """Returns the value of `life_loss` for a value of `lives`, its old name, which had another word for "reported"."""
-    return "reported" if isinstance(lives, str) and lives == "told" else lives
+class OptionArguments(TypedDict, total=False):
+    """The options as keyword arguments, which `AtariVectorEnv` documents.
+
+    Where None is accepted, it stands for the default.
+    """
+
+    batch_size: int
+    num_threads: int
+    thread_affinity_offset: int
+    max_num_frames_per_episode: int | None
+    repeat_action_probability: float | None
+    full_action_space: bool | Literal["console"] | None
+    continuous: bool
+    continuous_action_threshold: float
+    autoreset_mode: AutoresetMode | str
+    img_height: int
+    img_width: int
+    grayscale: bool
+    stack_num: int
+    frameskip: int | None
+    maxpool: bool
+    noop_max: int | None
+    reward_clipping: bool | None
+    use_fire_reset: bool | None
+    mode: int | None
+    difficulty: int | None
+    obs_type: Literal["rgb", "grayscale", "ram"] | None
+    life_loss: str | None
+    start: str
+    stack_start: str
+    rules: str
+    scheme: str | None
+    left: str | None
+    right: str | None
+    format: str | None
+    ystart: int | None
+    height: int | None
+    seed: SupportsIndex | None
+    render_mode: Literal["human", "rgb_array"] | None
+    sound_obs: bool | Literal["all"]
+    episodic_life: bool
+    life_loss_info: bool
+    lives: str | None
 
 
-def merge_life_flags(life_loss: str | None, episodic_life: object, life_loss_info: object) -> str | None:
+def _resolve(arguments: OptionArguments) -> dict[str, Any]:
+    """Converts keyword arguments to fields of `VectorOptions`, and merges those that say the same."""
+    check_names(arguments, tuple(OptionArguments.__annotations__), "help(racebeam.AtariVectorEnv)")
+    fields: dict[str, Any] = dict(arguments)
+    lives = fields.pop("lives", None)
+    if isinstance(lives, str) and lives == "told":
+        lives = "reported"
+    life_loss = renamed("lives", lives, "life_loss", fields.pop("life_loss", None))
+    flags = {name: fields.pop(name, False) for name in ("life_loss_info", "episodic_life")}
+    fields["life_loss"] = _merge_life_flags(life_loss, **flags)
+    return {name: value for name, value in fields.items() if value is not None or name not in NONE_IS_DEFAULT}
+
+
+def _merge_life_flags(life_loss: str | None, life_loss_info: object, episodic_life: object) -> str | None:
     """Merges ale_py's two flags of life loss into `life_loss`.
 
     Args:
-        life_loss: The argument `life_loss` of `AtariVectorEnv`.
-        episodic_life: The flag that means life_loss="restart".
+        life_loss: The argument `life_loss`.
         life_loss_info: The flag that means life_loss="reported".
+        episodic_life: The flag that means life_loss="restart". It takes precedence, as in ale_py.
 
     Returns:
         The word for `life_loss`, or None if none of the three arguments was given.
@@ -98,10 +155,8 @@ def merge_life_flags(life_loss: str | None, episodic_life: object, life_loss_inf
     if life_loss is not None:
         member("life_loss", life_loss, _core.LifeLoss)
     merged = life_loss
-    for name, value, word in (
-        ("life_loss_info", life_loss_info, "reported"),
-        ("episodic_life", episodic_life, "restart"),  # takes precedence, as in ale_py
-    ):
+    flags = (("life_loss_info", life_loss_info, "reported"), ("episodic_life", episodic_life, "restart"))
+    for name, value, word in flags:
         if not flag(name, value):
             continue
         if life_loss not in (None, word):
@@ -114,11 +169,11 @@ def merge_life_flags(life_loss: str | None, episodic_life: object, life_loss_inf
 class VectorOptions:
     """Options of a vector of environments, checked when the object is made.
 
-    `AtariVectorEnv` documents the options. It merges the arguments that say the same: `life_loss` stands for
-    `episodic_life` and `life_loss_info`, and the values of the preset are filled in. `dataclasses.replace` copies
-    options with changes.
+    `AtariVectorEnv` documents the options, and takes such an object as `options`. It cannot be changed;
+    `dataclasses.replace` copies it with changes.
 
     Attributes:
+        num_envs: Number of environments.
         rows: Number of rows of the screen that observations show, from the top; 0 for all.
 
     Raises:
@@ -126,11 +181,14 @@ class VectorOptions:
         WrongValue: If the value of an option is not accepted.
 
     Example:
-        >>> from racebeam.vector_options import VectorOptions
-        >>> options = VectorOptions(num_envs=8, life_loss="end", autoreset_mode="SameStep", seed=7)
-        >>> options.core_settings().lives
-        LifeLoss.END
-        >>> VectorOptions(frameskip=0)
+        >>> import racebeam
+        >>> options = racebeam.VectorOptions.of_preset("machado2018", num_envs=8, obs_type="ram", seed=7)
+        >>> options.frameskip, options.repeat_action_probability
+        (5, 0.25)
+        >>> envs = racebeam.AtariVectorEnv("beamfall", options=options)
+        >>> envs.num_envs, envs.single_observation_space.shape
+        (8, (128,))
+        >>> racebeam.VectorOptions(frameskip=0)
         Traceback (most recent call last):
         racebeam.arguments.WrongValue: frameskip is 0; it takes 1 to 1000
     """
@@ -143,6 +201,7 @@ class VectorOptions:
     repeat_action_probability: float = 0.0
     full_action_space: bool | str = False
     continuous: bool = False
+    continuous_action_threshold: float = 0.5
     autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP
     img_height: int = 84
     img_width: int = 84
@@ -160,6 +219,12 @@ class VectorOptions:
     start: str = "fire-noops"
     stack_start: str = "zeros"
     rules: str = "ale-0.12"
+    scheme: str | None = None
+    left: str | None = None
+    right: str | None = None
+    format: str | None = None
+    ystart: int | None = None
+    height: int | None = None
     seed: int = dataclasses.field(default_factory=lambda: secrets.randbits(32))
     render_mode: str | None = None
     sound_obs: bool | Literal["all"] = False
@@ -183,11 +248,48 @@ class VectorOptions:
         for name, choices in CHOICES.items():
             check_choice(name, getattr(self, name), choices)
         self._set("repeat_action_probability", share("repeat_action_probability", self.repeat_action_probability))
+        self._set("continuous_action_threshold", real("continuous_action_threshold", self.continuous_action_threshold))
         self._set("batch_size", integer("batch_size", self.batch_size, 0, self.num_envs) or self.num_envs)
         self._set("autoreset_mode", autoreset_of(self.autoreset_mode))
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)
+
+    @classmethod
+    def of_preset(cls, preset: str = "ale", num_envs: int = 1, **arguments: Unpack[OptionArguments]) -> VectorOptions:
+        """Makes options whose defaults are those of a preset.
+
+        Args:
+            preset: Name of a preset of `racebeam.presets`.
+            num_envs: Number of environments.
+            **arguments: Options that differ from the preset, as keyword arguments of `AtariVectorEnv`.
+
+        Returns:
+            The options.
+
+        Raises:
+            InvalidInput: If the preset is unknown.
+            WrongType: If an option is unknown, or has a wrong type.
+            WrongValue: If the value of an option is not accepted.
+        """
+        return cls(num_envs=num_envs, **{**vector_preset(preset)._asdict(), **_resolve(arguments)})
+
+    def with_changes(self, num_envs: int, **arguments: Unpack[OptionArguments]) -> VectorOptions:
+        """Copies the options with changes.
+
+        Args:
+            num_envs: Number of environments.
+            **arguments: Options that change, as keyword arguments of `AtariVectorEnv`.
+
+        Returns:
+            The options. If `batch_size` was all environments, it still is.
+
+        Raises:
+            WrongType: If an option is unknown, or has a wrong type.
+            WrongValue: If the value of an option is not accepted.
+        """
+        batch_size = 0 if self.is_sync else self.batch_size
+        return dataclasses.replace(self, num_envs=num_envs, **{"batch_size": batch_size, **_resolve(arguments)})
 
     @property
     def is_sync(self) -> bool:
@@ -203,6 +305,10 @@ class VectorOptions:
     def is_rgb(self) -> bool:
         """Whether observations are screens in colour."""
         return self.obs_type == "rgb" if self.obs_type else not self.grayscale
+
+    def console(self) -> dict[str, str]:
+        """Returns the settings of the console that are given, as texts."""
+        return console_of(**{name: getattr(self, name) for name in CONSOLE})
 
     def core_settings(self) -> _core.VectorSettings:
         """Converts the options to the settings of `_core.VectorMachines`."""

@@ -42,6 +42,35 @@ class Registration(unittest.TestCase):
             gym.wrappers.AtariPreprocessing(env).reset(seed=1)
             self.assertRaises(ValueError, gym.wrappers.AtariPreprocessing, gym.make("racebeam/Beamfall-v5"))
 
+    def warnings_of(self, env):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            env.reset(seed=1)
+            env.reset()
+        return [(str(one.message), one.filename) for one in caught if "skip frames" in str(one.message)]
+
+    def test_frames_that_are_skipped_twice_are_warned_of_once(self):
+        every_frame, skip = "racebeam/BeamfallNoFrameskip-v4", gym.wrappers.MaxAndSkipObservation
+        for env, sentence in (
+            (skip(gym.make("racebeam/Beamfall-v5"), 4), "4 x 4 = 16 frames, since AtariEnv and MaxAndSkipObservation"),
+            (skip(skip(gym.make(every_frame), 2), 3), "2 x 3 = 6 frames, since MaxAndSkipObservation and MaxAndSkip"),
+            (skip(racebeam.AtariEnv("beamfall", frameskip=(2, 5)), 2), "4 x 2 = 8 frames"),
+        ):
+            with self.subTest(sentence=sentence):
+                [(message, file)] = self.warnings_of(env)
+                self.assertIn(sentence, message)
+                self.assertEqual(file, __file__)
+        self.assertEqual(self.warnings_of(skip(gym.make(every_frame), 4)), [])
+        self.assertEqual(self.warnings_of(gym.make("racebeam/Beamfall-v5")), [])
+
+    @unittest.skipUnless(importlib.util.find_spec("cv2"), "AtariPreprocessing needs OpenCV")
+    def test_AtariPreprocessing_that_skips_twice_is_warned_of(self):
+        every_frame, wrap = gym.make("racebeam/BeamfallNoFrameskip-v4"), gym.wrappers.AtariPreprocessing
+        self.assertEqual(self.warnings_of(wrap(every_frame, screen_size=84)), [])
+        twice = wrap(gym.wrappers.MaxAndSkipObservation(gym.make("racebeam/BeamfallNoFrameskip-v4"), 4))
+        [(message, _)] = self.warnings_of(twice)
+        self.assertIn("4 x 4 = 16 frames, since MaxAndSkipObservation and AtariPreprocessing", message)
+
     def test_a_spawned_process_makes_an_id_that_names_the_module(self):
         script = (
             "import gymnasium as gym, sys\n"

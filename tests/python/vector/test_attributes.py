@@ -3,6 +3,7 @@
 import dataclasses
 import inspect
 import os
+import re
 import sys
 import unittest
 
@@ -18,7 +19,7 @@ from gymnasium.error import Error
 from gymnasium.vector import AutoresetMode
 from gymnasium.wrappers.vector import DictInfoToList, RecordEpisodeStatistics
 from racebeam import AtariVectorEnv
-from racebeam.vector_options import VectorOptions
+from racebeam.vector_options import OptionArguments, VectorOptions
 from vectors import SHORT, play, same
 
 GYMNASIUM = tuple(map(int, gymnasium.__version__.split(".")[:3]))
@@ -68,8 +69,39 @@ class Options(unittest.TestCase):
         self.assertRaisesRegex(Error, "batch_size is 5", dataclasses.replace, options, batch_size=5)
 
     def test_the_constructor_takes_each_of_them(self):
-        arguments = set(inspect.signature(AtariVectorEnv).parameters)
-        self.assertEqual({field.name for field in dataclasses.fields(VectorOptions)} - arguments, {"rows"})
+        fields, arguments = (
+            {field.name for field in dataclasses.fields(VectorOptions)},
+            set(OptionArguments.__annotations__),
+        )
+        self.assertEqual(fields - arguments, {"num_envs", "rows"})
+        self.assertEqual(arguments - fields, {"episodic_life", "life_loss_info", "lives"})
+
+    def test_help_names_each_of_them_and_its_default(self):
+        documented = dict(
+            re.findall(r"(?ms)^ {8}(\w+): (.*?)(?=^ {8}\w|^$)", inspect.getdoc(AtariVectorEnv).replace("\n", "\n    "))
+        )
+        for field in dataclasses.fields(VectorOptions):
+            if field.name not in ("num_envs", "rows"):
+                with self.subTest(option=field.name):
+                    self.assertIn("Default:", documented[field.name])
+
+    def test_an_object_has_the_options_of_several_vectors(self):
+        options = VectorOptions.of_preset("machado2018", num_envs=3, obs_type="ram", seed=7)
+        envs, others = (
+            AtariVectorEnv("beamfall", options=options),
+            AtariVectorEnv("updraft", 5, options=options, seed=8),
+        )
+        same_by_words = AtariVectorEnv("beamfall", 3, preset="machado2018", obs_type="ram", seed=7)
+        self.assertTrue(same(play(envs, 20), play(same_by_words, 20)))
+        self.assertEqual((envs.num_envs, envs.batch_size, others.num_envs, others.batch_size), (3, 3, 5, 5))
+        self.assertEqual(
+            others.reset()[0].tolist(), AtariVectorEnv("updraft", 5, options=options).reset(seed=8)[0].tolist()
+        )
+
+    def test_a_batch_of_some_environments_stays_one(self):
+        options = VectorOptions(num_envs=4, batch_size=2)
+        self.assertEqual(AtariVectorEnv("beamfall", options=options).batch_size, 2)
+        self.assertRaisesRegex(Error, "batch_size is 2", AtariVectorEnv, "beamfall", 1, options=options)
 
     def test_the_core_has_what_they_say(self):
         core = VectorOptions(

@@ -64,6 +64,7 @@ class VectorBase(VectorEnv[Any, Any, Any]):
         self.render_mode = options.render_mode
         self.grayscale: bool = not options.is_rgb
         self.continuous = options.continuous
+        self.continuous_action_threshold = options.continuous_action_threshold
         self.sound_obs = options.sound_obs
         self._shows_ram = options.obs_type == "ram"
         self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP

@@ -142,5 +142,7 @@ class VectorOfEach(VectorBase):
             InvalidInput: If the state belongs to another game, or its observations have another shape.
         """
         self._check_open()
+        if not isinstance(state, _core.SavedMachine):
+            raise TypeError(f"the state has the type {type(state).__name__}; it takes what save() returned")
         self._machines.restore(operator.index(env), state)
         self._first_seed = None

@@ -63,7 +63,6 @@ def make_local_machines(
     rom: Rom | None,
     options: VectorOptions,
     game_file: str | None = None,
-    console: dict[str, str] | None = None,
 ) -> Machines:
     """Makes the machines of a vector in this process.
 
@@ -73,7 +72,6 @@ def make_local_machines(
         rom: Path or bytes of the image, or None to find the images.
         options: Options of the environments.
         game_file: Path of a game file, or None.
-        console: What the console must know of the images, as texts.
 
     Returns:
         The machines.
@@ -85,7 +83,7 @@ def make_local_machines(
     if len(names) > 1 and rom is not None:
         raise WrongValue(f"there are {len(names)} games; rom and server take one")
     found = [(images.find(str(name)) if rom is None else rom, name) for name in names]
-    return _core.VectorMachines(found, game_of_env, options.core_settings(), game_file, console or {})
+    return _core.VectorMachines(found, game_of_env, options.core_settings(), game_file, options.console())
 
 
 def make_remote_machines(

@@ -38,7 +38,6 @@ class PlayedVector(VectorOfEach):
         >>> envs.close()
     """
 
-    continuous_action_threshold: float
     _logs: VectorLogs | None = None
 
     def reset(

@@ -294,11 +294,8 @@ class RemoteMachines(Halves):
 
         Raises:
             IndexError: If the index is out of range.
-            TypeError: If `state` is not a state.
             InvalidInput: If the state belongs to another game, or its observations have another shape.
         """
-        if not isinstance(state, SavedMachine):
-            raise TypeError(f"state is {state!r}; it takes what save() returned")
         self._check_machine(machine)
         with self._exclusively():
             self._machine.ask(self._session.import_state, STATE, state.__getstate__())
