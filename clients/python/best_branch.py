@@ -21,6 +21,7 @@ options = parser.parse_args()
 
 
 def play(session):
+    """Plays the game, and prints its score and the number of frames."""
     session.load(options.game, seed=1, sticky=0, frame_skip=4)
     session.observe("reward", "terminated", "truncated")
     actions = list(session.actions().values())

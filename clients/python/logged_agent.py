@@ -19,6 +19,7 @@ options = parser.parse_args()
 
 
 def play(session):
+    """Plays the episodes, and prints their scores."""
     session.load(options.game, seed=1, preset="machado2018")
     session.observe("reward", "terminated", "truncated")
     actions = list(session.actions())

@@ -30,6 +30,7 @@ except OSError as error:
 
 
 def ask(line):
+    """Sends a line to the server, and returns its answer."""
     print(line, file=server.stdin, flush=True)
     return server.stdout.readline() or sys.exit("random_agent.py: the server has ended")
 

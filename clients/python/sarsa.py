@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """SARSA(lambda) with Basic features (Bellemare et al. 2013): an agent that learns a game over the line protocol.
 
-It needs NumPy, for --curve Matplotlib, and for --log the package racebeam. With the same seeds, it chooses what the
-agent `basic` of `racebeam experiment` chooses.
+It needs NumPy, for --curve Matplotlib, for --log the package racebeam, and for a progress bar tqdm. With the same
+seeds, it chooses what the agent `basic` of `racebeam experiment` chooses.
 """
 
 import argparse
+import contextlib
+import datetime
 import pathlib
 import sys
 import time
@@ -16,6 +18,11 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE / "single_file"))
 from client import Refused, Session, connect  # noqa: E402
 
+try:
+    from tqdm import tqdm
+except ImportError:
+    tqdm = None
+
 ACTIONS = 18
 WIDTH, HEIGHT, COLOURS = 160, 210, 128
 TILE_WIDTH, TILE_HEIGHT = 10, 15  # pixels; 16 x 14 tiles
@@ -24,6 +31,7 @@ DISCOUNT, DECAY = 0.999, 0.9  # gamma, lambda
 FRAME_SKIP = 5  # frames of a step, in the preset paper2013
 EXPLORATION = 0.05  # epsilon, in evaluation too
 LEAST_TRACE = np.float32(0.01)  # smaller traces are dropped
+MEASURED_STEPS = 100  # for the time in the plan
 
 
 class Random:
@@ -33,23 +41,26 @@ class Random:
         self.state = seed
 
     def next(self):
+        """Returns the next number of 64 bits."""
         self.state = z = (self.state + 0x9E3779B97F4A7C15) % 2**64
         z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9 % 2**64
         z = (z ^ z >> 27) * 0x94D049BB133111EB % 2**64
         return z ^ z >> 31
 
     def below(self, count):
+        """Returns a number from 0 to `count` - 1."""
         number = self.next()
-        while number < 2**64 % count:  # each remainder is to be as likely
+        while number < 2**64 % count:  # else small remainders were more likely
             number = self.next()
         return number % count
 
     def uniform(self):
+        """Returns a number from 0 to 1, without 1."""
         return (self.next() >> 11) / 2**53
 
 
 class Basic:
-    """A feature for each colour in each tile of the screen that is not the background's at its pixel."""
+    """Features of a screen: which colours, other than the background's, occur in which tiles."""
 
     SIZE = WIDTH // TILE_WIDTH * (HEIGHT // TILE_HEIGHT) * COLOURS
 
@@ -87,7 +98,7 @@ class Sarsa:
             np.savez_compressed(file, weights=self.weights, learned=[self.most_active, self.first_reward])
 
     def restore(self, path):
-        """Reads a file of keep()."""
+        """Reads a file that keep() wrote."""
         with np.load(path) as file:
             weights, (self.most_active, self.first_reward) = file["weights"], file["learned"].tolist()
         if weights.shape != self.weights.shape:
@@ -95,11 +106,13 @@ class Sarsa:
         self.weights = weights
 
     def begin(self, features):
+        """Begins an episode. Returns the first action."""
         self.traces[self.live] = 0
         self.live = np.empty(0, np.intp)
         return self.choose(features, self.values(features))
 
     def next(self, reward, features):
+        """Learns from a step. Returns the next action."""
         before, scaled = self.value_before(), self.scaled(reward)
         values = self.values(features)
         taken, active = self.action, self.features
@@ -108,17 +121,20 @@ class Sarsa:
         return action
 
     def end(self, reward):
+        """Learns from the last step of an episode."""
         before, scaled = self.value_before(), self.scaled(reward)
         self.learn(self.features, self.action, scaled - before)
 
     def values(self, features):
-        """Returns the values of all actions. The sums have the order of the features: they are the same everywhere."""
+        """Returns the values of all actions. The order of the sums is fixed, so that each computer gets the same."""
         return np.cumsum(self.weights[features], axis=0, dtype=float)[-1] if len(features) else np.zeros(ACTIONS)
 
     def value_before(self):
+        """Returns the value of the last action in the features that it was chosen for."""
         return float(self.values(self.features)[self.action])
 
     def choose(self, features, values):
+        """Chooses an action: the best one, or sometimes a random one."""
         if self.random.uniform() < EXPLORATION:
             action = self.random.below(ACTIONS)
         else:
@@ -133,6 +149,7 @@ class Sarsa:
         return reward / self.first_reward if reward else 0.0
 
     def learn(self, active, taken, error):
+        """Moves the weights of the traces by an error of the value of an action."""
         if not self.learning:
             return
         replaced = active * ACTIONS + taken
@@ -216,23 +233,54 @@ def write_log(options, seed, actions):
     episode_log.write_log(options.log, options.game, actions, **how, agent="basic", agent_seed=options.agent_seed)
 
 
-def erase_progress():
-    """Makes room for a line, where a terminal shows the bar."""
-    if sys.stderr.isatty():
-        print(end="\r\033[K", file=sys.stderr, flush=True)
+def seconds_per_step(session, basic, options):
+    """Plays some steps with another agent, and returns the mean time of one."""
+    load = {**load_of(options, options.seed), "max_episode_frames": MEASURED_STEPS * FRAME_SKIP}
+    start = time.monotonic()
+    _, actions = play(session, Sarsa(Basic.SIZE, options.agent_seed), basic, load, None)
+    return (time.monotonic() - start) / len(actions)
 
 
-def show_progress(options, steps, start):
-    """Shows how far the program is, and how long it still takes, if standard error is a terminal."""
-    if not sys.stderr.isatty():
-        return
-    if options.steps:
-        done, total, unit = min(sum(steps), options.steps), options.steps, "steps with learning"
-    else:
-        done, total, unit = len(steps), options.training + options.evaluation, "episodes"
-    remaining = (time.monotonic() - start) * (total - done) / done
-    bar = "#" * (30 * done // total)
-    print(end=f"[{bar:30}] {done:,} of {total:,} {unit}, {remaining:.0f} s left", file=sys.stderr, flush=True)
+def count_episodes(number):
+    """Returns a number of episodes in words."""
+    return f"{number} episode{'' if number == 1 else 's'}"
+
+
+def print_plan(session, basic, options):
+    """Prints what the program is going to play, and how long this takes."""
+    training = f"{options.steps:,} steps" if options.steps else count_episodes(options.training)
+    steps_of_episode = -(-options.frames // FRAME_SKIP)
+    episodes = options.evaluation + (0 if options.steps else options.training)
+    steps = (options.steps or 0) + episodes * steps_of_episode
+    estimate = datetime.timedelta(seconds=round(steps * seconds_per_step(session, basic, options)))
+    print(
+        f"plan: {training} with learning and {count_episodes(options.evaluation)} without, of up to "
+        f"{options.frames:,} frames; {'about' if options.steps else 'at most'} {steps:,} steps in {estimate} (h:mm:ss)",
+        file=sys.stderr,
+    )
+
+
+class Progress(contextlib.AbstractContextManager):
+    """A bar of tqdm, where that is installed and standard error is a terminal."""
+
+    def __init__(self, options):
+        total, unit = (
+            (options.steps, " steps") if options.steps else (options.training + options.evaluation, " episodes")
+        )
+        self.bar = tqdm(total=total, unit=unit, disable=None) if tqdm else None
+        self.counts_steps = bool(options.steps)
+
+    def print(self, line, steps):
+        """Prints a line for an episode of this number of steps, above the bar."""
+        if self.bar is not None:
+            self.bar.clear()
+        print(line, flush=True)
+        if self.bar is not None:
+            self.bar.update(min(steps, self.bar.total - self.bar.n) if self.counts_steps else 1)
+
+    def __exit__(self, *_):
+        if self.bar is not None:
+            self.bar.close()
 
 
 def schedule(options, steps):
@@ -247,10 +295,12 @@ def schedule(options, steps):
 
 
 def value_or(value, default):
+    """Returns `value`, or `default` if `value` is None."""
     return default if value is None else value
 
 
 def read_options():
+    """Reads the options of the command line, and checks them."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("server", help="the program racebeam, or the address of a server, such as tcp://HOST:PORT")
     parser.add_argument("game", nargs="?", default="beamfall", help="a game (default: %(default)s)")
@@ -328,35 +378,25 @@ def open_session(server):
 def play_all(session, agent, basic, options):
     """Plays the episodes. Returns the steps and the score of each, and the actions of the last one."""
     start, steps, scores, actions = time.monotonic(), [], [], []
-    for agent.learning, is_last in schedule(options, steps):  # the schedule reads `steps`
-        load = load_of(options, options.seed + len(steps))
-        score, actions = play(session, agent, basic, load, options.film if is_last else None)
-        steps.append(len(actions))
-        scores.append(score)
-        kind = "training" if agent.learning else "evaluation"
-        erase_progress()
-        print(
-            kind,
-            f"episode {len(steps)}: score {score} in {len(actions)} decisions",
-            *actions if options.actions else [],
-            flush=True,
-        )
-        show_progress(options, steps, start)
-    erase_progress()
+    with Progress(options) as progress:
+        for agent.learning, is_last in schedule(options, steps):  # the schedule reads `steps`
+            load = load_of(options, options.seed + len(steps))
+            score, actions = play(session, agent, basic, load, options.film if is_last else None)
+            steps.append(len(actions))
+            scores.append(score)
+            kind = "training" if agent.learning else "evaluation"
+            words = [f"{kind} episode {len(steps)}: score {score} in {len(actions)} decisions"]
+            progress.print(" ".join([*words, *map(str, actions if options.actions else [])]), len(actions))
     print(f"{sum(steps) / (time.monotonic() - start):.0f} decisions a second", file=sys.stderr)
     return steps, scores, actions
 
 
 def main():
+    """Reads the options, then learns and plays as they say."""
     options = read_options()
     agent, basic = agent_of(options), Basic(background_of(options))
-    training = f"{options.steps:,} steps" if options.steps else f"{options.training} episodes"
-    print(
-        f"plan: {training} with learning and {options.evaluation} episodes without, "
-        f"of {options.frames:,} frames at most",
-        file=sys.stderr,
-    )
     with open_session(options.server) as session:
+        print_plan(session, basic, options)
         steps, scores, actions = play_all(session, agent, basic, options)
         if options.curve:
             title = f"SARSA on {options.game}"

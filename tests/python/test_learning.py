@@ -89,7 +89,11 @@ class Examples(unittest.TestCase):
                 text=True,
                 cwd=folder,
             )
-            self.assertRegex(done.stderr, r"^plan: 1 episodes with learning and 0 episodes without, of 18,000 frames")
+            self.assertRegex(
+                done.stderr,
+                r"\nplan: 1 episode with learning and 0 episodes without, of up to 18,000 frames; "
+                r"at most 3,600 steps in \d:\d\d:\d\d ",
+            )
             self.assertEqual(pathlib.Path(folder, "film.gif").read_bytes()[:6], b"GIF89a")
             pathlib.Path(folder, "wrong").write_bytes(b"x")
             done = subprocess.run(
@@ -99,15 +103,16 @@ class Examples(unittest.TestCase):
             )
             self.assertRegex(done.stderr, r"sarsa.py: --play is '.*wrong': .*; it takes a file of --keep\n$")
 
-    @needs("jax", "optax", "matplotlib")
+    @needs("jax", "optax", "tqdm", "matplotlib")
     def test_ppo_on_ram(self):
         output = self.run_example("examples/ppo.py", "updraft", "--steps", 8192, "--curve", "CURVE")
         self.assertRegex(
             output,
-            r"^plan: 2 updates of 32 x 128 steps, 8,192 steps\nupdate 1: .* s left\nupdate 2: [1-9]\d* games",
+            r"^plan: 2 updates of 32 x 128 steps, 8,192 steps in about \d:\d\d:\d\d .*\n"
+            r"update 1: .*\nupdate 2: [1-9]\d* games",
         )
 
-    @needs("jax", "optax", "PIL")
+    @needs("jax", "optax", "tqdm", "PIL")
     def test_a_policy_is_kept_and_played_and_filmed(self):
         from PIL import Image
 
@@ -123,7 +128,7 @@ class Examples(unittest.TestCase):
                 self.assertGreater(frames.n_frames, 10)
             self.refuse("ppo.py", "--play", policy)
 
-    @needs("jax", "optax")
+    @needs("jax", "optax", "tqdm")
     def test_the_log_of_a_policy_is_confirmed(self):
         for observe in ("ram", "pixels"):
             with tempfile.TemporaryDirectory() as folder, self.subTest(observe=observe):
@@ -149,7 +154,7 @@ class Examples(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"random play: \d+\.\d\n(generation \d+: .*\n){2}")
 
-    @needs("jax", "optax")
+    @needs("jax", "optax", "tqdm")
     def test_ppo_on_pixels(self):
         output = self.run_example(
             "examples/ppo.py", "--observe", "pixels", "--steps", 32, "--horizon", 8, "--envs", 4, "--epochs", 1

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """PPO (Schulman et al. 2017) in JAX, on RAM or on pixels, over racebeam's vector environment.
 
-    pip install ".[jax]" optax matplotlib   # in the root of a clone
+    pip install ".[jax]" optax matplotlib tqdm   # in the root of a clone
     python ppo.py updraft --curve ppo.png --keep updraft.npz
     python ppo.py updraft --play updraft.npz --film updraft.gif --log updraft.episode
     racebeam verify updraft.episode
@@ -11,6 +11,7 @@ the game. With the same seed and processor, it learns the same.
 """
 
 import argparse
+import datetime
 import functools
 import sys
 import time
@@ -21,6 +22,7 @@ import jax.numpy as jnp
 import numpy as np
 import optax
 import racebeam
+from tqdm import tqdm
 
 DISCOUNT, GAE_DECAY = 0.99, 0.95  # gamma, lambda
 CLIP, ENTROPY, VALUE = 0.1, 0.01, 0.5
@@ -36,17 +38,18 @@ class Batch(NamedTuple):
 
     observations: np.ndarray
     actions: np.ndarray
-    log_chances: np.ndarray
+    log_probabilities: np.ndarray
     advantages: np.ndarray
     returns: np.ndarray
 
 
 def layer(key, shape, scale):
+    """Makes the parameters of a layer: orthogonal weights of this scale, and a bias of 0."""
     return {"weights": jax.nn.initializers.orthogonal(scale)(key, shape), "bias": jnp.zeros(shape[-1])}
 
 
 def network(key, shape, actions):
-    """The parameters for observations of this shape: 128 bytes of RAM, or screens x height x width."""
+    """Makes the parameters for observations of this shape: 128 bytes of RAM, or screens x height x width."""
     keys = iter(jax.random.split(key, 8))
     if len(shape) == 1:
         body, size = [layer(next(keys), (8 * shape[0], 256), 2**0.5), layer(next(keys), (256, 256), 2**0.5)], 256
@@ -65,7 +68,7 @@ def network(key, shape, actions):
 
 
 def forward(parameters, observations):
-    """Logits of the actions, and values."""
+    """Returns the logits of the actions, and the values of the observations."""
     *convolutions, last = parameters["body"]
     if observations.ndim == 2:  # RAM, bit by bit
         bits = observations[:, :, None] >> jnp.arange(8, dtype=jnp.uint8) & 1
@@ -83,24 +86,27 @@ def forward(parameters, observations):
 
 
 def dense(one, hidden):
+    """Applies a layer to the outputs of the one before it."""
     return hidden @ one["weights"] + one["bias"]
 
 
 @jax.jit
 def choose(parameters, observations, key):
-    """Actions, the logarithms of their chances, and the values of the observations."""
+    """Draws actions. Returns them, their log probabilities, and the values of the observations."""
     logits, values = forward(parameters, observations)
     actions = jax.random.categorical(key, logits)
-    return actions, log_chances_of(logits, actions), values
+    return actions, log_probabilities_of(logits, actions), values
 
 
-def log_chances_of(logits, actions):
+def log_probabilities_of(logits, actions):
+    """Returns the log probability of each action."""
     return jnp.take_along_axis(jax.nn.log_softmax(logits), actions[:, None], axis=1)[:, 0]
 
 
 def loss(parameters, batch):
+    """Returns what an update minimises: the losses of the policy and of the values, less the entropy."""
     logits, values = forward(parameters, batch.observations)
-    ratios = jnp.exp(log_chances_of(logits, batch.actions) - batch.log_chances)
+    ratios = jnp.exp(log_probabilities_of(logits, batch.actions) - batch.log_probabilities)
     advantages = (batch.advantages - batch.advantages.mean()) / (batch.advantages.std() + 1e-8)
     gain = jnp.minimum(ratios * advantages, jnp.clip(ratios, 1 - CLIP, 1 + CLIP) * advantages).mean()
     entropy = -(jax.nn.softmax(logits) * jax.nn.log_softmax(logits)).sum(axis=1).mean()
@@ -109,7 +115,7 @@ def loss(parameters, batch):
 
 @functools.partial(jax.jit, static_argnames=("optimizer", "epochs", "parts"))
 def update(parameters, state, batch, key, optimizer, epochs, parts):
-    """Goes over the batch several times, in a random order, in parts."""
+    """Goes over the batch several times, in a random order and in parts. Returns the new parameters and state."""
     count = len(batch.actions)
     order = jnp.concatenate([jax.random.permutation(one, count) for one in jax.random.split(key, epochs)])
 
@@ -124,7 +130,7 @@ def update(parameters, state, batch, key, optimizer, epochs, parts):
 
 
 def advantages_of(rewards, values, ends, last_values):
-    """Generalised advantage estimation. Row t of `ends` says which episodes ended by step t."""
+    """Estimates advantages (GAE). Row t of `ends` says in which environments step t ended an episode."""
     advantages, following, next_values = np.zeros_like(rewards), np.zeros_like(last_values), last_values
     for step in reversed(range(len(rewards))):
         goes_on = 1 - ends[step]
@@ -135,6 +141,7 @@ def advantages_of(rewards, values, ends, last_values):
 
 
 def make_envs(options, count, **arguments):
+    """Makes `count` environments of the game, with the observations that the options say."""
     view = {"obs_type": "ram"} if options.observe == "ram" else {}
     return racebeam.AtariVectorEnv(
         options.game,
@@ -158,22 +165,24 @@ class Player:
         self.sums, self.scores, self.seconds = np.zeros(options.envs, np.int64), [], 0.0
 
     def network(self, key):
+        """Makes the parameters for these environments."""
         return network(key, self.envs.single_observation_space.shape, int(self.envs.single_action_space.n))
 
     def play(self, parameters, key, steps):
-        """Plays `steps` steps in each environment. Returns the batch."""
+        """Plays this number of steps in each environment. Returns the batch."""
         rows = []
         for one in jax.random.split(key, steps):
             observations = self.observations
-            actions, log_chances, values = map(np.asarray, choose(parameters, observations, one))
-            rows.append((observations, actions, log_chances, values, *self.step(actions)))
-        observations, actions, log_chances, values, rewards, ends = map(np.stack, zip(*rows))
+            actions, log_probabilities, values = map(np.asarray, choose(parameters, observations, one))
+            rows.append((observations, actions, log_probabilities, values, *self.step(actions)))
+        observations, actions, log_probabilities, values, rewards, ends = map(np.stack, zip(*rows))
         _, _, last_values = choose(parameters, self.observations, key)
         advantages = advantages_of(rewards, values, ends, np.asarray(last_values))
-        flat = (observations, actions, log_chances, advantages, advantages + values)
+        flat = (observations, actions, log_probabilities, advantages, advantages + values)
         return Batch(*(part.reshape(-1, *part.shape[2:]) for part in flat))
 
     def step(self, actions):
+        """Steps the environments, and counts scores and time. Returns the rewards and the ends."""
         began = time.perf_counter()
         self.observations, rewards, terminated, truncated, info = self.envs.step(actions)
         self.seconds += time.perf_counter() - began
@@ -191,7 +200,7 @@ def keep(path, parameters):
 
 
 def restore(path, parameters):
-    """Reads parameters of the same shapes from a file of keep()."""
+    """Reads parameters of the same shapes from a file that keep() wrote."""
     leaves, tree = jax.tree.flatten(parameters)
     with np.load(path) as file:
         arrays = [file[f"arr_{index}"] for index in range(len(file.files))]
@@ -201,7 +210,7 @@ def restore(path, parameters):
 
 
 def play_games(options, parameters):
-    """Plays with a policy that no longer learns. The film has the first game of the first environment."""
+    """Plays with a policy, without learning. The film has the first game of the first environment."""
     player = Player(options, render_mode="rgb_array" if options.film else None)
     key, frames, filming = jax.random.key(options.seed), [], bool(options.film)
     while len(player.scores) < options.games or filming:
@@ -235,7 +244,7 @@ def log_game(options, parameters):
 
 
 def film(path, frames):
-    """Writes screens as an animated GIF, in the width that they had on a television."""
+    """Writes screens as an animated GIF, in the proportions of a television."""
     from PIL import Image
 
     height, width, _ = frames[0].shape
@@ -243,20 +252,21 @@ def film(path, frames):
     images[0].save(path, save_all=True, append_images=images[1:], duration=1000 * FRAME_SKIP // 60, loop=0)
 
 
-def report(line, done, total, began):
-    """Prints a line for an update, with the time that remains. Below it, a terminal shows a bar."""
-    remaining = (time.perf_counter() - began) * (total - done) / done
-    if sys.stderr.isatty():
-        print(end="\r\033[K", file=sys.stderr, flush=True)  # the bar is erased
-    print(f"{line}, {remaining:.0f} s left", flush=True)
-    if sys.stderr.isatty() and done < total:
-        print(end=f"[{'#' * (30 * done // total):30}] {done:,} of {total:,} steps", file=sys.stderr, flush=True)
+def seconds_per_update(options, parameters, optimizer):
+    """Measures an update in other environments. The one before it compiles the functions, and is not measured."""
+    player, key, state = Player(options), jax.random.key(0), optimizer.init(parameters)
+    for _ in range(2):
+        began = time.perf_counter()
+        batch = player.play(parameters, key, options.horizon)
+        jax.block_until_ready(update(parameters, state, batch, key, optimizer, options.epochs, options.parts))
+    player.envs.close()
+    return time.perf_counter() - began
 
 
 def random_score(options):
     """Plays games with random actions. Returns their mean score, the baseline of the curve."""
     player, random = Player(options), np.random.default_rng(options.seed)
-    while len(player.scores) < max(GAMES_OF_MEAN, 4 * options.envs):  # the first ones are the short ones
+    while len(player.scores) < max(GAMES_OF_MEAN, 4 * options.envs):  # short games end first
         player.step(random.integers(player.envs.single_action_space.n, size=options.envs))
     return float(np.mean(player.scores))
 
@@ -285,9 +295,15 @@ def learn(options, player, parameters, key):
     """Learns for as many steps as the options say. Returns the parameters."""
     steps = options.envs * options.horizon
     updates = options.steps // steps
-    print(f"plan: {updates} updates of {options.envs} x {options.horizon} steps, {updates * steps:,} steps", flush=True)
     rate = optax.linear_schedule(options.rate, 0, updates * options.epochs * options.parts)
     optimizer = optax.chain(optax.clip_by_global_norm(LONGEST_GRADIENT), optax.adam(rate, eps=1e-5))
+    estimate = datetime.timedelta(seconds=round(updates * seconds_per_update(options, parameters, optimizer)))
+    print(
+        f"plan: {updates} updates of {options.envs} x {options.horizon} steps, {updates * steps:,} steps in about "
+        f"{estimate} (h:mm:ss)",
+        flush=True,
+    )
+    bar = tqdm(total=updates * steps, unit=" steps", unit_scale=True, disable=None)  # only in a terminal
     state, points, began = optimizer.init(parameters), [], time.perf_counter()
     for number in range(1, updates + 1):
         key, to_play, to_learn = jax.random.split(key, 3)
@@ -297,7 +313,10 @@ def learn(options, player, parameters, key):
         if player.scores:
             points.append((number * steps, float(np.mean(player.scores[-GAMES_OF_MEAN:]))))
             line += f", mean score of the last {GAMES_OF_MEAN}: {points[-1][1]:.1f}"
-        report(line, number * steps, updates * steps, began)
+        bar.clear()
+        print(line, flush=True)
+        bar.update(steps)
+    bar.close()
     seconds = time.perf_counter() - began
     print(
         f"{updates * steps / seconds:.0f} steps a second; the environments took "
@@ -309,6 +328,7 @@ def learn(options, player, parameters, key):
 
 
 def main():
+    """Reads the options, then learns or reads a policy, and plays with it as they say."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument(
         "game", nargs="?", default="updraft", help="a game, or the file of an image (default: %(default)s)"

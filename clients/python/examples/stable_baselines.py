@@ -14,6 +14,7 @@ from stable_baselines3 import PPO
 
 
 def main():
+    """Reads the options, learns, and keeps what they say."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("game", nargs="?", default="beamfall", help="(default: %(default)s)")
     parser.add_argument("--steps", type=int, default=1_000_000, help="steps of all environments (default: %(default)s)")
@@ -57,7 +58,7 @@ def main():
 
 
 def play_games(model, options):
-    """Plays three games whose logs anybody can confirm. They begin at power-on, without no-ops and FIRE."""
+    """Plays three games from power-on, and writes their logs, which anybody can confirm."""
     about = {
         "folder": options.log,
         "agent": "sb3-ppo",
