@@ -12,7 +12,7 @@ import tree
 COMMAND = re.compile(r"""(?<!-m )\bpip install((?: +(?:"[^"\n{]+"|[A-Za-z.][\w.,\[\]<>=/-]*))+)""")
 NAME = re.compile(r"[\w-]+")
 # Packages of examples, which are on PyPI.
-OTHERS = {"envpool", "gymnasium", "matplotlib", "moviepy", "optax", "tianshou", "torch", "torchrl"}
+OTHERS = {"envpool", "gymnasium", "matplotlib", "moviepy", "optax", "tianshou", "torch", "torchrl", "tqdm"}
 HERE = tree.ROOT / "tests/docs/test_install_lines.py"
 
 

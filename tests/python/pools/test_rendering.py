@@ -53,7 +53,7 @@ class Rendering(unittest.TestCase):
         observations = envs.reset()[0]
         self.assertEqual(envs.render().shape, (1, 210, 160, 3))
         self.assertTrue(np.array_equal(observations[0].transpose(1, 2, 0), envs.render()[0]))
-        self.assertEqual(racebeam.AtariVectorEnv("air_raid", 1, obs_type="rgb").reset()[0].shape, (1, 4, 250, 160, 3))
+        self.assertEqual(racebeam.AtariEnv("air_raid").reset()[0].shape, (250, 160, 3))
 
     def test_render_returns_the_chosen_environment(self):
         first, second = (make("gymnasium", num_envs=2, env_seed=[1, 9], render_env_id=env) for env in (0, 1))
