@@ -125,7 +125,7 @@ class Interface(unittest.TestCase):
         self.envs.seed(5)
         self.assertTrue(np.array_equal(self.envs.reset(), first))
 
-    def test_what_wrappers_ask(self):
+    def test_the_methods_that_wrappers_call(self):
         self.assertEqual(self.envs.env_is_wrapped(Monitor), [True, True])
         self.assertEqual(self.envs.env_is_wrapped(VecMonitor), [False, False])
         self.assertEqual(self.envs.get_attr("num_envs", 0), [2])

@@ -172,7 +172,7 @@ class Threads(unittest.TestCase):
 
 
 class Memory(unittest.TestCase):
-    def test_arrays_are_given_back(self):
+    def test_the_memory_of_arrays_is_released(self):
         import resource
 
         ale = loaded()
@@ -188,7 +188,7 @@ class Memory(unittest.TestCase):
         before = use(0)
         self.assertLess(use(5000) - before, 20000)
 
-    def test_what_cannot_be_is_an_exception(self):
+    def test_impossible_calls_raise_exceptions(self):
         ale = loaded()
         for words in ((0, float("nan"), 1), (0, float("inf"), 1), (99, 1.0, 1), (0, 1.0, 0), (0, 1.0, -5)):
             with self.subTest(words=words), self.assertRaises(ValueError):

@@ -130,7 +130,7 @@ class Compiled(unittest.TestCase):
         self.check(step(second, ACTIONS[1])[1], result)
 
     @unittest.skipUnless("breakout" in package.roms(), "no image of breakout was found")
-    def test_ale_py_shows_the_same(self):
+    def test_ale_py_returns_the_same(self):
         for name in ("ale_py.vector_env", "chex"):
             if not package._is_there(name):
                 self.skipTest(f"{name} is not installed")

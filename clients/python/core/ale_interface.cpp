@@ -38,8 +38,8 @@ const std::shared_ptr<Machine>& AleInterface::machine() {
 
 Environment& AleInterface::environment() { return machine()->environment; }
 
-// Without limits of a reward, samples of each act, or frames of its own, several acts are the same as a long
-// one.
+// Returns whether several acts have the results of one long act. They do unless rewards are clipped, acts
+// have samples, or an act has several frames.
 bool AleInterface::acts_can_be_joined() const {
   const Settings& settings = machine_->environment.settings();
   return settings.frame_skip <= 1 && !settings.sound &&

@@ -49,7 +49,7 @@ class AleInterface {
   // throws nanobind::python_error: the acts until then have happened. What `view` shows is then fast to get.
   StepResult step(const Action& action, int times, View view);
 
-  // The bytes that are seen in `view`, and their number.
+  // The number of bytes of an observation, and the bytes.
   std::size_t size_of(View view);
   void copy(View view, std::span<std::uint8_t> out);
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::string_view kMagic = "RBALE001";
 
-// Behind the magic come the facts, as four integers of 32 bits, and the state as any client of racebeam has
-// it.
+// The bytes are the magic, the facts as four integers of 32 bits, and the state in the form of the line
+// protocol.
 static_assert(sizeof(AleState::Facts) == 16);
 constexpr std::size_t kHead = kMagic.size() + sizeof(AleState::Facts);
 

@@ -30,7 +30,7 @@ auto ask(AleInterface& self) {
 
 // Pictures and other bytes
 
-// Height and width, and what a pixel has of `view`.
+// Returns the shape of an observation.
 std::vector<std::size_t> shape_of(const Environment& environment, View view) {
   const auto height = static_cast<std::size_t>(environment.height());
   switch (view) {
@@ -248,7 +248,7 @@ std::vector<int> list_of(AleInterface& self) {
   return self.environment().game().*list;
 }
 
-// The reference's words, then which choices there are.
+// Calls a setter. Its error begins with ALE's words, and the accepted values follow.
 template <auto method>
 void change(AleInterface& self, int value, const std::string& words) {
   const Turn turn(self.lock());

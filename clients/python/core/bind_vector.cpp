@@ -91,7 +91,7 @@ BatchArrays arrays_of(const Batch& batch, std::size_t count, const Results& resu
   return to;
 }
 
-// Without the GIL, and one thread at a time. The results are of all machines.
+// Calls `ask` without the GIL, one thread at a time, and fills the results of all machines.
 template <class Ask>
 void fill(VectorMachines& self, const Results& results, const Ask& ask) {
   const Turn turn(self.lock());
@@ -219,7 +219,7 @@ Bytes screen(VectorMachines& self, std::int64_t machine) {
 
 // Making them
 
-// And the name of its game; none: the game file's, or the image decides.
+// An image and the name of its game. Without a name, the game file or the image decides.
 using GivenImage = std::pair<ImageArgument, std::optional<std::string>>;
 using Console = std::map<std::string, std::string>;  // keys and values of GivenProperties
 

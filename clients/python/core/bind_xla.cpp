@@ -170,7 +170,7 @@ xla::Error* error_of(const xla::CallFrame& frame, xla::ErrorCode code, const cha
   return frame.api->error_create(&arguments);
 }
 
-// Answers XLA when it asks for the version. Was that the question?
+// Answers XLA if it asks for the version. Returns whether it did.
 bool tells_version(const xla::CallFrame& frame) {
   if (!frame.extensions || frame.extensions->type != xla::kMetadataExtension) return false;
   xla::Metadata& metadata = *reinterpret_cast<xla::MetadataExtension*>(frame.extensions)->metadata;

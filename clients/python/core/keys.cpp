@@ -9,7 +9,7 @@
 namespace racebeam::python {
 namespace {
 
-// Different for two calls at the same time, too.
+// Draws a seed. Two calls at the same time get different ones.
 std::uint32_t seed_of_clock() {
   static std::atomic<std::uint32_t> calls{0};
   const auto now = static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());

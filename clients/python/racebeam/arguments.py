@@ -293,7 +293,13 @@ def seconds(name: str, value: Any) -> float | None:
 
 
 def path_of(game_file: Any) -> str | None:
-    """Returns the path of a game file as a string, or None.
+    """Converts the path of a game file.
+
+    Args:
+        game_file: A path, or None.
+
+    Returns:
+        The path as a string, or None.
 
     Raises:
         WrongType: If `game_file` is not a path.
@@ -307,6 +313,12 @@ def path_of(game_file: Any) -> str | None:
 
 def check_source(game: Any, rom: images.Rom | None, game_file: str | None, server: object) -> None:
     """Checks that the arguments say which image is played by which rules, and only once.
+
+    Args:
+        game: Name of the game, or names of several, or None.
+        rom: The image, or None.
+        game_file: Path of the game file, or None.
+        server: Address of the server, or None.
 
     Raises:
         WrongValue: If they do not.

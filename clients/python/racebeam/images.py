@@ -1,9 +1,9 @@
 """Finds the cartridge images of games.
 
-racebeam contains the images of its own games. For the others, it searches these folders in this order, without their
-subfolders: the one that RACEBEAM_ROMS names, the one that ALE_ROMS_DIR names, and the one in an installed ale_py. A
-file that ends in .bin, .a26 or .rom, optionally followed by .gz, or a .zip archive with one such file, is identified by
-its MD5. Its name is ignored.
+racebeam contains the images of Beamfall and Updraft. For the others, it searches these folders in this order, without
+their subfolders: the one that RACEBEAM_ROMS names, the one that ALE_ROMS_DIR names, and the one in an installed ale_py.
+A file that ends in .bin, .a26 or .rom, optionally followed by .gz, or a .zip archive with one such file, is identified
+by its MD5. Its name is ignored.
 """
 
 from __future__ import annotations
@@ -58,6 +58,9 @@ def built_in() -> frozenset[str]:
 
 def check_name(game: str) -> None:
     """Checks the name of a game.
+
+    Args:
+        game: Name of the game.
 
     Raises:
         UnknownGame: If no game has this name. The message suggests similar names.

@@ -66,7 +66,13 @@ VECTOR_PRESETS = {
 
 
 def preset(name: str) -> Preset:
-    """Looks up the preset of this name for `AtariEnv`.
+    """Looks up a preset for `AtariEnv`.
+
+    Args:
+        name: Name of the preset.
+
+    Returns:
+        Its settings.
 
     Raises:
         InvalidInput: If the preset is unknown.
@@ -76,7 +82,13 @@ def preset(name: str) -> Preset:
 
 
 def vector_preset(name: str) -> VectorPreset:
-    """Looks up the preset of this name for `AtariVectorEnv`.
+    """Looks up a preset for `AtariVectorEnv`.
+
+    Args:
+        name: Name of the preset.
+
+    Returns:
+        Its settings.
 
     Raises:
         InvalidInput: If the preset is unknown.
@@ -87,6 +99,9 @@ def vector_preset(name: str) -> VectorPreset:
 
 def check_name(name: str) -> None:
     """Checks the name of a preset.
+
+    Args:
+        name: Name of the preset.
 
     Raises:
         InvalidInput: If the preset is unknown.

@@ -65,8 +65,8 @@ class EnvironmentTests(Base):
     Attributes:
         steps: Number of steps that each test plays.
         seed: First seed.
-        has_states: Whether the state of `env.unwrapped.clone_state` is the whole state. It is not if a wrapper keeps a
-            state of its own, such as a stack of screens.
+        has_states: Whether the state of `env.unwrapped.clone_state` is the whole state. It is not if a wrapper keeps
+            more state, such as a stack of screens.
 
     Example:
         >>> import unittest
@@ -168,7 +168,7 @@ class VectorEnvironmentTests(Base):
         steps: Number of steps that each test plays.
         seed: First seed.
         has_states: Whether the state of `envs.unwrapped.save` is the whole state of an environment. It is not if a
-            wrapper keeps its own state.
+            wrapper keeps more state.
 
     Example:
         >>> import unittest

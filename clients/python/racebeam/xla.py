@@ -134,6 +134,9 @@ def functions(envs: Environments, infos: tuple[str, ...]) -> tuple[Any, Callable
 def handle_of(envs: Environments) -> npt.NDArray[np.uint8]:
     """Makes the handle that names environments in custom calls.
 
+    Args:
+        envs: The environments.
+
     Returns:
         uint8 array of shape (8,). It is valid until the environments are closed.
 
@@ -239,6 +242,11 @@ def _seeds(values: Any, count: int) -> Any:
 
 def check_shape(name: str, array: Any, shape: tuple[int, ...]) -> None:
     """Checks the shape of an array.
+
+    Args:
+        name: Name of the array, in the plural.
+        array: An array of JAX.
+        shape: The shape that it must have.
 
     Raises:
         InvalidInput: If `array` does not have this shape.

@@ -124,7 +124,7 @@ class BadInput(unittest.TestCase):
             self.check_refusal(gym.error.Error, "Seed must be", env.reset, seed=seed)
         self.assertEqual(len(env.reset(seed=2**100)[1]["seeds"]), 2)
 
-    def test_a_missing_image_says_where_was_looked(self):
+    def test_the_error_for_a_missing_image_names_the_searched_places(self):
         script = (
             "import racebeam\ntry: racebeam.AtariEnv('pong')\nexcept FileNotFoundError as e: print(type(e).__name__, e)"
         )
@@ -190,7 +190,7 @@ class BadInput(unittest.TestCase):
                 [str(pathlib.Path(folder, name)) for name in (*names[:5], "i.zip")],
             )
 
-    def test_the_games_are_the_callers_own(self):
+    def test_the_list_of_games_belongs_to_the_caller(self):
         racebeam.games().clear()
         self.assertEqual(len(racebeam.games()), 110)
         self.assertEqual(racebeam.games()["beamfall"], "Beamfall")

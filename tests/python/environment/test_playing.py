@@ -118,7 +118,7 @@ class Playing(unittest.TestCase):
         actions = [action % env.action_space.n for action in self.actions]
         self.assertEqual(play(copy.deepcopy(env), actions), play(env, actions))
 
-    def test_observations_are_the_callers_own(self):
+    def test_observations_belong_to_the_caller(self):
         first = self.env.step(0)[0]
         before = first.copy()
         play(self.env, self.actions[:20])

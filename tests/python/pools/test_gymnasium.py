@@ -84,7 +84,7 @@ class Gymnasium(unittest.TestCase):
         with self.assertWarns(UserWarning):
             make().reset(seed=3)
 
-    def test_a_limit_and_the_steps_so_far(self):
+    def test_the_limit_of_steps_and_elapsed_steps(self):
         envs = make(max_episode_steps=5)
         envs.reset()
         results = [envs.step(np.zeros(3, int)) for _ in range(8)]
@@ -133,7 +133,7 @@ class Gymnasium(unittest.TestCase):
                         envs.send(np.zeros(envs.batch_size, np.int32))
                     self.assertIn(max(envs.recv()[-1]["elapsed_step"].tolist()), (0, 1) if config else (1,))
 
-    def test_the_arrays_are_the_callers_own(self):
+    def test_the_arrays_belong_to_the_caller(self):
         envs, others = make(num_envs=4, batch_size=2, num_threads=1), make(num_envs=4, batch_size=2, num_threads=1)
         for one in (envs, others):
             _, info = one.reset()

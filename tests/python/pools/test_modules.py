@@ -135,7 +135,7 @@ class Spec(unittest.TestCase):
         )
         self.assertEqual(spec.action_array_spec["action"], (np.int32, [-1], 0, 17))
 
-    def test_what_is_made_fits(self):
+    def test_results_fit_their_specs(self):
         envs = make("dm")
         result = envs.reset()
         names = {name.removeprefix("info:"): array for name, array in envs.spec.state_array_spec.items()}

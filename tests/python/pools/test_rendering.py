@@ -18,7 +18,7 @@ from racebeam import envpool
 
 
 class Rendering(unittest.TestCase):
-    def test_what_envpool_takes_for_it(self):
+    def test_arguments_of_rendering_that_envpool_accepts(self):
         for arguments in (
             {"render_mode": "rgb_array"},
             {"render_mode": None},
@@ -67,7 +67,7 @@ class Rendering(unittest.TestCase):
             with self.subTest(env=env), self.assertRaisesRegex(Error, "render_env_id"):
                 make("gymnasium", num_envs=2, render_env_id=env)
 
-    def test_a_reset_without_infos_is_of_gym_alone(self):
+    def test_only_gym_resets_without_infos(self):
         for env_type in ("gymnasium", "dm"):
             with self.assertRaisesRegex(ValueError, "gym_reset_return_info is False"):
                 make(env_type, gym_reset_return_info=False)

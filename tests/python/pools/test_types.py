@@ -85,7 +85,7 @@ class Others(unittest.TestCase):
                 envs.reset()
             self.assertRaises(gymnasium.error.ClosedEnvironmentError, envs.reset)
 
-    def test_what_wrappers_ask(self):
+    def test_the_methods_that_wrappers_call(self):
         for env_type in ("gymnasium", "gym"):
             envs = make(env_type, render_mode="rgb_array")
             self.assertIs(envs.unwrapped, envs)
@@ -184,7 +184,7 @@ class Found(unittest.TestCase):
         envs.async_reset()
         self.assertRaisesRegex(gymnasium.error.Error, "reset is .* takes True or False", envs.recv, many)
 
-    def test_pictures_of_no_environment(self):
+    def test_rendering_without_environments_is_refused(self):
         envs = make()
         envs.reset()
         self.assertRaises(InvalidInput, envs.render, np.zeros(0, np.int32))

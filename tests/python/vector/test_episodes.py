@@ -146,7 +146,7 @@ class Episodes(unittest.TestCase):
         self.assertGreater(games.sum(), 0)
         self.assertGreater(ends.sum(), games.sum())
 
-    def test_what_a_lost_life_does(self):
+    def test_the_effects_of_a_lost_life(self):
         frames = {}
         for lives in ("ignored", "reported", "end", "restart"):
             envs = AtariVectorEnv("beamfall", 1, frameskip=60, life_loss=lives, noop_max=0)

@@ -46,7 +46,7 @@ class Halves(unittest.TestCase):
             self.assertEqual((seen.shape, info["env_id"].tolist()), ((4, 4, 84, 84), [0, 1, 2, 3]))
             self.assertNotIn("final_obs", info)
 
-    def test_what_plays_is_not_touched(self):
+    def test_environments_that_play_are_left_as_they_are(self):
         envs = AtariVectorEnv("beamfall", 4, batch_size=2)
         envs.reset(seed=1)
         for call in (envs.show, lambda: [envs.save(env) for env in range(4)]):

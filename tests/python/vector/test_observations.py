@@ -17,21 +17,21 @@ from vectors import play
 
 
 class Observations(unittest.TestCase):
-    def test_they_are_the_callers_own(self):
+    def test_results_belong_to_the_caller(self):
         envs = AtariVectorEnv("beamfall", 2)
         observations = [envs.reset(seed=1)[0], envs.step(np.zeros(2, int))[0]]
         before = [one.copy() for one in observations]
         play(envs, 20)
         self.assertTrue(all(map(np.array_equal, observations, before)))
 
-    def test_infos_are_the_callers_own_too(self):
+    def test_infos_belong_to_the_caller_too(self):
         envs = AtariVectorEnv("beamfall", 4, batch_size=2, seed=1)
         _, info = envs.reset()
         info["env_id"][:] = 3
         envs.step([0, 0])
         self.assertEqual(sorted([*envs._received_ids, *envs.recv()[4]["env_id"]]), [0, 1, 2, 3])
 
-    def test_they_go_where_the_caller_wants_them(self):
+    def test_results_are_written_into_the_array_of_the_caller(self):
         envs, others = (AtariVectorEnv("beamfall", 2) for _ in range(2))
         out = np.zeros(envs.observation_space.shape, np.uint8)
         self.assertIs(envs.reset(seed=1, out=out)[0], out)
@@ -45,7 +45,7 @@ class Observations(unittest.TestCase):
             with self.assertRaisesRegex(InvalidInput, "^out "):
                 envs.step(np.ones(2, int), out=wrong)
 
-    def test_kinds(self):
+    def test_the_kinds_of_environments(self):
         for settings, shape in (
             ({"obs_type": "grayscale"}, (4, 210, 160)),
             ({"obs_type": "rgb", "stack_num": 1}, (1, 210, 160, 3)),

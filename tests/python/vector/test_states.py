@@ -26,7 +26,7 @@ class States(unittest.TestCase):
         self.assertTrue(np.array_equal(results[0], results[1]) and np.array_equal(results[0], results[2]))
         self.assertRaisesRegex(TypeError, "^rom .* int", AtariVectorEnv, "beamfall", 1, rom=3)
 
-    def test_one_environment_goes_back(self):
+    def test_one_environment_returns_to_a_state(self):
         envs = AtariVectorEnv("beamfall", 2, repeat_action_probability=0.25, seed=1)
         before = play(envs, 10)[-1][0]
         state = envs.save(1)

@@ -60,7 +60,7 @@ class Threads(unittest.TestCase):
         )
         self.assertEqual(done.stdout.split(), ["3", "on"], done.stderr)
 
-    def test_the_memory_of_results_is_given_back(self):
+    def test_the_memory_of_results_is_released(self):
         def resident():
             return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
 
@@ -114,7 +114,7 @@ class Interrupts(unittest.TestCase):
         self.interrupt(envs.recv)
         self.assertTrue(same([envs.reset(seed=1)], [others.reset(seed=1)]))
 
-    def test_a_handler_that_uses_them(self):
+    def test_a_signal_handler_that_uses_the_environments(self):
         envs = AtariVectorEnv("beamfall", **self.LONG)
         self.interrupt(lambda: envs.step([1] * 500), RuntimeError, lambda *_: envs.save(0))
 

@@ -49,7 +49,7 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
             expected = [other.request("act", action) for action in (1, 3, 4, 0) * 5]
         self.assertEqual([plain(answer) for answer in answers], [plain(answer) for answer in expected])
 
-    async def test_a_refusal_is_its_requests_alone(self):
+    async def test_a_refusal_fails_only_its_own_request(self):
         good, bad, after = await asyncio.gather(
             *(self.session.request("act", action) for action in (1, 99, 1)), return_exceptions=True
         )
@@ -138,7 +138,7 @@ class Ends(unittest.IsolatedAsyncioTestCase):
             with self.subTest(said=greeting):
                 await self.check(greeting, ConnectionError, "has ended")
 
-    async def test_a_line_that_is_too_long_is_one_too(self):
+    async def test_a_line_that_is_too_long_raises_a_ConnectionError(self):
         await self.check(b"ok " + b"x" * 5000, ConnectionError, "has ended", longest_reply=1000)
 
     async def silent(self, reader, writer):

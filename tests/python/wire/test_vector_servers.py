@@ -279,7 +279,7 @@ class Lost(Servers):
         self.check(there.reset(), here.reset(), lost=[False] * 2 + [True] * 4)
         self.play(here, there, 20)  # with the seeds that they would have had
 
-    def test_a_step_tells_of_an_absent_server_too(self):
+    def test_a_step_reports_an_absent_server_too(self):
         with self.assertWarns(RuntimeWarning):
             here, there = self.both(servers=[self.one, "unix:/nonexistent"])
         self.check(there.step([1] * COUNT), here.step([1] * COUNT), lost=SECOND)

@@ -205,7 +205,7 @@ class Halves(Compared):
 
 
 class States(Compared):
-    def test_a_state_goes_from_here_to_there_and_back(self):
+    def test_a_state_moves_to_the_server_and_back(self):
         ends = 0
         with server() as (address, _):
             for settings in SETTINGS:
@@ -240,7 +240,7 @@ class States(Compared):
                 envs.restore(1, state)
             self.play(here, there, 20)
 
-    def test_bad_states_are_refused_as_here(self):
+    def test_bad_states_are_refused_as_in_this_process(self):
         with server() as (address, _):
             here, there = both(address, count=2, seed=1)
             self.play(here, there, 5)
@@ -268,7 +268,7 @@ class States(Compared):
 
 
 class Refused(unittest.TestCase):
-    def test_bad_input_is_what_it_is_here(self):
+    def test_bad_input_raises_the_same_errors_as_in_this_process(self):
         with server() as (address, _):
             for envs in both(address, count=2, seed=1):
                 for actions, error in (

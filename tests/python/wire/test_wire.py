@@ -103,7 +103,7 @@ class Environment(unittest.TestCase):
                     )
                     self.assertEqual(play(there, 100), play(here, 100))
 
-    def test_states_go_from_here_to_there(self):
+    def test_states_move_between_this_process_and_the_server(self):
         with server() as (addresses, _):
             here, there = (racebeam.AtariEnv("beamfall", server=where) for where in (None, addresses[0]))
             here.reset(seed=1)
@@ -117,7 +117,7 @@ class Environment(unittest.TestCase):
                 self.assertEqual({step[0].tobytes() for step in steps}, {steps[0][0].tobytes()})
                 self.assertEqual([step[1:] for step in steps[1:]], [steps[0][1:]] * 2)
 
-    def test_bad_input_is_what_it_is_here(self):
+    def test_bad_input_raises_the_same_errors_as_in_this_process(self):
         with server() as (addresses, _):
             for arguments, error in (
                 ({"mode": 7}, RuntimeError),
@@ -138,7 +138,7 @@ class Environment(unittest.TestCase):
             for state in (None, b"", {}, np.zeros(3)):
                 self.assertRaisesRegex(TypeError, "it takes an ALEState", env.restore_state, state)
 
-    def test_the_interface_takes_and_refuses_what_that_of_a_game_here_does(self):
+    def test_the_interface_accepts_and_refuses_what_a_local_one_does(self):
         wrong = ("x", None, 1.5, -1, 2**40, True, np.int64(0), np.bool_(True), [0])
         names = ("setMode", "setDifficulty", "act", "cloneState", "game_over", "restoreState")
         calls = [(name, (value,)) for value in wrong for name in names]
@@ -319,7 +319,7 @@ class Sessions(unittest.TestCase):
             with self.assertRaisesRegex(ConnectionError, f"does not serve: .* serve --stdio .*{options[0]}"):
                 racebeam.launch(*options)
 
-    def test_the_file_can_be_copied_alone(self):
+    def test_the_single_file_works_without_the_package(self):
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "client.py").write_bytes(
                 (package.SOURCE / "clients/python/single_file/client.py").read_bytes()

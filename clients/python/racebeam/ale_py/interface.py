@@ -23,6 +23,9 @@ class NoSuchGame(UnknownGame, AssertionError, TypeError):
 def check_game(game: str) -> None:
     """Checks the name of a game.
 
+    Args:
+        game: Name of the game.
+
     Raises:
         NoSuchGame: If no game has this name.
     """

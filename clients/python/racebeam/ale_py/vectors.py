@@ -286,7 +286,14 @@ class ALEVectorInterface:
 
     @classmethod
     def wrap(cls, envs: AtariVectorEnv) -> ALEVectorInterface:
-        """Makes the interface of existing environments."""
+        """Makes the interface of existing environments.
+
+        Args:
+            envs: The environments.
+
+        Returns:
+            The interface, which shares them.
+        """
         interface = cls.__new__(cls)
         interface._envs = envs
         return interface

@@ -18,6 +18,9 @@ RULES = ("ale-0.12", "fixed")
 def check_rules(rules: object) -> None:
     """Checks the name of the rules.
 
+    Args:
+        rules: The argument `rules` of `AtariEnv`.
+
     Raises:
         InvalidInput: If the rules are unknown.
     """
@@ -51,6 +54,9 @@ def frameskip_of(value: Any) -> int | tuple[int, int]:
 
 def check_reward_range(reward_range: object) -> None:
     """Checks a range of rewards.
+
+    Args:
+        reward_range: The argument `reward_range` of `AtariEnv`.
 
     Raises:
         WrongType: If it is neither None nor a pair of numbers.

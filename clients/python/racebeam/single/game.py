@@ -39,7 +39,7 @@ class EnvWithGame(EnvWithActions):
     _two_player: bool
 
     def _set_keys(self, rules: str, sticky: float, limit: int | None, life_loss_truncates: bool) -> None:
-        """Sets what takes effect when the game is loaded."""
+        """Sets the keys that take effect when the game is loaded."""
         self.ale.setString("rules", rules)
         self.ale.setFloat("repeat_action_probability", sticky)
         if limit is not None:
@@ -49,7 +49,7 @@ class EnvWithGame(EnvWithActions):
         self.ale.setBool("all_audio", self.sound_obs == "all")
 
     def _set_console(self, words: dict[str, str], numbers: dict[str, int | None]) -> None:
-        """Sets what the console must know of your own image."""
+        """Sets the keys of the console for an image."""
         self.ale.setString("game_file", self._game_file or "")
         self.ale.setBool("unknown_images", self._game is None)
         for key, word in words.items():

@@ -24,7 +24,14 @@ class LifeLoss:
         self.continues = False
 
     def lives_before(self, ale: Any) -> int:
-        """Returns the lives before a step, or 0 if they have no effect."""
+        """Counts the lives before a step.
+
+        Args:
+            ale: Interface of the game.
+
+        Returns:
+            The lives that are left, or 0 if a lost life has no effect.
+        """
         return int(ale.lives()) if self.word in ("reported", "end") else 0
 
     def ends(self, ale: Any, ends: tuple[bool, bool], before: int, lives: int, episode_frame: int) -> tuple[bool, bool]:

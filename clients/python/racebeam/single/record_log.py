@@ -186,7 +186,7 @@ def _checked(env: gymnasium.Env[Any, Any]) -> AtariEnv:
         (base._two_player, "two_player is True; a log has the actions of player A"),
         (not isinstance(base._frameskip, int), f"frameskip is {base._frameskip!r}; a log takes a number"),
         (base._noop_max != 0, f"noop_max is {base._noop_max}; a log takes 0, and the no-ops as actions"),
-        (base._game is None or base._game_file, "the game has a file of its own; a log takes one of the catalogue"),
+        (base._game is None or base._game_file, "the game comes from a game file; a log takes a game of the catalogue"),
         ((low, high) != (-np.inf, np.inf), f"reward_range is ({low}, {high}); a log has whole rewards"),
     ):
         if wrong:

@@ -20,6 +20,12 @@ __all__ = ["array_of", "check_shape", "indices_of", "joysticks_of", "mask_of", "
 def array_of(values: Any) -> npt.NDArray[Any]:
     """Converts values to an array.
 
+    Args:
+        values: Numbers, or sequences of numbers.
+
+    Returns:
+        The array.
+
     Raises:
         InvalidInput: If the rows have different lengths.
     """
@@ -31,6 +37,11 @@ def array_of(values: Any) -> npt.NDArray[Any]:
 
 def check_shape(name: str, array: npt.NDArray[Any], shape: tuple[int, ...]) -> None:
     """Checks the shape of an array.
+
+    Args:
+        name: Name of the array, in the plural.
+        array: The array.
+        shape: The shape that it must have.
 
     Raises:
         InvalidInput: If `array` does not have this shape.

@@ -24,7 +24,7 @@ ARGUMENTS = ("folder", "agent", "version", "training_frames", "trial", "agent_se
 class VectorLogs:
     """Writes a log of each game of a vector of environments. Environment i plays the trial `trial` + i.
 
-    A log begins at power-on, so each game begins with a seed of its own. A game gets no log if it was left before its
+    A log begins at power-on, so each game begins with another seed. A game gets no log if it was left before its
     end, if a state was restored in it, or if the log cannot be written. It then causes a warning.
 
     Args:

@@ -224,7 +224,7 @@ class RemoteMachines(Halves):
         self._session.begin(*words, **settings)
 
     def is_waiting(self) -> bool:
-        """Returns whether a request has no reply yet, which a later request would take for its own."""
+        """Returns whether a reply is still to come, which a later request would mistake for its own."""
         return bool(self._session.unanswered)
 
     def check_process(self) -> None:
