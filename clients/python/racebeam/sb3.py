@@ -8,6 +8,7 @@ Importing this module needs Stable-Baselines3: pip install "stable-baselines3>=2
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -21,8 +22,10 @@ from .arguments import WrongType, WrongValue
 from .vector_env import AtariVectorEnv, VectorArguments
 from .vector_options import autoreset_of
 
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # a part of typing from Python 3.11 on
+if sys.version_info >= (3, 11):
+    from typing import Unpack
+elif TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 __all__ = ["VecEnv"]
 

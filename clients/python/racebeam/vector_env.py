@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +17,10 @@ from .vector.making import Rom, make_local_machines, make_remote_machines, parse
 from .vector.play import PlayedVector
 from .vector_options import OptionArguments, VectorOptions
 
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # a part of typing from Python 3.11 on
+if sys.version_info >= (3, 11):
+    from typing import Unpack
+elif TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 __all__ = ["AtariVectorEnv", "VectorArguments"]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import secrets
+import sys
 from typing import TYPE_CHECKING, Any, Literal, SupportsIndex, TypedDict
 
 from . import _core
@@ -28,8 +29,10 @@ from .arguments import (
 from .presets import VectorPreset, vector_preset
 from .vector.autoreset import AutoresetMode
 
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # a part of typing from Python 3.11 on
+if sys.version_info >= (3, 11):
+    from typing import Unpack
+elif TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 __all__ = ["SEEDS", "OptionArguments", "VectorOptions", "autoreset_of"]
 
