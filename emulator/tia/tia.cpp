@@ -74,7 +74,6 @@ void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& l
   watches_ = beam_.may_meet() || tia_.cosmic;
   log_ = &log;
   played_ = log.next;
-  pending_ = {};
   recorded_ = nullptr;
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
@@ -95,30 +94,6 @@ bool Tia::play_log(std::int32_t cycle, Collisions latches) {
   }
 }
 
-// Whether the latches are the same after the writes that have not been played: none of them clears one that
-// is set, and in each other pair, one object is not enabled, nor will be. Many writes are played instead.
-bool Tia::is_settled(Collisions latches) {
-  if (pending_.first != played_) pending_ = {played_, played_};
-  if (log_->next - pending_.last > kMostExamined) return false;
-  for (; pending_.last != log_->next; ++pending_.last) {
-    const TiaWrite write(*pending_.last);
-    pending_.control |= kLineEffects[write.reg()].control & kAllObjects;
-    pending_.clears |= write.reg() == CXCLR;
-    if (write.reg() - GRP0 < 2U && write.value() != 0)
-      pending_.filled |= object_bit(kP0 + write.reg() - GRP0);
-  }
-  if (pending_.clears && (tia_.collisions & latches) != 0) return false;
-  unsigned objects = tia_.enabled | pending_.control;
-  const auto meet = [&] {
-    const auto others = static_cast<Collisions>(tia_.collisions | ~latches);
-    return can_meet(static_cast<std::uint8_t>(objects), others);
-  };
-  if (!meet()) return true;
-  for (unsigned i = 0; i < 2; ++i)  // VDELPx and the other player's GRPx cannot enable an empty player
-    if ((tia_.player[i].grp | tia_.player[i].old_grp) == 0) objects &= pending_.filled | ~(1U << (kP0 + i));
-  return !meet();
-}
-
 // Plays the log in steps without pixels.
 bool Tia::follow_log() {
   skip(end_of_unseen());
@@ -133,7 +108,6 @@ void Tia::empty_log(std::int32_t cycle) {
   play_log(cycle);
   log_->rewind(cycle);
   played_ = log_->next;
-  pending_ = {};
 }
 
 void Tia::catch_up(std::int32_t cycle) {
@@ -144,7 +118,6 @@ void Tia::catch_up(std::int32_t cycle) {
 
 void Tia::find_collisions(std::int32_t cycle, Collisions latches) {
   latches_read_ |= latches;
-  if (beam_.draws_pixels() && !beam_.exact_spans() && is_settled(latches)) return;
   if (!play_log(cycle, latches)) return;
   if (!beam_.draws_pixels()) return touch(cycle);
   RenderPolicy{beam_, reached_}.collide_to(3 * cycle);
@@ -174,14 +147,6 @@ void Tia::play(const std::uint32_t* next) {
   RegisterEffects(tia_, frame_, video_, RenderPolicy{beam_, reached_}).play(played_, next, log_->base);
   played_ = next;
   if (beam_.exact_spans()) beam_.draw_to(reached_);
-}
-
-// Plays the remaining writes of the cursor's line, and draws the line to its end.
-void Tia::play_rest(const std::uint32_t* next) {
-  beam_.enter_line(recorded_ != nullptr);
-  RegisterEffects(tia_, frame_, video_, LinePolicy{{beam_, reached_}}).play(played_, next, log_->base);
-  played_ = next;
-  beam_.finish_line();
 }
 
 // Plays writes that need no drawing.
@@ -296,25 +261,24 @@ bool Tia::draw_line(std::uint32_t origin) {
     recorded_->open(tia_.registers());
     beam_.look_afresh();
   }
-  const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;
-  if (recorded_ == nullptr)
-    while (LineWrite(*next, origin).acts_here()) ++next;
-  if (!LineWrite(*next, origin).is_of_line())
-    play_rest(next);
-  else if (play(next); ends_early(next, origin))
-    beam_.finish_line();
-  else
-    return false;
+  if (!record_writes(origin)) return false;
+  beam_.finish_line();
   close_record();
   return true;
 }
 
-// Whether only late writes of the line are left. Otherwise writes that act on two lines, or are too many, are
-// left, and the line is not recorded.
-bool Tia::ends_early(const std::uint32_t* next, std::uint32_t origin) {
+// Plays and records the writes of the cursor's line. Returns true if they are complete. Writes that act on
+// two lines, or are too many, are left, and the line is not recorded.
+bool Tia::record_writes(std::uint32_t origin) {
+  const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;
+  if (recorded_ == nullptr)
+    while (LineWrite(*next, origin).acts_here()) ++next;
+  play(next);
+  const LineWrite write(*next, origin);
+  if (!write.is_of_line()) return true;
   // In Cosmic Ark mode, the end of a line has a further effect, and it matters whether that comes before a
   // late write.
-  if (LineWrite(*next, origin).is_late() && recorded_ != nullptr && tia_.cosmic == 0) return true;
+  if (write.is_late() && recorded_ != nullptr && tia_.cosmic == 0) return true;
   if (next != log_->next) recorded_ = nullptr;
   return false;
 }

@@ -43,21 +43,9 @@ class Tia {
  private:
   static constexpr Collisions kWholePicture = 0xFFFF;  // a value of `latches`: more than collisions
 
-  static constexpr int kMostExamined = 32;  // writes between two reads of latches
-
-  // Writes that have not been played, from `first` to `last`.
-  struct Pending {
-    const std::uint32_t *first = nullptr, *last = nullptr;
-    unsigned control = 0;  // the objects that they may enable (bit n: Object n)
-    unsigned filled = 0;   // the players that they give graphics
-    bool clears = false;   // there is a CXCLR
-  };
-
-  bool is_settled(Collisions latches);
   bool play_log(std::int32_t cycle, Collisions latches);
   bool follow_log();
   void play(const std::uint32_t* next);
-  void play_rest(const std::uint32_t* next);
   void skip(const std::uint32_t* next);
   const std::uint32_t* end_of_unseen() const;
   bool at_line() const;
@@ -67,7 +55,7 @@ class Tia {
   bool recall_lines(std::uint32_t& origin, Collisions latches);
   void play_recalled(const std::uint32_t* next, LineRecord& record);
   bool draw_line(std::uint32_t origin);
-  bool ends_early(const std::uint32_t* next, std::uint32_t origin);
+  bool record_writes(std::uint32_t origin);
   void close_record();
 
   TiaState& tia_;
@@ -76,8 +64,7 @@ class Tia {
   Beam beam_;
   WriteLog* log_ = nullptr;
   const std::uint32_t* played_ = nullptr;  // entries up to here have been played
-  Pending pending_;
-  LineRecord* recorded_ = nullptr;  // the cursor's line, as far as it has been drawn
+  LineRecord* recorded_ = nullptr;         // the cursor's line, as far as it has been drawn
   Collisions latches_read_ = 0;
   bool watches_ = false;  // objects of a sought pair may meet, in a step without pixels
   // The clock that the reference's beam has reached; ours may be behind, with the same registers.

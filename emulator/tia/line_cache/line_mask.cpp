@@ -1,7 +1,6 @@
 #include "emulator/tia/line_cache/line_mask.hpp"
 
 #include <array>
-#include <bit>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -13,38 +12,36 @@ namespace {
 
 constexpr std::size_t kMost = 1 << 14;
 
+// A bit for each byte.
 struct Key {
-  ByteSet counts = 0, sets = 0;
+  std::uint64_t counts = 0, sets = 0;
   auto operator<=>(const Key&) const = default;
 };
 
-TiaRegisters mask_of(ByteSet set) {
-  TiaBytes bytes{};
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = set >> i & 1 ? 0xFF : 0;
-  return std::bit_cast<TiaRegisters>(bytes);
-}
-
 // Elements of a map do not move.
-const LineMask* find_or_add(const Key& key) {
+const LineMask* find_or_add(const Key& key, const RegisterVectors& counts, const RegisterVectors& sets) {
   static std::mutex mutex;
   static std::map<Key, LineMask> all;
   const std::lock_guard lock(mutex);
   if (const auto found = all.find(key); found != all.end()) return &found->second;
   if (all.size() == kMost) return nullptr;
-  return &(all[key] = {mask_of(key.counts), mask_of(key.sets)});
+  LineMask& mask = all[key];
+  counts.write(mask.counts);
+  sets.write(mask.sets);
+  return &mask;
 }
 
 }  // namespace
 
-const LineMask* LineMask::find(ByteSet counts, ByteSet sets) {
+const LineMask* LineMask::find(const RegisterVectors& counts, const RegisterVectors& sets) {
   struct Entry {
     Key key;
     const LineMask* mask = nullptr;
   };
   thread_local std::array<Entry, 256> recent;
-  const Key key{counts, sets};
+  const Key key{counts.bytes_set(), sets.bytes_set()};
   Entry& entry = recent[(key.counts * 0x9E3779B97F4A7C15 ^ key.sets * 0xC2B2AE3D27D4EB4F) >> 56];
-  if (entry.mask == nullptr || entry.key != key) entry = {key, find_or_add(key)};
+  if (entry.mask == nullptr || entry.key != key) entry = {key, find_or_add(key, counts, sets)};
   return entry.mask;
 }
 

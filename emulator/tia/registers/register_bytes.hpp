@@ -64,16 +64,4 @@ constexpr TiaRegisters operator|(const TiaRegisters& a, const TiaRegisters& b) {
   return std::bit_cast<TiaRegisters>(bytes);
 }
 
-// A bit for each byte of TiaRegisters.
-using ByteSet = std::uint64_t;
-
-constexpr ByteSet set_of(const TiaRegisters& mask) {
-  const auto bytes = std::bit_cast<TiaBytes>(mask);
-  ByteSet set = 0;
-  for (std::size_t i = 0; i < bytes.size(); ++i) set |= ByteSet{bytes[i] != 0} << i;
-  return set;
-}
-
-#define RACEBEAM_TIA_BYTE_SET(bytes) set_of(RACEBEAM_TIA_BYTES(bytes))
-
 }  // namespace racebeam
