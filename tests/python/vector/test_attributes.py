@@ -98,6 +98,9 @@ class Options(unittest.TestCase):
             others.reset()[0].tolist(), AtariVectorEnv("updraft", 5, options=options).reset(seed=8)[0].tolist()
         )
 
+    def test_the_defaults_are_those_of_the_preset_ale(self):
+        self.assertEqual(VectorOptions(seed=1), VectorOptions.of_preset(seed=1))
+
     def test_a_batch_of_some_environments_stays_one(self):
         options = VectorOptions(num_envs=4, batch_size=2)
         self.assertEqual(AtariVectorEnv("beamfall", options=options).batch_size, 2)
