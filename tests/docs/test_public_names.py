@@ -7,9 +7,9 @@ import unittest
 import tree
 
 PACKAGE = tree.ROOT / "clients/python/racebeam"
-MODULES = ("", "cluster", "envpool", "episode_log", "errors", "sb3", "testing", "wire/aio", "wire/client")
+MODULES = ("", "cluster", "envpool", "episode_log", "errors", "results", "sb3", "testing", "wire/aio", "wire/client")
 PAGES = tree.ROOT / "docs"
-BLOCK = re.compile(r"^```\w*\n(.*?)^```", re.DOTALL | re.MULTILINE)
+BLOCK = re.compile(r"^```[\w-]*\n(.*?)^```", re.DOTALL | re.MULTILINE)
 SPAN = re.compile(r"`[^`]+`")
 CALL = re.compile(r"`(\w+)\(([^`]*)\)`")
 

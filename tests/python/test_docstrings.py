@@ -14,7 +14,7 @@ package.require("numpy", "gymnasium")
 
 import racebeam
 
-NEEDS = {"racebeam.sb3": "stable_baselines3"}
+NEEDS = {"racebeam.results": "racebeam_evaluation", "racebeam.sb3": "stable_baselines3"}
 
 
 def modules():

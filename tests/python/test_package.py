@@ -7,6 +7,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import package
@@ -68,6 +69,18 @@ class Import(unittest.TestCase):
         self.assertEqual(
             python(f"import racebeam, sys; print([m for m in ({heavy},) if m in sys.modules])").stdout, "[]\n"
         )
+
+    def test_results_are_read_by_the_package_of_evaluation(self):
+        hidden = "import sys; sys.modules['racebeam_evaluation'] = None\n"  # as if it were not installed
+        load = "import racebeam\ntry: print(racebeam.results.load('folder'))\nexcept ImportError as error: print(error)"
+        self.assertEqual(
+            python(hidden + load).stdout,
+            f"racebeam.results needs racebeam-evaluation; {install_hint('racebeam_evaluation')}\n",
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            made = pathlib.Path(folder, "racebeam_evaluation.py")
+            made.write_text("BadInput = Frames = None\ndef load(path): return 'frames of ' + path\n")
+            self.assertEqual(python(load, PYTHONPATH=folder).stdout, "frames of folder\n")
 
     def test_the_metadata(self):
         described = importlib.metadata.metadata("racebeam")

@@ -29,6 +29,7 @@ from .wire.session import Session
 if TYPE_CHECKING:
     import os
 
+    from . import results as results
     from .env import AtariEnv
     from .single.record_log import RecordLog
     from .vector_env import AtariVectorEnv
@@ -112,6 +113,8 @@ def __dir__() -> list[str]:
 
 
 def __getattr__(name: str) -> Any:
+    if name == "results":
+        return importlib.import_module(".results", __name__)
     if name not in _NEED_GYMNASIUM:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     _check_gymnasium(name)

@@ -11,6 +11,7 @@ REQUIREMENTS = {
     "gymnasium": "gymnasium>=1.1" if sys.version_info >= (3, 11) else "gymnasium>=1.1,<1.4",
     "jax": "jax>=0.5",
     "pygame": "pygame>=2.1.3",
+    "racebeam_evaluation": "./evaluation",
     "submitit": "submitit>=1.5",
 }
 
@@ -18,7 +19,8 @@ REQUIREMENTS = {
 def install_hint(module: str) -> str:
     """Returns the end of an error message, which tells how a missing package is installed.
 
-    The command names the package and not an extra of racebeam, since no index has racebeam.
+    The command names the package and not an extra of racebeam, since no index has racebeam. A path is that of a folder
+    in racebeam's source.
 
     Args:
         module: Name of the module that cannot be imported.
