@@ -7,6 +7,7 @@ import pathlib
 import re
 import resource
 import shutil
+import signal
 import tempfile
 import unittest
 import zlib
@@ -127,6 +128,22 @@ class Board(Folder):
         self.assertIn("2.episode is not an episode log", index)
         self.assertIn(">none/agent.toml cannot be read", index)
         self.assertNotIn(str(self.root), index)
+
+    def test_a_full_disk_leaves_nothing(self):
+        folder, _ = submission(self.root / "mine")
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (500, limits[1]))  # a write beyond it fails, as on a full disk
+        try:
+            done = self.board(folder)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+            signal.signal(signal.SIGXFSZ, ignored)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(
+            done.stderr, "^racebeam-evaluate: .*/site cannot be written: File too large; expected a folder "
+        )
+        self.assertEqual([path.name for path in self.root.iterdir()], ["mine"])
 
     def test_one_version_of_an_agent_and_one_image_of_a_game(self):
         submission(self.root / "a")
