@@ -5,8 +5,8 @@
 
 FOLDER has PLAN.json for plans of PLANS, as scripts/measure/plan_figures.py gathers them; docs/results/figures unless it
 is named. A plan without figures is said to be not run yet. Where only some games of `baselines` were run again,
-baselines-partial.json has these: its plan is that of `baselines` with fewer games. Published scores are those of
-evaluation/.
+baselines-partial.json has these: its plan is that of `baselines` with fewer games. perturb-again.json has other
+episodes of the Perturb policies that are far from the paper's. Published scores are those of evaluation/.
 """
 
 import argparse

@@ -71,6 +71,14 @@ class Results:
         """{game: score}: the mean over trials of the mean over their episodes."""
         return {game: statistics.mean(scores) for game, scores in self.trials(agent).items()}
 
+    def errors(self, agent):
+        """{game: standard error of the mean over episodes}, of an agent with one trial in each game."""
+        episodes = {}
+        for row in self.rows:
+            if row["agent"] == agent:
+                episodes.setdefault(row["game"], []).append(float(row["score"]))
+        return {game: statistics.stdev(each) / len(each) ** 0.5 for game, each in episodes.items() if len(each) > 1}
+
     def curves(self):
         """{agent: {game: the scores of training by tenths of the episodes, means over trials}}."""
         path = self.folder / "curves.csv"
@@ -172,6 +180,7 @@ class Results:
             "diverged": self.diverged,
             "seconds": sum(times[part + "_seconds"] for times in self.times.values() for part in PARTS),
             "scores": {agent: self.scores(agent) for agent in self.agents},
+            "errors": {agent: self.errors(agent) for agent in self.agents if agent.startswith("perturb")},
             "trials": {agent: self.trials(agent) for agent in curves},
             "curves": curves,
             "speeds": {agent: self.speeds(agent) for agent in self.agents},

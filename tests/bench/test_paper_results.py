@@ -109,7 +109,21 @@ class PaperResults(unittest.TestCase):
         (self.folder / "figures/baselines-partial.json").unlink()
         (self.folder / "baselines-partial/plan.toml").unlink()
         text = " ".join(self.text().split())
-        self.assertIn("within a fifth of the paper's in 0 of 1 games: not in asterix (33.0 for 337.8).", text)
+        self.assertIn("within a fifth of the paper's in 0 of 1 games. The table has the others.", text)
+
+    def test_perturb_that_is_far_from_the_paper_has_a_cause(self):
+        results(self.folder / "baselines", ["random", "const"], {"random": [[1]], "const_noop": [[1]]})
+        for others, cause in (
+            ([330, 340], "chance of 30 episodes: the others are within a fifth"),
+            ([100, 300], "chance: the others are within two standard errors"),
+            ([90, 92], "the emulator or the rules of 2012: the others differ, too"),
+        ):
+            with self.subTest(cause=cause):
+                results(self.folder / "perturb", ["perturb"], {"perturb_up": [[90, 110]]})
+                results(self.folder / "perturb-again", ["perturb"], {"perturb_up": [others]})
+                mean, error = sum(others) / 2, abs(others[1] - others[0]) / 2
+                row = f"| asterix | up | 100.0 (10.0) | {mean:.1f} ({error:.1f}) | 337.8 | {cause} |"
+                self.assertIn(row, self.text())
 
     def test_learners_have_scores_and_speeds(self):
         results(self.folder / "hour", ["random", "basic"], {"random": [[10]], "basic": [[20, 40], [60]]})

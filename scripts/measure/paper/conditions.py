@@ -2,7 +2,7 @@
 
 import textwrap
 
-from .parts import PARTIAL, PLANS, WIDTH, Part, episodes, number, rows_of
+from .parts import AGAIN, PARTIAL, PLANS, WIDTH, Part, episodes, number, rows_of
 
 # Agents that have changed: the plan and the agent; whether settings are those of the agent as it is now; what it did.
 CHANGED = (
@@ -54,7 +54,7 @@ class Conditions(Part):
             where it ended. By worth for their time, the plans to go on with are `learners`, `perturb`, `iw1`, `ram`,
             `searches` and `blob_prost`.""")
         rows = []
-        for name in (*PLANS, *({PARTIAL} & set(self.figures))):
+        for name in (*PLANS, *(each for each in (PARTIAL, AGAIN) if each in self.figures)):
             found = self.figures.get(name)
             rows.append(
                 [

@@ -19,6 +19,8 @@ class Logs(Part):
         for name, found in self.figures.items():
             none.setdefault(found["machine"].get("processor", "-"), {}).update(found["bench"]["none"])
             verified, ale = found["verified"], found["ale"] or {}
+            if not any(ale.values()):
+                ale = {}  # ALE played none of its games
             if verified:
                 rows.append(
                     [

@@ -13,6 +13,7 @@ PLANS = (
     *("uct", "uct10", "uct50", "uct150", "full_tree", "iw1", "searches"),
 )
 PARTIAL = "baselines-partial"
+AGAIN = "perturb-again"  # more episodes of the policies whose score is far from the paper's
 
 
 def published(name):
@@ -72,7 +73,7 @@ class Part:
     def __init__(self, folder):
         self.figures = {
             name: json.loads((folder / f"{name}.json").read_text())
-            for name in (*PLANS, PARTIAL)
+            for name in (*PLANS, PARTIAL, AGAIN)
             if (folder / f"{name}.json").exists()
         }
         self.paper = paper()
@@ -93,7 +94,9 @@ class Part:
 
     def title(self, name):
         """What a table calls a plan."""
-        return f"`baselines`, {len(self.figures[name]['games'])} games again" if name == PARTIAL else f"`{name}`"
+        if name == PARTIAL:
+            return f"`baselines`, {len(self.figures[name]['games'])} games again"
+        return "`perturb`, other episodes" if name == AGAIN else f"`{name}`"
 
     def figures_of(self, plan):
         """The figures whose changed agents the document shows."""
