@@ -1,5 +1,6 @@
 """The sections of docs/results.md about baselines and learners."""
 
+import math
 import statistics
 
 from plan_figures import ROOT
@@ -9,6 +10,11 @@ from .parts import AGAIN, PARTIAL, Part, best, number, rows_of
 LEARNERS = {"basic": 8000, "lsh": 4000, "disco": 3000, "bass": 1000, "ram": 500}  # decisions a second: the goals
 # The 97.5 % quantile of Student's t for 1, 2, ... degrees of freedom.
 STUDENT = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262)
+PAPER_EPISODES = 30  # of Perturb; not printed
+# Causes that a comparison of scores does not find.
+CAUSES = {
+    "skiing": "the reward was near 0 then, and adds up to about -17,000 for random play now",
+}
 
 
 def interval(trials):
@@ -18,16 +24,12 @@ def interval(trials):
     half = STUDENT[len(trials) - 2] * statistics.stdev(trials) / len(trials) ** 0.5
     mean = statistics.mean(trials)
     return f"{number(mean - half)} to {number(mean + half)}"
-# Causes that a comparison of scores does not find.
-CAUSES = {
-    "skiing": "the reward was near 0 then, and adds up to about -17,000 for random play now",
-}
 
 
 def mean_and_error(found, agent, game):
-    """The mean score of an agent and its standard error, or None."""
+    """The mean score of an agent, its standard error and the number of episodes, or None."""
     score = found["scores"].get(agent, {}).get(game)
-    return None if score is None else (score, found["errors"][agent][game])
+    return None if score is None else (score, found["errors"][agent][game], found["episodes"][agent][game])
 
 
 def shown(score, error):
@@ -38,10 +40,10 @@ def cause(more, theirs):
     """Why 30 episodes differ from the paper's score: by what the same policy scores in others."""
     if more is None:
         return "not known"
-    score, error = more
+    score, error, episodes = more
     if abs(score - theirs) <= abs(theirs) / 5:
         return "chance of 30 episodes: the others are within a fifth"
-    if abs(score - theirs) <= 2 * error:
+    if abs(score - theirs) <= 2 * math.hypot(error, error * math.sqrt(episodes / PAPER_EPISODES)):
         return "chance: the others are within two standard errors"
     return "the emulator or the rules of 2012: the others differ, too"
 
@@ -137,7 +139,8 @@ class Agents(Part):
                 errors.setdefault(agent, {}).update(each)
         again = self.figures.get(AGAIN, {"scores": {}, "errors": {}})
         self.say("""The table has the others. In brackets: the standard error. The best of 18 means is higher than what
-            its policy scores in the mean, so that a column has the same policy in 200 episodes with other seeds.""")
+            its policy scores in the mean, so that a column has the same policy in 200 episodes of a plan with `seed = 2`. The paper does not
+            print how many episodes it has; the causes take it for 30.""")
         rows = []
         for game in games:
             (score, action), theirs = perturb[game], self.paper[game]["perturb"]
@@ -148,7 +151,7 @@ class Agents(Part):
                     game,
                     action,
                     shown(score, errors.get(agent, {}).get(game)),
-                    shown(*more) if more else "-",
+                    shown(*more[:2]) if more else "-",
                     number(theirs),
                     CAUSES.get(game) or cause(more, theirs),
                 ]

@@ -144,6 +144,8 @@ class Conditions(Part):
                     random play now.
             Its row cannot be compared.""",
                     """Single episodes: searches play one, so that an early death costs all that would follow.""",
+                    """Single trials: a learner's score hangs on the moment at which training ends
+                    ([paper-notes.md](paper-notes.md#the-end-of-training)). The paper has the mean of 30 trials.""",
                     """Choices: the paper leaves much open ([paper-notes.md](paper-notes.md)).""",
                 )
             )
