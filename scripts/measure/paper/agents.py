@@ -139,8 +139,8 @@ class Agents(Part):
                 errors.setdefault(agent, {}).update(each)
         again = self.figures.get(AGAIN, {"scores": {}, "errors": {}})
         self.say("""The table has the others. In brackets: the standard error. The best of 18 means is higher than what
-            its policy scores in the mean, so that a column has the same policy in 200 episodes of a plan with `seed = 2`. The paper does not
-            print how many episodes it has; the causes take it for 30.""")
+            its policy scores in the mean. So a column has the same policy in 200 episodes of a plan with `seed = 2`.
+            The paper does not print how many episodes it has; the causes take it for 30.""")
         rows = []
         for game in games:
             (score, action), theirs = perturb[game], self.paper[game]["perturb"]
