@@ -60,7 +60,9 @@ void MemoryShare::set(std::size_t bytes) {
 
 // How much must be left for others if the owner takes so many bytes more.
 std::uint64_t MemoryShare::spare_after(std::size_t bytes) const {
-  return bytes_ + bytes > budget_->little() ? budget_->reserve() : 0;
+  if (bytes_ + bytes > budget_->little()) return budget_->reserve();
+  const MemoryBudget* const owner = budget_->whole();
+  return owner != nullptr && owner->crowds_others_out() ? budget_->reserve_for_other_owners() : 0;
 }
 
 bool MemoryShare::grow(std::size_t bytes) {

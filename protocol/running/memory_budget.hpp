@@ -47,6 +47,10 @@ class MemoryBudget {
   // sessions have room although large ones have all that they can get.
   std::uint64_t reserve() const { return most_ / 8; }
   std::uint64_t little() const { return std::max(most_ / 512, kLeastLittle); }
+  // An owner that holds more than half of the memory does not get the last thirty-second, which is left for
+  // clients of other owners. This is whether the part is such an owner's.
+  bool crowds_others_out() const { return whole_ && whole_->parts_ > 1 && taken_ > most_ / 2; }
+  std::uint64_t reserve_for_other_owners() const { return most_ / 32; }
   // How much is taken of the last sixteenth. Sessions then keep nothing that they can make again, and the
   // server ends some.
   std::uint64_t shortage() const;

@@ -22,11 +22,6 @@ bool holds_the_mean(const MemoryBudget& part) {
   return part.taken() * whole.parts() >= whole.taken();
 }
 
-// An owner that holds most of the memory with sessions that are busy loses some of them, for others' sake.
-bool crowds_others_out(const MemoryBudget& owner) {
-  return owner.whole()->parts() > 1 && owner.taken() > owner.most() / 2;
-}
-
 Burden burden_of(const Client& client, Clock::time_point now) {
   if (client.ending() || client.memory() == nullptr) return Burden::kNone;
   if (client.unsent() > kOnItsWay && now - client.sends_since() > kSlow) return Burden::kUnread;
@@ -34,7 +29,8 @@ Burden burden_of(const Client& client, Clock::time_point now) {
   const MemoryBudget& owner = *session.whole();
   if (!holds_the_mean(session) || !holds_the_mean(owner)) return Burden::kNone;
   if (!client.working && now - client.active() > kLongPause) return Burden::kIdle;
-  return crowds_others_out(owner) ? Burden::kActive : Burden::kNone;
+  // An owner that holds most of the memory with sessions that are busy loses some of them, for others' sake.
+  return owner.crowds_others_out() ? Burden::kActive : Burden::kNone;
 }
 
 }  // namespace

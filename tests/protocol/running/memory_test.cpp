@@ -111,6 +111,16 @@ TEST_CASE("The last eighth is for owners that hold little") {
   CHECK(budget->taken() == 57 * kMiB);
 }
 
+TEST_CASE("The last thirty-second is not for an owner that holds more than half") {
+  const auto budget = std::make_shared<MemoryBudget>(64 * kMiB);
+  const auto large = MemoryBudget::part(budget, "user 1"), other = MemoryBudget::part(budget, "user 2");
+  large->take_anyway(61 * kMiB);
+  MemoryShare one_more(std::make_shared<MemoryBudget>(large)), first(std::make_shared<MemoryBudget>(other));
+  CHECK(one_more.grow(kMiB));
+  CHECK_FALSE(MemoryShare(std::make_shared<MemoryBudget>(large)).grow(1));
+  CHECK(first.grow(kMiB));
+}
+
 TEST_CASE("An owner is refused by a budget that others have exceeded") {
   const auto budget = std::make_shared<MemoryBudget>(64 * kMiB);
   MemoryShare share(budget);
