@@ -55,7 +55,7 @@ RACEBEAM_API std::optional<Action> action_named(std::string_view name) noexcept;
 // The actions of both players in one step. Those of the console are player A's.
 struct Controls {
   Action a = Action::kNoop, b = Action::kNoop;
-  float strength_a = 1, strength_b = 0;  // how fast a paddle is turned, where the game has paddles: 0 to 1
+  float strength_a = 1, strength_b = 0;  // how far a paddle is turned: 1 is its usual step
   int frames = 0;                        // how long; 0: Settings::frame_skip
 };
 

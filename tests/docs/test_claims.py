@@ -1,4 +1,7 @@
-"""Tests claims of the documents: on the program's words, its settings, and how it ends."""
+"""Tests claims of the documents: on the program's words, its settings, and how it ends.
+
+claims.toml has each sentence of some pages with all, every, only, always or never, and what holds it.
+"""
 
 import os
 import pathlib
@@ -10,12 +13,14 @@ import tempfile
 import unittest
 
 import tomllib
+from markdown import prose
 from test_numbers import page, table
 from tree import ROOT
 
 sys.path.insert(0, str(ROOT / "tests/server"))
 from harness import Server  # noqa: E402
 
+UNIVERSAL = re.compile(r"\b(all|every|only|always|never)\b", re.IGNORECASE)
 BINARY = os.environ.get("RACEBEAM_BINARY", str(ROOT / "build/release/racebeam"))
 
 
@@ -30,6 +35,42 @@ def talk(*requests):
 
 def values(words):
     return dict(word.split("=", 1) for word in words if "=" in word)
+
+
+def universal_sentences(text):
+    """The sentences of a page with a word such as every, without code, tables and headings."""
+    blocks = [[]]
+    for _, line in prose(text):
+        if not line.strip() or line.startswith(("#", "|")) or re.match(r"\s*([*-]|\d+\.) ", line):
+            blocks.append([])
+        if not line.startswith(("#", "|")):
+            blocks[-1].append(line.strip())
+    for block in blocks:
+        for sentence in re.split(r"(?<=[.:;])\s+(?=[A-Z`*])", " ".join(block)):
+            if UNIVERSAL.search(sentence):
+                yield sentence
+
+
+class Ledger(unittest.TestCase):
+    def setUp(self):
+        self.claims = tomllib.loads(page("tests/docs/claims.toml"))
+
+    def test_each_universal_sentence_is_listed_with_what_holds_it(self):
+        for name, listed in self.claims.items():
+            for sentence in universal_sentences(page(name)):
+                with self.subTest(page=name):
+                    held = any(words in sentence for words in listed)
+                    self.assertTrue(held, f"tests/docs/claims.toml lacks a sentence of {name}: {sentence}")
+
+    def test_each_claim_is_in_its_page_and_what_holds_it_in_the_tree(self):
+        for name, listed in self.claims.items():
+            text = " ".join(page(name).split())
+            for words, holder in listed.items():
+                with self.subTest(page=name, claim=words):
+                    self.assertTrue(words in text, "the page lacks these words")
+                    file, _, test = holder.partition(": ")
+                    if file != "says":
+                        self.assertIn(test, page(file), f"{file} lacks the test")
 
 
 class Program(unittest.TestCase):
@@ -74,6 +115,34 @@ class Protocol(unittest.TestCase):
             with socket.create_connection(("127.0.0.1", server.port())) as client, client.makefile("rb") as lines:
                 client.sendall(b"0,0,0,1\n")
                 self.assertEqual(lines.read(), b"160-210\n0,0:\n")
+
+    def test_only_requests_for_frames_run_frames(self):
+        idle = ["settings", "stats", "actions", "names", "modes", "save a", "export a", "drop a", "peek 0", "poke 9 00"]
+        replies = talk("load beamfall seed=1", "act 0*7", "look frame", *idle, "look frame")
+        self.assertEqual([words[0] for words in replies], ["ok"] * (4 + len(idle)))
+        self.assertEqual((replies[2], replies[-1]), (["ok", "frame=7"], ["ok", "frame=7"]))
+
+    def test_each_generator_draws_by_its_own_seed(self):
+        """That of no-ops goes on where a restored state has that of sticky actions; docs/architecture.md lists both."""
+
+        def played(*settings):
+            load = f"load beamfall {' '.join(settings)} noop_max=100 sticky=0.5"
+            acts = ["act " + "3 1 " * 20, "look state_hash"]
+            reset = ["reset", "look episode_frame"]
+            return talk(load, "save s generator=1", reset[1], *acts, "restore s", *acts, *reset, "restore s", *reset)
+
+        first = played("seed=1")
+        self.assertEqual(first, played("seed=1"))
+        self.assertNotEqual(first[2:], played("seed=2")[2:])
+        self.assertEqual(first[4], first[7])  # the state has the generator of sticky actions
+        self.assertNotEqual(first[9], first[12])  # and lacks that of no-ops
+        same = [played("seed=1", f"system_seed={seed}")[2:] for seed in (1, 2)]
+        self.assertEqual(same[0][0], same[1][0])  # the seed of the system decides no no-ops
+
+    def test_a_state_is_refused_under_other_rules_where_they_differ(self):
+        """tests/protocol/load/load_test.cpp has a game in which they differ; in Beamfall, they do not."""
+        state = values(talk("load beamfall seed=1", "save a", "export a")[-1])["data"]
+        self.assertEqual(talk("load beamfall rules=fixed", f"import b {state}", "restore b")[2][0], "ok")
 
 
 class Presets(unittest.TestCase):
@@ -122,9 +191,26 @@ class Lists(unittest.TestCase):
         self.assertEqual(sorted(set(listed)), sorted(built))
         self.assertEqual(sorted(run_by_script), sorted(built))
 
-    def test_each_generator_of_the_architecture_draws_by_its_seed(self):
+    def test_the_architecture_lists_three_generators_with_their_seeds(self):
         rows = table(page("docs/architecture.md"), "| generator | seeded with |")
         self.assertEqual([row[1] for row in rows], ["`--system-seed`", "`--seed`", "`--seed`"])
+
+    def test_the_service_of_systemd_is_sandboxed_as_its_page_says(self):
+        lines = page("packages/systemd/racebeam.service.in").splitlines()
+        claim = "writes only to `/var/lib/racebeam` and to a `/tmp` of its own, and has no capabilities"
+        self.assertIn(claim, " ".join(page("packages/README.md").split()))
+        fences = {"ProtectHome=yes", "ProtectSystem=strict", "StateDirectory=racebeam", "PrivateTmp=yes"}
+        self.assertEqual((fences | {"CapabilityBoundingSet="}) - set(lines), set())
+        self.assertEqual([line for line in lines if line.startswith(("ReadWritePaths", "BindPaths"))], [])
+
+    def test_each_error_of_the_python_page_is_one_that_a_test_expects(self):
+        tests = "".join(path.read_text() for path in (ROOT / "tests/python").rglob("*.*") if path.suffix != ".pyc")
+        rows = table(page("docs/python/reference.md"), "| error | when |")
+        names = {name for row in rows for name in re.findall(r"`[\w.]*?(\w+)`", " ".join(row))} - {"render"}
+        self.assertGreater(len(names), 12)
+        forms = r"(?:Raises(?:Regex)?\(.*|except .*|    |socket\.|\")"  # of a test, or of sentences.txt
+        expected = {name for name in names if re.search(rf"{forms}{name}\b", tests)}
+        self.assertEqual(names - expected - {"AtariEnv", "AtariVectorEnv", "render_mode"}, set())
 
     def test_hooks_call_what_is_in_the_tree(self):
         entries = re.findall(r"entry: (\S+)(?: -B)? ?(\S*)", page(".pre-commit-config.yaml"))

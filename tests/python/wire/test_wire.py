@@ -220,8 +220,15 @@ class Sessions(unittest.TestCase):
         for address in ("", "tcp:", "tcp://", "tcp://host", "udp://host:1", "unix:", "tcp://host:port", "host:1"):
             with self.subTest(address=address), self.assertRaisesRegex(ValueError, "it takes tcp://HOST:PORT"):
                 racebeam.connect(address)
-        for address in ("unix:/nowhere", "tcp://127.0.0.1:1"):
-            with self.subTest(address=address), self.assertRaises(OSError):
+        for address, error in (
+            ("unix:/nowhere", FileNotFoundError),
+            ("pipes:/nowhere", FileNotFoundError),
+            ("file:/nowhere", FileNotFoundError),
+            ("tcp://127.0.0.1:1", ConnectionError),
+            ("tls://127.0.0.1:1", ConnectionError),
+            ("tcp://host.invalid:1", socket.gaierror),
+        ):
+            with self.subTest(address=address), self.assertRaises(error):
                 racebeam.connect(address)
 
     def test_a_token_is_sent(self):

@@ -144,7 +144,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
 
         Args:
             actions: Integers of shape (n,).
-            strengths: Numbers of shape (n,): how far each paddle is turned, 0 to 1.
+            strengths: Numbers of shape (n,): how far each paddle is turned; 1 is the usual step.
 
         Raises:
             TypeError: If the actions or the strengths have a wrong type.
@@ -330,7 +330,7 @@ class ALEVectorInterface:
 
         Args:
             action_ids: An index into `get_action_set()` for each environment.
-            paddle_strengths: How far each paddle is turned, 0 to 1.
+            paddle_strengths: How far each paddle is turned; 1 is the usual step.
 
         Raises:
             IndexError: If an action is out of range.

@@ -63,7 +63,7 @@ class Machines(Protocol):
 
         Args:
             actions: An index into the action set for each machine.
-            strengths: How far each paddle is turned, 0 to 1.
+            strengths: How far each paddle is turned; 1 is the usual step.
             machines: Indices of the machines.
         """
 

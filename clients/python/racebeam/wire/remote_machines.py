@@ -154,7 +154,7 @@ class RemoteMachines(Halves):
         self._send(joystick_words(joysticks, threshold), machines)
 
     def send_strengths(self, actions: Actions, strengths: npt.NDArray[np.float32], machines: Numbers) -> None:
-        """Begins a step of all machines with the strengths of their paddles, 0 to 1."""
+        """Begins a step of all machines with the strengths of their paddles; 1 is the usual step."""
         self._send(with_strengths(self.words(actions), strengths), machines)
 
     def _send(self, words: Sequence[object], machines: Numbers) -> None:

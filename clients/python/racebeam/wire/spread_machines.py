@@ -201,7 +201,7 @@ class SpreadMachines(Halves):
         self._send(self._joystick_words(joysticks, threshold), machines)
 
     def send_strengths(self, actions: Actions, strengths: npt.NDArray[np.float32], machines: Numbers) -> None:
-        """Begins a step of all machines with the strengths of their paddles, 0 to 1."""
+        """Begins a step of all machines with the strengths of their paddles; 1 is the usual step."""
         words = zip(self._parts, self._words(actions), strict=True)
         self._send([with_strengths(acts, strengths[part.rows]) for part, acts in words], machines)
 
