@@ -1,6 +1,8 @@
 """Attacks on experiments and on files that are written: two at a time, kills, clocks, absurd plans, full disks."""
 
+import collections
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -13,16 +15,17 @@ from attack import BINARY, PATIENCE, Lacking, attack, fault_of_end, files_in, ru
 
 PLAN = """games = ["beamfall", "updraft"]
 agents = ["random", "basic", "uct"]
-trials = 2
+trials = 1
 training_episodes = 2
 evaluation_episodes = 2
-background_screens = 200
-environment = "max_episode_frames=600 sticky=0.25"
+background_screens = 50
+environment = "max_episode_frames=60 sticky=0.25"
 [agent.uct]
 training_episodes = 0
 evaluation_episodes = 1
-simulations = 3
+simulations = 1
 """
+ONE_GAME = PLAN.replace('"beamfall", "updraft"', '"beamfall"')
 OPTIONS = ("--checkpoint-seconds", "0", "--threads", "1")
 
 
@@ -77,24 +80,81 @@ def two_on_one_folder(chance, times):
             yield fault_of_results(folder, expected)
 
 
-@attack(times=20)
-def kills_in_every_phase(chance, times):
-    """Each run is killed somewhat later than the one before: in the start, in a unit, in a checkpoint, at the end."""
+# The calls by which an experiment changes files.
+CHANGES = ("flock", "mkdir", "openat", "pwrite64", "write", "fchmod", "rename", "unlink", "rmdir")
+
+
+def traced(place, folder, *options):
+    """Runs the experiment under strace. Returns the status, and the text on standard error."""
+    command = ["strace", "-f", "--seccomp-bpf", "-o", place / "calls", *options, BINARY]
+    try:
+        done = subprocess.run(
+            [*command, "experiment", place / "plan.toml", "--into", folder, *OPTIONS],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=PATIENCE,
+        )
+    except FileNotFoundError:
+        raise Lacking("strace is missing") from None
+    return done.returncode, done.stderr
+
+
+def changes_of(place, names):
+    """Pairs of a call and its number among those of its name: the calls after the first that names the results."""
+    status, errors = traced(place, place / "traced", "-e", "trace=" + ",".join(names))
+    if status != 0:
+        raise Lacking(f"strace does not work here: {errors[-200:]}")
+    shutil.rmtree(place / "traced")
+    found, counts, has_begun = [], collections.Counter(), False
+    for name, words in re.findall(r"(?m)^\d+ +(\w+)\((.*)", (place / "calls").read_text()):
+        counts[name] += 1
+        has_begun = has_begun or "/traced" in words
+        if has_begun and "O_RDONLY" not in words:
+            found.append((name, counts[name]))
+    return found
+
+
+def few(chance, times, found):
+    """`times` of the elements, in their order; 0: all."""
+    return sorted(chance.sample(range(len(found)), min(times, len(found)))) if times else range(len(found))
+
+
+@attack(times=0)
+def kills_at_each_change(chance, times):
+    """The experiment is killed at one call by which it changes a file: at each of them, or at as many as --times."""
     with tempfile.TemporaryDirectory() as name:
         place = pathlib.Path(name)
-        start = time.monotonic()
-        expected = whole_results(place)
-        whole = time.monotonic() - start
-        for number in range(times):
-            folder = place / f"killed-{number}"
-            process = subprocess.Popen(
-                [BINARY, "experiment", place / "plan.toml", "--into", folder, *OPTIONS], stdout=subprocess.DEVNULL
-            )
-            time.sleep(1.1 * whole * number / times)
-            process.kill()
-            process.wait()
-            yield fault_of_results(folder, expected)
+        expected = whole_results(place, ONE_GAME)
+        found = changes_of(place, CHANGES)
+        for index in few(chance, times, found):
+            call, number = found[index]
+            folder = place / "killed"
+            status, errors = traced(place, folder, "-e", f"inject={call}:signal=KILL:when={number}")
+            yield fault_of_end(status, errors, (-signal.SIGKILL,))
+            fault = fault_of_results(folder, expected)
+            yield f"after a kill at {call} {number}: {fault}" if fault else ""
             shutil.rmtree(folder)
+
+
+@attack(times=0)
+def failures_of_each_change(chance, times):
+    """One call fails, then each of its name from there on: the disk is full, or broken. The experiment ends with a
+    sentence. When the disk is as before, it goes on, and ends as one that was left alone."""
+    with tempfile.TemporaryDirectory() as name:
+        place = pathlib.Path(name)
+        expected = whole_results(place, ONE_GAME)
+        found = [call for call in changes_of(place, CHANGES) if call[0] in ("mkdir", "openat", "pwrite64", "rename")]
+        for index in few(chance, times, found):
+            call, number = found[index]
+            for error, when in (("ENOSPC", f"{number}"), ("ENOSPC", f"{number}+"), ("EIO", f"{number}")):
+                folder = place / "failed"
+                status, errors = traced(place, folder, "-e", f"inject={call}:error={error}:when={when}")
+                yield fault_of_end(status, errors, (0, 1))
+                yield f"status 1 without a sentence: {errors!r}" if status == 1 and "racebeam: " not in errors else ""
+                fault = fault_of_results(folder, expected)
+                yield f"after {error} of {call} {when}: {fault}" if fault else ""
+                shutil.rmtree(folder)
 
 
 AGENTS = """games = ["beamfall"]
@@ -102,16 +162,16 @@ agents = ["bass", "disco", "blob_prost", "uct", "iw1", "rollout_iw1", "full_tree
 trials = 1
 training_episodes = 6
 evaluation_episodes = 3
-background_screens = 500
-class_screens = 500
-environment = "max_episode_frames=1500 sticky=0.25"
+background_screens = 100
+class_screens = 100
+environment = "max_episode_frames=200 sticky=0.25"
 """ + "".join(
     f"[agent.{agent}]\ntraining_episodes = 0\n{setting}\n"
     for agent, setting in (
-        ("uct", "simulations = 10"),
-        ("iw1", "frames = 600"),
-        ("rollout_iw1", "frames = 600"),
-        ("full_tree", "frames = 600"),
+        ("uct", "simulations = 2"),
+        ("iw1", "frames = 60"),
+        ("rollout_iw1", "frames = 60"),
+        ("full_tree", "frames = 60"),
     )
 )
 
