@@ -26,7 +26,7 @@ PATIENCE = float(
 )  # seconds until something counts as hanging; more for slow builds
 SKIPPED = 77  # exit status that ctest reads as "skipped"
 
-# A shell ignores SIGINT for what it runs in the background, and nohup SIGHUP. Programs inherit that, and racebeam obeys.
+# A shell ignores SIGINT for what it runs in the background, and nohup SIGHUP. Programs inherit that; racebeam obeys.
 for _number in (signal.SIGINT, signal.SIGHUP):
     if signal.getsignal(_number) == signal.SIG_IGN:
         signal.signal(_number, signal.SIG_DFL)
