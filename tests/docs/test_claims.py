@@ -1,6 +1,6 @@
 """Tests claims of the documents: on the program's words, its settings, and how it ends.
 
-claims.toml has each sentence of some pages with all, every, only, always or never, and what holds it.
+test_claims.toml has each sentence of some pages with all, every, only, always or never, and what holds it.
 """
 
 import os
@@ -53,14 +53,14 @@ def universal_sentences(text):
 
 class Ledger(unittest.TestCase):
     def setUp(self):
-        self.claims = tomllib.loads(page("tests/docs/claims.toml"))
+        self.claims = tomllib.loads(page("tests/docs/test_claims.toml"))
 
     def test_each_universal_sentence_is_listed_with_what_holds_it(self):
         for name, listed in self.claims.items():
             for sentence in universal_sentences(page(name)):
                 with self.subTest(page=name):
                     held = any(words in sentence for words in listed)
-                    self.assertTrue(held, f"tests/docs/claims.toml lacks a sentence of {name}: {sentence}")
+                    self.assertTrue(held, f"tests/docs/test_claims.toml lacks a sentence of {name}: {sentence}")
 
     def test_each_claim_is_in_its_page_and_what_holds_it_in_the_tree(self):
         for name, listed in self.claims.items():

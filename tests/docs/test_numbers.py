@@ -1,17 +1,32 @@
-"""Numbers in README.md, clients/README.md and docs/python/ are those of what they describe."""
+"""Numbers in the documents are those of what they describe.
+
+test_numbers.toml says of each section with numbers whether a script writes it, a test reads it, or why neither does.
+
+    test_numbers.py --counts    prints how many numbers there are of each kind
+"""
 
 import ast
+import collections
+import json
+import os
+import pathlib
 import re
+import subprocess
 import sys
+import tempfile
 import unittest
 
 import tomllib
+from markdown import sections
 from test_figures import last_run
 from tree import ROOT
 
 sys.path.insert(0, str(ROOT / "clients/conformance"))
 import clients  # noqa: E402
 
+BINARY = os.environ.get("RACEBEAM_BINARY", str(ROOT / "build/release/racebeam"))
+NUMBER = re.compile(r"(?<![\w.$#/-])\d[\d,]*(?:\.\d+)?(?!\w)")
+CODE_OR_ADDRESS = re.compile(r"`[^`]*`|\]\([^)]*\)")
 MOST_WRONG = 0.03  # part of a count of lines, which changes with each change of a client
 HEADINGS = {"Python": "python", "Java": "java", "Lua": "lua", "C++20,": "cpp", "JavaScript,": "js", "bash": "shell"}
 
@@ -26,7 +41,62 @@ def table(text, heading):
     return [[cell.strip() for cell in line.strip("| ").split("|")] for line in lines]
 
 
+def numbers_of(lines):
+    return sum(len(NUMBER.findall(CODE_OR_ADDRESS.sub("", line))) for line in lines)
+
+
+def listed_sections():
+    """Each section with numbers: its page, its heading, how many there are, and what test_numbers.toml says of it or ""."""
+    for name, listed in tomllib.loads(page("tests/docs/test_numbers.toml")).items():
+        for section in sections(page(name)):
+            if count := numbers_of(section.lines):
+                yield name, section.heading, count, listed.get(section.heading, listed.get("*", ""))
+
+
+class Sections(unittest.TestCase):
+    def test_each_section_with_numbers_says_what_holds_them(self):
+        for name, heading, _, holder in listed_sections():
+            with self.subTest(page=name, section=heading):
+                kind, _, rest = holder.partition(": ")
+                self.assertIn(kind, ("generated", "tested", "left"), "tests/docs/test_numbers.toml lacks the section")
+                if kind != "left":
+                    file, _, test = rest.partition(": ")
+                    self.assertIn(test, page(file))
+
+    def test_each_page_is_there_and_each_listed_section_has_numbers(self):
+        listed = tomllib.loads(page("tests/docs/test_numbers.toml"))
+        pages = {path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").rglob("*.md")}
+        self.assertEqual({name for name in pages if not name.startswith("docs/spec/")} - set(listed), set())
+        found = {(name, heading) for name, heading, *_ in listed_sections()}
+        headings = {(name, heading) for name, held in listed.items() for heading in held if heading != "*"}
+        self.assertEqual(headings - found, set())
+
+
 class Numbers(unittest.TestCase):
+    def test_the_limits_of_a_server_have_their_defaults(self):
+        output = subprocess.run([BINARY, "config"], capture_output=True, text=True, check=True).stdout
+        defaults = dict(re.findall(r"(?m)^(\w+) = (\S+) +# default$", output))
+        rows = table(page("server/README.md"), "| option | default | beyond the limit |")
+        self.assertEqual(len(rows), 13)
+        for name, default, _ in rows:
+            if name != "`--max-memory`":
+                key = name.strip("`-").replace("-", "_")
+                self.assertEqual(re.match(r"\d+", default)[0], defaults[key], name)
+        self.assertIn(f"microseconds (default {defaults['busy_poll']})", " ".join(page("server/README.md").split()))
+
+    def test_instructions_of_a_frame_are_those_of_the_baseline(self):
+        counts = json.loads(page("tests/bench/instructions/baseline.json"))["translator"]
+        rounded = {game: f"{round(counts[game], -3):,}" for game in ("seaquest", "pong")}
+        text = " ".join(page("docs/performance.md").split())
+        self.assertIn(f"Seaquest takes {rounded['seaquest']} instructions a frame, and Pong {rounded['pong']} (", text)
+
+    def test_the_results_are_what_their_script_writes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            written = pathlib.Path(folder, "results.md")
+            script = ROOT / "scripts/measure/paper_results.py"
+            subprocess.run([sys.executable, "-B", script, "--into", written], check=True)
+            self.assertEqual(written.read_text(), page("docs/results.md"))
+
     def test_the_title_of_the_readme_rounds_the_speed_of_the_last_run(self):
         means, _, _ = last_run()
         [listed] = re.findall(r"\(ALE\), (\d+) times as\s+fast", page("README.md"))
@@ -72,5 +142,13 @@ class Numbers(unittest.TestCase):
             self.assertEqual(figures[name].replace(" to ", ", "), limits[name].strip("()"))
 
 
+def print_counts():
+    counts = collections.Counter()
+    for _, _, count, holder in listed_sections():
+        counts[holder.partition(": ")[0]] += count
+    for kind, count in counts.items():
+        print(f"{kind:10} {count:>6}")
+
+
 if __name__ == "__main__":
-    unittest.main()
+    print_counts() if "--counts" in sys.argv else unittest.main()
