@@ -1,12 +1,14 @@
 """Attacks by one client of the line protocol, or of the classic one."""
 
+import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from attack import LOAD, Session, Talk, attack, fault_of_end, fault_of_line, files_in, resident
+from attack import BINARY, LOAD, Lacking, Session, Talk, attack, fault_of_end, fault_of_line, files_in, resident
 
 HUGE = [
     *(str(base + more).encode() for base in (2**31, 2**32, 2**53, 2**63, 2**64) for more in (-1, 0, 1)),
@@ -233,6 +235,33 @@ def exports_into_another_process(chance, times):
                 yield fault_of_line(other.ask(b"import altered " + bytes(cut)))
                 yield fault_of_line(other.ask(b"restore altered"))
                 yield fault_of_line(other.ask(b"act 0*10"))
+
+
+def replies(program, *requests):
+    done = subprocess.run([program, "serve", "--stdio"], input=b"\n".join(requests) + b"\n", capture_output=True)
+    return done.stdout.splitlines(keepends=True)
+
+
+@attack(times=100)
+def exports_into_another_version(chance, times):
+    """Exports of the program of another commit, which RACEBEAM_OTHER names, into this one, and the other way round. A
+    state is refused by a sentence, or all that is played after it is the same in both."""
+    if "RACEBEAM_OTHER" not in os.environ:
+        raise Lacking("RACEBEAM_OTHER does not name the program of another commit")
+    versions = BINARY, os.environ["RACEBEAM_OTHER"]
+    plays = [b"observe reward lives ram screen:rle", b"act 3*100 1*50", b"reset", b"act 11*50"]
+    for number in range(times):
+        source, target = versions if number % 2 else versions[::-1]
+        game = chance.choice([b"beamfall", b"updraft"])
+        load = b"load %s seed=%d frame_skip=4 sticky=0.25" % (game, chance.randrange(1, 1000))
+        act = b"act %d*%d 1*3" % (chance.randrange(18), chance.randrange(1, 300))
+        export = b"export here" + chance.choice([b"", b" whole=1"])
+        *_, exported = replies(source, load, act, b"save here random=1", export)
+        played = replies(source, load, act, b"save here random=1", *plays)[3:]
+        there = replies(target, load, b"import there " + exported.split(b"data=")[-1].strip(), b"restore there", *plays)
+        yield fault_of_line(there[1])
+        if there[1].startswith(b"ok"):
+            yield "" if there[3:] == played else "a state plays on otherwise in another version"
 
 
 @attack(times=1)

@@ -46,7 +46,7 @@ def numbers_of(lines):
 
 
 def listed_sections():
-    """Each section with numbers: its page, its heading, how many there are, and what test_numbers.toml says of it or ""."""
+    """Each section with numbers: its page, its heading, how many there are, and what test_numbers.toml says of it."""
     for name, listed in tomllib.loads(page("tests/docs/test_numbers.toml")).items():
         for section in sections(page(name)):
             if count := numbers_of(section.lines):

@@ -37,6 +37,23 @@ LEFT_OUT = {
     "scripts/check/verify-with-ale": "it needs the results of an experiment",
 }
 
+# Scripts that load packages without their exact version, and why. None of them makes a package.
+UNPINNED = {
+    "packages/conan/check": "it tests with any Conan 2",
+    "scripts/check/gymnasiums": "dm-env; the versions of Gymnasium are its arguments",
+    "scripts/check/learners": "it tests with the libraries that users get",
+    "scripts/cluster-test": "it tests with the Ray and the schemas that users get",
+    "scripts/evaluation": "its environment for tests; the wheel is made by hatchling, which is pinned",
+    "scripts/reference": "NumPy, for ale-py, which is pinned",
+    "scripts/wheel": "its environment for tests; what makes the wheel is pinned",
+}
+INSTALL = re.compile(r"""^[^#\n]*(?:\bbring|\bpip(?:"|')?(?: -q)? install) (.*)""", re.MULTILINE)
+WORD = re.compile(r"""'[^']*'|"[^"]*"|[^\s;]+""")
+PACKAGE = re.compile(r"[A-Za-z][\w.-]*(?:\[\w+\])?(?:[<>=!~;].*)?$")
+LOADER = re.compile(
+    r"^[^#\n]*(?:^|[\s;&|(])(?:curl|wget|git clone|npx|gem install|luarocks install|npm install) ", re.MULTILINE
+)
+
 
 def read(file):
     return (ROOT / file).read_text()
@@ -82,6 +99,33 @@ class Workflow(unittest.TestCase):
                     self.assertTrue(any(re.search(rf"(?<![\w-]){package}==\d", line) for line in lines))
         self.assertIn("npm ci", read("scripts/viewer"))
         self.assertIn("ruff==$version", read("scripts/format"))
+
+    def scripts(self):
+        folders = (
+            "scripts",
+            "scripts/check",
+            ".ci",
+            "platforms",
+            "packages/conan",
+            "packages/docker",
+            "packages/vcpkg",
+        )
+        for folder in folders:
+            for path in (ROOT / folder).iterdir():
+                if path.is_file() and path.suffix != ".md":
+                    yield path.relative_to(ROOT).as_posix(), path.read_text()
+
+    def test_scripts_load_exact_versions_or_say_why_not(self):
+        unpinned = set()
+        for name, text in self.scripts():
+            for line in INSTALL.findall(text.replace("\\\n", " ")):
+                words = [word.strip("'\"") for word in WORD.findall(re.split(r" (?:\|\||&&|>&2|\{)", line)[0])]
+                packages = [word for word in words if PACKAGE.match(word) and "/" not in word]
+                unpinned |= {name for word in packages if "==" not in re.sub(r";.*", "", word)}
+        self.assertEqual(unpinned, set(UNPINNED))
+
+    def test_scripts_load_nothing_by_address(self):
+        self.assertEqual([name for name, text in self.scripts() if LOADER.search(text)], [])
 
     def test_actions_are_named_by_their_commit(self):
         uses = re.findall(r"uses: (.*)", read(WORKFLOW))
