@@ -244,10 +244,10 @@ def replies(program, *requests):
 
 @attack(times=100)
 def exports_into_another_version(chance, times):
-    """Exports of the program of another commit, which RACEBEAM_OTHER names, into this one, and the other way round. A
+    """Exports of the program of another commit, which --other names, into this one, and the other way round. A
     state is refused by a sentence, or all that is played after it is the same in both."""
     if "RACEBEAM_OTHER" not in os.environ:
-        raise Lacking("RACEBEAM_OTHER does not name the program of another commit")
+        raise Lacking("--other does not name the program of another commit")
     versions = BINARY, os.environ["RACEBEAM_OTHER"]
     plays = [b"observe reward lives ram screen:rle", b"act 3*100 1*50", b"reset", b"act 11*50"]
     for number in range(times):
