@@ -3,6 +3,7 @@
 import collections
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -262,9 +263,27 @@ ABSURD = [
 ]
 
 
+def status_of_two_seconds(plan):
+    """Runs a plan for two seconds, in two GiB. Returns the status, and the text on standard error."""
+    process = subprocess.Popen(
+        [BINARY, "experiment", plan, "--into", plan.parent / "results"],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30)),
+    )
+    try:
+        _, errors = process.communicate(timeout=2)
+    except subprocess.TimeoutExpired:
+        process.terminate()
+        _, errors = process.communicate(timeout=PATIENCE)
+    return process.returncode, errors
+
+
 @attack(times=1)
 def absurd_plans(chance, times):
-    """Plans that make no sense, or ask for more than there is. A dry run says what is wrong, or what it costs."""
+    """Plans that make no sense, or ask for more than there is. A dry run says what is wrong, or what it costs. A run
+    is refused, or plays until a signal ends it."""
     with tempfile.TemporaryDirectory() as name:
         plan = pathlib.Path(name) / "plan.toml"
         for _ in range(times):
@@ -272,7 +291,10 @@ def absurd_plans(chance, times):
                 plan.write_text(text, encoding="latin-1")
                 status, _, errors = run("experiment", plan, "--dry-run", "--unmeasured", timeout=PATIENCE)
                 yield fault_of_end(status, errors)
-            yield "" if [path.name for path in plan.parent.iterdir()] == ["plan.toml"] else "a dry run left files"
+                left = [path.name for path in plan.parent.iterdir()]
+                yield "" if left == ["plan.toml"] else f"a dry run leaves {left}"
+                yield fault_of_end(*status_of_two_seconds(plan), (0, 1, 2, -signal.SIGTERM))
+                shutil.rmtree(plan.parent / "results", ignore_errors=True)
 
 
 def fill(disk, pages):
