@@ -93,6 +93,8 @@ BAD_NAMES = [
 NAMED = [
     b"record png %s",
     b"record gif,wav %s",
+    b"log %s",
+    b"shot %s",
     b"share %s",
     b"watch %s",
     b"save %s",

@@ -2,7 +2,7 @@
 
 test_numbers.toml says of each section with numbers whether a script writes it, a test reads it, or why neither does.
 
-    test_numbers.py --counts    prints how many numbers there are of each kind
+    test_numbers.py --counts    prints how many numbers there are of each kind, and why some are left
 """
 
 import ast
@@ -143,11 +143,14 @@ class Numbers(unittest.TestCase):
 
 
 def print_counts():
-    counts = collections.Counter()
+    kinds, reasons = collections.Counter(), collections.Counter()
     for _, _, count, holder in listed_sections():
-        counts[holder.partition(": ")[0]] += count
-    for kind, count in counts.items():
-        print(f"{kind:10} {count:>6}")
+        kind, _, reason = holder.partition(": ")
+        kinds[kind] += count
+        if kind == "left":
+            reasons[reason] += count
+    for name, count in (*kinds.most_common(), *reasons.most_common()):
+        print(f"{count:>6}  {'left: ' if name in reasons else ''}{name}")
 
 
 if __name__ == "__main__":
