@@ -6,7 +6,9 @@ test_numbers.toml says of each section with numbers whether a script writes it, 
 """
 
 import ast
+import base64
 import collections
+import functools
 import json
 import os
 import pathlib
@@ -15,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 import tomllib
 from markdown import sections
@@ -25,6 +28,7 @@ sys.path.insert(0, str(ROOT / "clients/conformance"))
 import clients  # noqa: E402
 
 BINARY = os.environ.get("RACEBEAM_BINARY", str(ROOT / "build/release/racebeam"))
+BEAMFALL = b"8b96297bc95db74738674ce177f501c1"  # the MD5 of its image
 NUMBER = re.compile(r"(?<![\w.$#/-])\d[\d,]*(?:\.\d+)?(?!\w)")
 CODE_OR_ADDRESS = re.compile(r"`[^`]*`|\]\([^)]*\)")
 MOST_WRONG = 0.03  # part of a count of lines, which changes with each change of a client
@@ -83,6 +87,40 @@ class Numbers(unittest.TestCase):
                 key = name.strip("`-").replace("-", "_")
                 self.assertEqual(re.match(r"\d+", default)[0], defaults[key], name)
         self.assertIn(f"microseconds (default {defaults['busy_poll']})", " ".join(page("server/README.md").split()))
+
+    def state(self, *words):
+        """The bytes of an export, and a function that returns the bytes of the row that begins so in docs/states.md."""
+        requests = ["load beamfall seed=1", "save a generator=1", " ".join(["export a", *words]), ""]
+        output = subprocess.run([BINARY, "serve", "--stdio"], input="\n".join(requests).encode(), capture_output=True)
+        data = base64.b64decode(output.stdout.splitlines()[-1].split(b"data=")[1])
+        text = page("docs/states.md").partition("### States of vector environments")[2 if words else 0]
+        rows = [row for row in table(text, "| offset | size | content |") if row[0].isdigit() and row[1].isdigit()]
+
+        def part(content):
+            [(at, size)] = [(int(at), int(size)) for at, size, name in rows if name.startswith(content)]
+            return data[at : at + size]
+
+        return data, part
+
+    def test_an_export_has_the_bytes_of_the_table(self):
+        number = functools.partial(int.from_bytes, byteorder="little")
+        data, part = self.state()
+        self.assertEqual(part("`RBSTATE`"), b"RBSTATE\n")
+        version = re.search(r"kSnapshotVersion = (\d+)", page("environment/saved/saved_state_format.hpp"))[1]
+        self.assertEqual(number(part("version")), int(version))
+        self.assertEqual(number(part("CRC-32")), zlib.crc32(data[24:]))
+        self.assertEqual((part("MD5"), part("the game's name").rstrip(b"\0")), (BEAMFALL, b"beamfall"))
+        self.assertEqual(
+            [number(part(name)) for name in ("rows", "1 if the generator", "size of the cart")], [210, 1, 0]
+        )
+        self.assertEqual(number(part("size of the whole")), len(data))
+        self.assertEqual(len(data), 132 + number(part("size of the values")) + 2 * 160 * 210 + 2500)
+        slot, part = self.state("episode=1")
+        self.assertEqual(part("`RBSLOT`"), b"RBSLOT\r\n")
+        self.assertEqual(
+            (number(part("size of the whole")), number(part("CRC-32"))), (len(slot), zlib.crc32(slot[20:]))
+        )
+        self.assertEqual(slot[-number(part("size of the machine's state")) :][:8], b"RBSTATE\n")
 
     def test_instructions_of_a_frame_are_those_of_the_baseline(self):
         counts = json.loads(page("tests/bench/instructions/baseline.json"))["translator"]
