@@ -122,6 +122,23 @@ class Numbers(unittest.TestCase):
         )
         self.assertEqual(slot[-number(part("size of the machine's state")) :][:8], b"RBSTATE\n")
 
+    def test_a_log_has_the_bytes_of_the_table(self):
+        requests = ["load beamfall max_episode_frames=600", "log inline", "reset", "act 1*700", "log last", ""]
+        output = subprocess.run([BINARY, "serve", "--stdio"], input="\n".join(requests).encode(), capture_output=True)
+        data = base64.b64decode(output.stdout.splitlines()[-1].split(b"data=")[1])
+        rows = table(page("docs/episodes.md"), "| Offset | Bytes | Meaning |")
+        magic, version, size, checksum = (data[int(at) :][: int(bytes)] for at, bytes, _ in rows[:4])
+        sealed = data[int(rows[4][0]) :]
+        self.assertEqual((magic, int.from_bytes(version, "little")), (b"RBEPISOD", 1))
+        self.assertEqual(int.from_bytes(checksum, "little"), zlib.crc32(data[:20] + sealed))
+        contents = zlib.decompress(sealed)
+        self.assertEqual(int.from_bytes(size, "little"), len(contents))
+        lines, _, rest = contents.partition(b"\n\n")
+        self.assertEqual([line.split()[0] for line in lines.splitlines()], [b"load", b"image", b"from", b"ended"])
+        decisions = int(re.search(rb" decisions=(\d+) ", lines)[1])
+        self.assertEqual(decisions, 600)
+        self.assertEqual((len(rest), rest[-decisions:]), (8 * (decisions // 256 + 1) + decisions, b"\1" * decisions))
+
     def test_instructions_of_a_frame_are_those_of_the_baseline(self):
         counts = json.loads(page("tests/bench/instructions/baseline.json"))["translator"]
         rounded = {game: f"{round(counts[game], -3):,}" for game in ("seaquest", "pong")}
