@@ -32,6 +32,8 @@ TEST_CASE("An endpoint is written as it is read") {
 
 TEST_CASE("There is more than one way to write some endpoints") {
   CHECK(to_string(parse_endpoint("unix:///run/s")) == "unix:/run/s");
+  CHECK(to_string(parse_endpoint("unix:////run/s")) == "unix:/run/s");
+  CHECK(to_string(parse_endpoint("pipes:///////p")) == "pipes:/p");
   CHECK(to_string(parse_endpoint("pipes:///tmp/p")) == "pipes:/tmp/p");
   CHECK(to_string(parse_endpoint("tcp://localhost:1")) == "tcp://127.0.0.1:1");
   CHECK(to_string(parse_endpoint("tls+tcp://127.0.0.1:1")) == "tls://127.0.0.1:1");
