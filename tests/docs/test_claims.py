@@ -185,7 +185,8 @@ class Presets(unittest.TestCase):
 
 class Lists(unittest.TestCase):
     def test_the_page_on_fuzzing_has_each_target(self):
-        listed = re.findall(r"^\| `(\w+)` \|", page("fuzz/README.md"), re.MULTILINE)
+        targets = page("fuzz/README.md").partition("## Attacks")[0]
+        listed = re.findall(r"^\| `(\w+)` \|", targets, re.MULTILINE)
         built = re.findall(r"^fuzz_target\((\w+) ", page("fuzz/CMakeLists.txt"), re.MULTILINE)
         run_by_script = re.findall(r'^    "(\w+)": \d+,$', page("scripts/fuzz"), re.MULTILINE)
         self.assertEqual(sorted(set(listed)), sorted(built))
