@@ -157,7 +157,7 @@ void VectorEnvironment::reset(const VectorArrays& out, std::span<const std::int6
   guarded(Error::Cause::kArgument, [&] { impl_->batch.reset(internal(out), reset_mask, seeds); });
 }
 
-void VectorEnvironment::observe(const VectorArrays& out) const {
+void VectorEnvironment::observe(const VectorArrays& out) {
   impl_->check_sizes(out, size());
   guarded(Error::Cause::kArgument, [&] { impl_->batch.show(internal(out)); });
 }

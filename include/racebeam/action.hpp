@@ -1,5 +1,4 @@
-// The 18 actions of a player, which are the positions of a joystick with and without its button, and those of
-// player A that press or move a switch of the console.
+// The actions of a player: 18 of a joystick and its button, and 8 of the switches of the console.
 // All of it is values and constant tables, which any number of threads may use at the same time.
 //
 //     const racebeam::Action action = racebeam::Action::kUpFire;

@@ -45,6 +45,7 @@ struct Rewards {
   std::int64_t raw_a = 0, raw_b = 0;  // without these limits; 0 after a restore
 };
 
+// Functions that may finish what a step left for later, such as drawing a picture, are not const.
 class RACEBEAM_API Environment {
  public:
   // Powers a console on and begins an episode. The first form recognises the game of the image

@@ -5,7 +5,7 @@
 //       racebeam::Image::load("no_such_file.bin");
 //     } catch (const racebeam::Error& error) {
 //       std::cerr << error.what() << '\n';  // what failed, the value, and what is accepted
-//       return error.why() == racebeam::Error::Cause::kImage ? 0 : 1;
+//       return error.cause() == racebeam::Error::Cause::kImage ? 0 : 1;
 //     }
 //
 // std::bad_alloc and exceptions of the caller's own functions pass through the library unchanged.
@@ -33,7 +33,7 @@ class RACEBEAM_API Error : public std::runtime_error {
   Error(const Error&) = default;
   Error& operator=(const Error&) = default;
 
-  Cause why() const noexcept { return cause_; }
+  Cause cause() const noexcept { return cause_; }
 
  private:
   Cause cause_;

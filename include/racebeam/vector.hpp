@@ -1,5 +1,5 @@
 // Many machines that step together on threads, for agents that learn: screens are resized and stacked.
-// One thread at a time may use a VectorEnvironment, which has threads of its own for its machines.
+// One thread at a time may use a VectorEnvironment, or several its const functions. It starts threads.
 //
 //     const auto image = racebeam::Image::load("builtin:beamfall");
 //     racebeam::VectorEnvironment environments(image, racebeam::Game::recognise(image), 8);
@@ -118,7 +118,7 @@ class RACEBEAM_API VectorEnvironment {
              std::span<const std::uint8_t> reset_mask = {});
 
   // Writes what the machines show now, for example after a restore.
-  void observe(const VectorArrays& out) const;
+  void observe(const VectorArrays& out);
 
   // A step in two halves, so that the caller works with some machines while others play. send() begins a step
   // of the machines that it names, and receive() waits for the batch_size() that finish first.

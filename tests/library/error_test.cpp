@@ -17,7 +17,7 @@ std::pair<Cause, std::string> error_of(auto work) {
   try {
     work();
   } catch (const Error& error) {
-    return {error.why(), error.what()};
+    return {error.cause(), error.what()};
   }
   FAIL("nothing was thrown");
   return {};
