@@ -25,6 +25,20 @@ export function actionOf(pressed: number): number {
   return name ? ACTIONS.indexOf(name as typeof ACTIONS[number]) : 0;
 }
 
+const MOVES = ["LEFT_A", "LEFT_B", "RIGHT_A", "RIGHT_B"]; // of the difficulty switches
+
+/** The act that moves a difficulty switch to its other position. `bit`: 1 is the left one, 2 the right one. */
+export function moveOf(bit: 1 | 2, difficulty: number): string {
+  return String(ACTIONS.indexOf("LEFT_A") + 2 * (bit - 1) + (difficulty & bit ? 1 : 0));
+}
+
+/** The positions of both difficulty switches after an act. */
+export function difficultyAfter(difficulty: number, act: string): number {
+  const move = MOVES.indexOf(ACTIONS[Number(act.split("/")[0])] ?? "");
+  const bit = move < 2 ? 1 : 2;
+  return move < 0 ? difficulty : move % 2 ? difficulty & ~bit : difficulty | bit;
+}
+
 /** A word of the command `act`: what both players press. */
 export function actWord(playerA: number, playerB = 0): string {
   const [a, b] = [actionOf(playerA), actionOf(playerB)];

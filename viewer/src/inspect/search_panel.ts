@@ -92,7 +92,8 @@ export class SearchPanel {
     const { candidates, depth } = this.#search;
     const listed = [...new Set([...this.#parts.keys(), ...(depth ? candidates : [])])].slice(0, MOST_LISTED);
     const none = "No byte did all of that. Undo takes the last step back.";
-    tell(byId("found", HTMLElement), !depth ? "" : candidates.length ? `${candidates.length} of 128 bytes fit.` : none);
+    const some = `${candidates.length} of 128 bytes fit${candidates.length > MOST_LISTED ? `; the list has ${MOST_LISTED} of them` : ""}.`;
+    tell(byId("found", HTMLElement), !depth ? "" : candidates.length ? some : none);
     this.#values.clear();
     byId("listed", HTMLTableElement).hidden = listed.length === 0;
     byId("candidates", HTMLTableSectionElement).replaceChildren(...listed.map((index) => this.#row(index)));

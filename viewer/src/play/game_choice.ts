@@ -15,17 +15,23 @@ function list(value: unknown): string[] {
 export class GameChoice {
   /** Called when the user has chosen. */
   chosen: (choice: Choice) => void = () => {};
+  /** Called when the user moves a difficulty switch: 1 is the left one, 2 the right one. */
+  moved: (bit: 1 | 2) => void = () => {};
 
   readonly #games: GameList;
   readonly #mode = byId("mode", HTMLSelectElement);
   #game: Game | undefined;
+  #difficulty = 0;
+  #difficulties: readonly number[] = [];
 
   constructor(pictures: Pictures) {
     this.#games = new GameList(pictures);
     this.#games.chosen = (game) => this.chosen({ game });
     this.#mode.onchange = () => this.#choose({ mode: Number(this.#mode.value) });
     for (const [id, , bit] of SWITCHES) {
-      byId(id, HTMLButtonElement).onclick = () => this.#choose({ difficulty: (this.#game?.difficulty ?? 0) ^ bit });
+      const button = byId(id, HTMLButtonElement);
+      button.onclick = () => this.moved(bit);
+      button.onmousedown = (event) => event.preventDefault(); // the game keeps the focus
     }
   }
 
@@ -41,17 +47,24 @@ export class GameChoice {
     const two = new Set(list(described.two_player_modes));
     const modes = new Set([...list(described.modes), ...two]);
     offer(this.#mode, [...modes].map((mode) => [mode, two.has(mode) ? `${mode}, two players` : mode]), String(game.mode));
+    this.#difficulties = difficulties;
+    this.showSwitches(game.difficulty);
+  }
+
+  /** Shows where the difficulty switches are. One that the game has no use for is disabled. */
+  showSwitches(difficulty: number): void {
+    this.#difficulty = difficulty;
     for (const [id, side, bit] of SWITCHES) {
       const button = byId(id, HTMLButtonElement);
-      button.disabled = !difficulties.includes(game.difficulty ^ bit);
-      tell(button, `${side}: ${game.difficulty & bit ? "A" : "B"}`);
+      button.disabled = !this.#difficulties.includes(difficulty ^ bit);
+      tell(byId(`${id}-text`, HTMLElement), `${side}: ${difficulty & bit ? "A" : "B"}`);
     }
   }
 
   #choose(change: Partial<Choice>): void {
     if (this.#game) {
-      const { name, mode, difficulty } = this.#game;
-      this.chosen({ game: name, mode, difficulty, ...change });
+      const { name, mode } = this.#game;
+      this.chosen({ game: name, mode, difficulty: this.#difficulty, ...change });
     }
   }
 }

@@ -1,3 +1,5 @@
+import { difficultyAfter } from "../input/actions.js";
+
 /** A way to an earlier moment: a state to restore, and the acts to play from it. */
 interface Way {
   state: string;
@@ -13,6 +15,7 @@ export class History {
   readonly #slots: number;
   readonly #acts: string[] = [];
   readonly #scores: number[] = [0]; // at each moment
+  readonly #difficulties: [number, number][] = [[0, 0]]; // moments at which they changed, and what they became
   #states = 0; // that were saved on the way to the present moment
   #lost = 0; // states at the beginning whose slots later ones have taken
 
@@ -35,9 +38,11 @@ export class History {
     return this.#acts;
   }
 
-  begin(): void {
+  /** An episode begins, with the difficulty switches in these positions. */
+  begin(difficulty = 0): void {
     this.#acts.length = 0;
     this.#scores.length = 1;
+    this.#difficulties.splice(0, Infinity, [0, difficulty]);
     this.#states = 0;
     this.#lost = 0;
   }
@@ -54,7 +59,17 @@ export class History {
 
   /** Adds an act. Returns the moment after it. */
   add(act: string): number {
-    return this.#acts.push(act);
+    const [before, moment] = [this.difficulty, this.#acts.push(act)];
+    const after = difficultyAfter(before, act);
+    if (after !== before) {
+      this.#difficulties.push([moment, after]);
+    }
+    return moment;
+  }
+
+  /** The positions of the difficulty switches at the present moment. */
+  get difficulty(): number {
+    return this.#difficulties.at(-1)![1];
   }
 
   /** Notes the reward of the act before a moment. Moments that were cut off are left out. */
@@ -72,6 +87,9 @@ export class History {
   cut(moment: number): void {
     this.#acts.length = Math.min(this.#acts.length, moment);
     this.#scores.length = Math.min(this.#scores.length, moment + 1);
+    while (this.#difficulties.at(-1)![0] > moment) {
+      this.#difficulties.pop();
+    }
     this.#states = Math.min(this.#states, Math.floor(moment / this.#spacing) + 1);
   }
 

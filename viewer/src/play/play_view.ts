@@ -1,5 +1,5 @@
 import { RefusedError, type Group, type Session } from "racebeam";
-import { actWord } from "../input/actions.js";
+import { actWord, moveOf } from "../input/actions.js";
 import { gamepad } from "../input/gamepad.js";
 import { Keyboard } from "../input/keyboard.js";
 import { Switches } from "../input/switches.js";
@@ -160,6 +160,7 @@ export class PlayView {
   #listen(): void {
     const click = (id: string, action: () => void) => byId(id, HTMLButtonElement).addEventListener("click", action);
     this.#choice.chosen = (choice) => void this.#choose(choice).catch((error) => this.#lose(error));
+    this.#choice.moved = (bit) => this.#moveSwitch(bit);
     this.#start.onclick = () => this.#go();
     click("pause", () => (this.#player?.motion === "playing" ? this.#move("paused") : this.#go()));
     click("back", () => this.#single(-1));
@@ -222,6 +223,17 @@ export class PlayView {
   #useSwitch(): void {
     if (this.#player?.motion !== "playing") {
       this.#go();
+    }
+  }
+
+  /** Moves a difficulty switch, for which a frame is played. After the end of an episode, another one begins. */
+  #moveSwitch(bit: 1 | 2): void {
+    const player = this.#player;
+    if (player?.game && player.over) {
+      const { name: game, mode } = player.game;
+      void this.#choose({ game, mode, difficulty: player.difficulty ^ bit }).catch((error) => this.#lose(error));
+    } else {
+      player?.act(moveOf(bit, player.difficulty));
     }
   }
 
@@ -328,6 +340,7 @@ export class PlayView {
     tell(byId("score", HTMLElement), String(shown.score));
     tell(byId("lives", HTMLElement), String(shown.lives));
     tell(byId("frame", HTMLElement), String(shown.moment));
+    this.#choice.showSwitches(this.#player!.difficulty);
     this.#inspector.draw(shown);
     if (shown.over) {
       this.#move("paused");

@@ -94,6 +94,11 @@ export class Player {
     return this.#history.now;
   }
 
+  /** The positions of the difficulty switches: bit 0 is the left one, bit 1 the right one, and 1 is A. */
+  get difficulty(): number {
+    return this.#history.difficulty;
+  }
+
   /** The acts since the episode began. With the game, they are the episode. */
   get acts(): readonly string[] {
     return this.#history.acts;
@@ -117,12 +122,14 @@ export class Player {
     }
   }
 
-  /** Begins an episode with another seed. */
+  /** Begins an episode with another seed. The difficulty switches stay where they are. */
   async reset(): Promise<void> {
     if (this.#game && !this.#busy) {
       this.#busy = true;
       try {
         this.#game.seed = newSeed();
+        this.#game.difficulty = this.difficulty;
+        await this.#session.set({ difficulty: this.difficulty });
         await this.#session.reset(this.#game.seed);
         await this.#begin([]);
       } finally {
@@ -195,7 +202,7 @@ export class Player {
   /** Begins the history of an episode whose first moment the session shows, and plays `acts`. */
   async #begin(acts: readonly string[]): Promise<void> {
     ++this.#epoch;
-    this.#history.begin();
+    this.#history.begin(this.#game?.difficulty);
     this.#over = false;
     await this.#session.observe("reward", "terminated", "truncated", "lives");
     for (let at = 0; at < acts.length; at += SENT_AHEAD) {

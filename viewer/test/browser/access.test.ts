@@ -92,6 +92,7 @@ describe("accessibility", () => {
     assert.ok(list!.y + list!.height <= picture!.y, "the list is above the picture");
     assert.ok(picture!.y + picture!.height <= button!.y, "the button is below the picture");
     assert.ok(button!.y + button!.height <= PHONE.viewport.height, "the button is seen");
+    assert.equal(await page.locator("kbd:visible").count(), 0); // a phone has no keys
     await page.context().close();
   });
 

@@ -154,16 +154,46 @@ describe("the view Play", () => {
     await page.locator("#stage").focus();
   });
 
-  test("a new game, another difficulty, another game", async () => {
+  test("a difficulty switch moves in play, is rewound, and stays where it is in a new game", async () => {
     await begin();
     const left = page.locator("#left-switch");
-    assert.equal(await left.textContent(), "Left: B");
-    await page.keyboard.press("Digit1"); // the new game goes on by itself
-    await left.filter({ hasText: "Left: A" }).waitFor();
+    const stands = (position: string) => left.filter({ hasText: `Left: ${position}` }).waitFor();
+    await stands("B");
+    await frames(30);
+    const before = await frame();
+    await page.keyboard.press("Digit1");
+    await stands("A");
     await frames(5);
+    assert.ok(await frame() > before); // the episode goes on
+    await page.keyboard.down("Backspace");
+    await stands("B");
+    await page.keyboard.up("Backspace");
     await left.click();
-    await left.filter({ hasText: "Left: B" }).waitFor();
+    await stands("A");
+    await page.keyboard.press("KeyN");
+    await until(async () => await frame() < before, "a new game");
+    await frames(5);
+    await stands("A");
     assert.ok(await page.locator("#right-switch").isDisabled()); // beamfall has no use for it
+  });
+
+  test("an episode in which a difficulty switch moves replays to the score that was seen", async () => {
+    await page.locator("#stage").focus();
+    await page.keyboard.down("Space");
+    await until(async () => await numberIn(page, "#score") > 0, "a score");
+    await page.keyboard.up("Space");
+    await page.keyboard.press("Digit1");
+    await frames(30);
+    await page.keyboard.press("KeyP");
+    await paused(page);
+    const score = await numberIn(page, "#score");
+    await page.locator("#replay-this").click();
+    await page.locator("#decks").getByText(`score 0 of ${score} `).waitFor();
+    await page.getByRole("link", { name: "Play", exact: true }).click();
+    await page.locator("#stage").focus();
+  });
+
+  test("another game", async () => {
     await page.getByRole("button", { name: "Updraft", exact: true }).click();
     await page.getByRole("button", { name: "Play updraft" }).click();
     await frames(5);

@@ -81,3 +81,14 @@ test("scores belong to moments", () => {
   history.begin();
   assert.equal(history.score(1), 0);
 });
+
+test("the difficulty switches are where the acts moved them, also after a way back", () => {
+  const history = new History(2, 8);
+  history.begin(2);
+  const after = ["0", "20", "0", "23", "22/1", "21"].map((act) => (history.saves(), history.add(act), history.difficulty));
+  assert.deepEqual(after, [2, 3, 3, 1, 3, 2]);
+  for (const [moment, difficulty] of [[5, 3], [4, 1], [2, 3], [1, 2], [0, 2]] as const) {
+    history.back(moment);
+    assert.equal(history.difficulty, difficulty);
+  }
+});

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { ACTIONS, actionOf, actWord, DOWN, FIRE, joined, JOYSTICK_ACTIONS, LEFT, RESET, RIGHT, SELECT, spoken, UP } from "../../src/input/actions.js";
+import { ACTIONS, actionOf, actWord, DOWN, FIRE, joined, JOYSTICK_ACTIONS, LEFT, moveOf, RESET, RIGHT, SELECT, spoken, UP } from "../../src/input/actions.js";
 import { pressedOn } from "../../src/input/gamepad.js";
 import { directionAt } from "../../src/input/touch.js";
 
@@ -20,6 +20,11 @@ test("a switch of the console releases the joystick", () => {
   assert.equal(ACTIONS[actionOf(RESET | UP | FIRE)], "RESET");
   assert.equal(ACTIONS[actionOf(SELECT | LEFT)], "SELECT");
   assert.equal(actWord(SELECT, FIRE), "19/1");
+});
+
+test("a difficulty switch moves to its other position", () => {
+  const moves = [0, 1, 2, 3].map((difficulty) => [1, 2].map((bit) => ACTIONS[Number(moveOf(bit as 1 | 2, difficulty))]));
+  assert.deepEqual(moves, [["LEFT_A", "RIGHT_A"], ["LEFT_B", "RIGHT_A"], ["LEFT_A", "RIGHT_B"], ["LEFT_B", "RIGHT_B"]]);
 });
 
 test("an act has player B if B presses something", () => {
