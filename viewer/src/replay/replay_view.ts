@@ -103,19 +103,19 @@ export class ReplayView {
 
   async #read(files: FileList | null | undefined): Promise<void> {
     for (const file of files ?? []) {
-      await this.#attempt(async () => this.open(await readLog(new Uint8Array(await file.arrayBuffer()), file.name)));
+      await this.#attempt(async () => this.open(await readLog(new Uint8Array(await file.arrayBuffer()), file.name)), `${file.name}: `);
     }
     byId("log", HTMLInputElement).value = "";
   }
 
-  /** Does something, and shows the sentence of its failure. */
-  async #attempt(action: () => Promise<void>): Promise<void> {
+  /** Does something, and shows the sentence of its failure, after the name of the file that it is about. */
+  async #attempt(action: () => Promise<void>, name = ""): Promise<void> {
     const problem = byId("log-problem", HTMLElement);
     tell(problem, "");
     try {
       await action();
     } catch (error) {
-      tell(problem, error instanceof Error ? `${error.message}.` : String(error));
+      tell(problem, error instanceof Error ? `${name}${error.message}.` : String(error));
     }
   }
 
