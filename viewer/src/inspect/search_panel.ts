@@ -24,7 +24,7 @@ export class SearchPanel {
   readonly #parts = new Map<number, Part>();
   readonly #values = new Map<number, HTMLElement>(); // the cells of the bytes that are listed
   #ram = new Uint8Array(128);
-  #first: Uint8Array | undefined; // RAM when the search began
+  #first: Uint8Array | undefined; // RAM when the game began
 
   constructor() {
     for (const button of document.querySelectorAll<HTMLButtonElement>("[data-compare]")) {
@@ -42,16 +42,22 @@ export class SearchPanel {
       this.#search.undo();
       this.#list();
     };
-    byId("search-new", HTMLButtonElement).onclick = () => this.begin();
+    byId("search-new", HTMLButtonElement).onclick = () => this.#anew();
     byId("coding", HTMLSelectElement).onchange = () => this.#preview();
     byId("draft", HTMLButtonElement).onclick = () => this.#save();
   }
 
-  /** Begins a search with the next RAM that is shown. */
+  /** A game begins: forgets what was found in the one before. */
   begin(): void {
     this.#first = undefined;
     this.#parts.clear();
     this.show(this.#ram);
+    this.#list();
+  }
+
+  /** Begins another search. The bytes that have a part in the rule keep it. */
+  #anew(): void {
+    this.#search.begin(this.#ram);
     this.#list();
   }
 
@@ -90,7 +96,7 @@ export class SearchPanel {
 
   #list(): void {
     const { candidates, depth } = this.#search;
-    const listed = [...new Set([...this.#parts.keys(), ...(depth ? candidates : [])])].slice(0, MOST_LISTED);
+    const listed = [...new Set([...this.#parts.keys(), ...this.#neighbours(), ...(depth ? candidates : [])])].slice(0, MOST_LISTED);
     const none = "No byte did all of that. Undo takes the last step back.";
     const some = `${candidates.length} of 128 bytes fit${candidates.length > MOST_LISTED ? `; the list has ${MOST_LISTED} of them` : ""}.`;
     tell(byId("found", HTMLElement), !depth ? "" : candidates.length ? some : none);
@@ -99,6 +105,12 @@ export class SearchPanel {
     byId("candidates", HTMLTableSectionElement).replaceChildren(...listed.map((index) => this.#row(index)));
     this.#preview();
     this.changed(depth ? candidates : []);
+  }
+
+  /** The bytes beside those of the score, where its other digits may be. */
+  #neighbours(): number[] {
+    const score = [...this.#parts].filter(([, { role }]) => role.startsWith("score"));
+    return score.flatMap(([index]) => [index - 1, index + 1]).filter((index) => index >= 0 && index < this.#ram.length);
   }
 
   #row(index: number): HTMLTableRowElement {
@@ -122,7 +134,8 @@ export class SearchPanel {
       this.#parts.delete(index);
     }
     tell(byId("draft-problem", HTMLElement), "");
-    this.#preview();
+    this.#list();
+    byId("candidates", HTMLTableSectionElement).querySelector<HTMLElement>(`[aria-label$=" ${addressOf(index)}"]`)?.focus();
   }
 
   /** Says what the draft's rule gives at this moment. */

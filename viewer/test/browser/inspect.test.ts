@@ -82,7 +82,7 @@ describe("the panels of Inspect", () => {
   });
 
   test("the search finds the score", async () => {
-    await page.getByRole("button", { name: "Begin anew" }).click();
+    await page.getByRole("button", { name: "New search" }).click();
     for (let round = 0; round < 3; ++round) {
       await score();
       await page.getByRole("button", { name: "Changed", exact: true }).click();
@@ -91,10 +91,10 @@ describe("the panels of Inspect", () => {
     const found = Number(/^(\d+) of 128/.exec(await page.locator("#found").textContent() ?? "")?.[1]);
     assert.ok(found > 0 && found < 80, `${found} bytes`);
     await page.locator("#value").fill(`$${(await byte(0x84)).toString(16)}`);
-    await page.getByRole("button", { name: "Search" }).click();
+    await page.getByRole("button", { name: "Search", exact: true }).click();
     await page.locator("#candidates").getByText("$84").waitFor();
     await page.locator("#value").fill("999");
-    await page.getByRole("button", { name: "Search" }).click();
+    await page.getByRole("button", { name: "Search", exact: true }).click();
     await page.getByText("A byte is a number from 0 to 255").waitFor();
   });
 
@@ -114,12 +114,22 @@ describe("the panels of Inspect", () => {
     }
   });
 
+  test("the other digits of the score are beside it, and a search for the lives leaves them", async () => {
+    await page.getByLabel("Part of the rule of $83").selectOption("score1");
+    await page.getByRole("button", { name: "New search" }).click();
+    await page.locator("#value").fill(`$${(await byte(0x81)).toString(16)}`);
+    await page.getByRole("button", { name: "Search", exact: true }).click();
+    await page.getByLabel("Part of the rule of $81").selectOption("lives");
+    const both = async () => `The draft's rule gives now: score ${await numberIn(page, "#score")}, lives ${await byte(0x81)}, the game goes on.`;
+    await until(async () => await page.locator("#preview").textContent() === await both(), "the score and the lives of the draft");
+  });
+
   test("the draft is a game file that the program takes", async () => {
     const download = page.waitForEvent("download");
     await page.getByRole("button", { name: "Save a draft" }).click();
     const file = path.join(server.folder, "draft.toml");
     await (await download).saveAs(file);
-    assert.match(readFileSync(file, "utf8"), /bcd\(0x84\)/);
+    assert.match(readFileSync(file, "utf8"), /bcd\(0x84, 0x83\)/);
     const image = path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "../../../games/homebrew/beamfall.bin");
     const actions = path.join(server.folder, "actions");
     writeFileSync(actions, "1\n".repeat(300));
