@@ -1,4 +1,5 @@
-"""Checks that each link and picture of a built site leads to a file and an anchor of it. Usage: links.py FOLDER"""
+"""Checks that each link and picture of a built site leads to a file and an anchor of it, and that no page loads anything
+from elsewhere. Usage: links.py FOLDER"""
 
 import html.parser
 import pathlib
@@ -11,7 +12,7 @@ class Page(html.parser.HTMLParser):
 
     def __init__(self, text):
         super().__init__()
-        self.targets, self.anchors = [], {"", "top"}
+        self.targets, self.loaded, self.anchors = [], [], {"", "top"}
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
@@ -20,12 +21,18 @@ class Page(html.parser.HTMLParser):
                 self.anchors.add(value)
             elif name in ("href", "src") and value:
                 self.targets.append(value)
+                if name == "src" or (tag == "link" and "stylesheet" in (dict(attributes).get("rel") or "")):
+                    self.loaded.append(value)
 
 
 def faults(folder):
-    """A line for each link that leads nowhere. Links to other sites are not followed."""
+    """A line for each link that leads nowhere, and for each file of another site that a page loads. Other links to other
+    sites are not followed."""
     pages = {path: Page(path.read_text(errors="replace")) for path in sorted(folder.rglob("*.html"))}
     for path, page in pages.items():
+        for target in page.loaded:
+            if urllib.parse.urlsplit(target).netloc:
+                yield f"{path.relative_to(folder)}: loads {target} from elsewhere"
         for target in page.targets:
             parts = urllib.parse.urlsplit(target)
             if parts.scheme or parts.netloc:

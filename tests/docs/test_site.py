@@ -56,6 +56,12 @@ class Links(unittest.TestCase):
         for target in ("two.html", "two.html#here", "/two.html", "#", "https://example.org/x", "mailto:a@example.org"):
             self.assertEqual(self.faults(f'<a href="{target}">a</a>'), [])
 
+    def test_pages_that_load_from_elsewhere_are_refused(self):
+        for text in ('<script src="{}"></script>', '<img src="{}">', '<link rel="stylesheet" href="{}">'):
+            address = "https://example.org/x"
+            self.assertEqual(self.faults(text.format(address)), [f"one.html: loads {address} from elsewhere"])
+        self.assertEqual(self.faults('<link rel="canonical" href="https://example.org/x"><img src="data:image/png,">'), [])
+
     def test_links_that_do_not_are_refused(self):
         self.assertEqual(self.faults('<img src="a.png">'), ["one.html: a.png does not exist"])
         self.assertEqual(self.faults('<a href="two.html#x">'), ["one.html: two.html#x has no such anchor"])

@@ -1,6 +1,6 @@
 """Starts servers as jobs of a scheduler, by submitit (pip install "submitit>=1.5").
 
-Example:
+Examples:
     with SlurmServers(n=32, image="/shared/atari", slurm_partition="cpu") as addresses:
         envs = racebeam.AtariVectorEnv("breakout", 1024, server=addresses)
 """
@@ -52,7 +52,7 @@ class SlurmServers:
         InvalidInput: If `n` or `image` is wrong.
         ImportError: When the block begins, if submitit is not installed.
 
-    Example:
+    Examples:
         >>> from racebeam.cluster import SlurmServers
         >>> SlurmServers(n=0)
         Traceback (most recent call last):

@@ -134,7 +134,7 @@ class AtariEnv(EnvWithView):
     All methods raise ClosedEnvironmentError after `close`. With a server, they also raise Refused, ConnectionError and
     TimeoutError, and RuntimeError in a child process after a fork.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> env = racebeam.AtariEnv("beamfall")
         >>> observation, info = env.reset(seed=7)

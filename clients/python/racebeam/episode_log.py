@@ -230,7 +230,7 @@ def replay(
         MissingImage: If no image of the game is found.
         InvalidInput: If the seed, an action or a setting is out of range.
 
-    Example:
+    Examples:
         >>> from racebeam.episode_log import replay
         >>> replay("beamfall", [1] * 10, seed=7, frame_skip=4).frames
         40

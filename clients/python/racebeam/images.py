@@ -42,7 +42,7 @@ def games() -> dict[str, str]:
     Returns:
         A new dictionary from the name of each game to its title.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> racebeam.games()["beamfall"]
         'Beamfall'
@@ -172,7 +172,7 @@ def find(game: str) -> str:
         UnknownGame: If no game has this name.
         MissingImage: If no image of the game is found.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> racebeam.find_image("beamfall")
         'builtin:beamfall'

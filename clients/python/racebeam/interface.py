@@ -39,7 +39,7 @@ class ALEInterface(_core.ALEInterface):
     Two threads that use one interface take turns. `loadROM`, `reset_game`, `act` and `step` release the GIL. A copy by
     `copy.deepcopy` or `pickle` continues where the original is.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> ale = racebeam.ALEInterface()
         >>> ale.setInt("random_seed", 123)

@@ -74,7 +74,7 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
 
     The constructor also raises what that of `AtariVectorEnv` raises.
 
-    Example:
+    Examples:
         >>> from racebeam.sb3 import VecEnv
         >>> envs = VecEnv("beamfall", 2, seed=1)
         >>> envs.reset().shape

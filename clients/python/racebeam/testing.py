@@ -40,7 +40,7 @@ def equal(one: Any, other: Any) -> bool:
     Returns:
         Whether all numbers, shapes and dtypes are equal.
 
-    Example:
+    Examples:
         >>> import numpy as np
         >>> from racebeam.testing import equal
         >>> equal({"lives": np.array([3, 4])}, {"lives": np.array([3, 4])})
@@ -68,7 +68,7 @@ class EnvironmentTests(Base):
         has_states: Whether the state of `env.unwrapped.clone_state` is the whole state. It is not if a wrapper keeps
             more state, such as a stack of screens.
 
-    Example:
+    Examples:
         >>> import unittest
         >>> import racebeam
         >>> from racebeam.testing import EnvironmentTests
@@ -170,7 +170,7 @@ class VectorEnvironmentTests(Base):
         has_states: Whether the state of `envs.unwrapped.save` is the whole state of an environment. It is not if a
             wrapper keeps more state.
 
-    Example:
+    Examples:
         >>> import unittest
         >>> import racebeam
         >>> from racebeam.testing import VectorEnvironmentTests

@@ -142,7 +142,7 @@ class AtariVectorEnv(PlayedVector):
     All methods raise ClosedEnvironmentError after `close`, RuntimeError in a child process after a fork, and with a
     server also Refused, ConnectionError and TimeoutError. After the latter two, the environments cannot be used.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> envs = racebeam.AtariVectorEnv("beamfall", 4, seed=7)
         >>> observations, info = envs.reset()

@@ -183,7 +183,7 @@ class VectorOptions:
         WrongType: If an option has a wrong type.
         WrongValue: If the value of an option is not accepted.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> options = racebeam.VectorOptions.of_preset("machado2018", num_envs=8, obs_type="ram", seed=7)
         >>> options.frameskip, options.repeat_action_probability

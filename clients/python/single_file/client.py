@@ -1705,7 +1705,7 @@ class Session(Commands):
     Attributes:
         again: Opens a new session with the same server, or None.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> with racebeam.launch() as session:
         ...     game = session.load("beamfall", seed=7, frame_skip=4)
@@ -1822,7 +1822,7 @@ class Stack:
     Args:
         depth: Number of screens in the stack.
 
-    Example:
+    Examples:
         >>> from racebeam.wire.client import Stack
         >>> stack = Stack(3)
         >>> stack.push(b"ab")

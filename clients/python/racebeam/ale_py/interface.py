@@ -59,7 +59,7 @@ def plain_errors(method: Method, kind: type[Exception] = RuntimeError) -> Method
 class ALEInterface(interface.ALEInterface):
     """racebeam.ALEInterface with the errors of ale_py.
 
-    Example:
+    Examples:
         >>> from racebeam.ale_py import ALEInterface
         >>> ale = ALEInterface()
         >>> ale.loadROM("builtin:beamfall")

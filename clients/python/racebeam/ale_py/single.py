@@ -11,7 +11,7 @@ __all__ = ["AtariEnv"]
 class AtariEnv(env.AtariEnv):
     """racebeam.AtariEnv with the errors of ale_py, also those of its `ale`.
 
-    Example:
+    Examples:
         >>> from racebeam.ale_py import AtariEnv
         >>> AtariEnv("beamfal")
         Traceback (most recent call last):

@@ -30,7 +30,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
     uint8 array of all environments. The first call must be a reset of all environments, and actions must be arrays of
     NumPy.
 
-    Example:
+    Examples:
         >>> from racebeam.ale_py import AtariVectorEnv
         >>> envs = AtariVectorEnv("beamfall", 2)
         >>> observations, info = envs.reset(seed=1)
@@ -226,7 +226,7 @@ class ALEVectorInterface:
     Raises:
         ValueError: If an argument is wrong, or the image is unknown.
 
-    Example:
+    Examples:
         >>> from racebeam.ale_py import ALEVectorInterface
         >>> ale = ALEVectorInterface("builtin:beamfall", 2)
         >>> observations, info = ale.reset([0, 1], [7, 8])

@@ -42,7 +42,7 @@ class EnvPool:
 
     All methods raise ClosedEnvironmentError after `close`, and RuntimeError in a child process after a fork.
 
-    Example:
+    Examples:
         >>> from racebeam import envpool
         >>> with envpool.make_gymnasium("Beamfall-v5", num_envs=4, batch_size=2) as envs:
         ...     envs.async_reset()

@@ -32,7 +32,7 @@ class Envs(AtariVectorEnv):
     Args:
         spec: Spec of the task.
 
-    Example:
+    Examples:
         >>> from racebeam.envpool import make_spec
         >>> from racebeam.envpool.envs import Envs
         >>> envs = Envs(make_spec("Beamfall-v5", num_envs=3))

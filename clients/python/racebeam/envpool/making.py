@@ -136,7 +136,7 @@ def make(task_id: str, env_type: str, **config: Any) -> Any:
     Raises:
         InvalidSetting: If the task or the type is unknown, or a setting is wrong.
 
-    Example:
+    Examples:
         >>> import racebeam.envpool
         >>> envs = racebeam.envpool.make("Beamfall-v5", env_type="gymnasium", num_envs=4)
         >>> observations, info = envs.reset()

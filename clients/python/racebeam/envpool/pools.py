@@ -25,7 +25,7 @@ class GymnasiumEnvPool(EnvPool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any
     `info` has `env_id`, `players`, `lives`, `reward` (before clipping), `terminated` (whether the game is over), `ram`
     and `elapsed_step`.
 
-    Example:
+    Examples:
         >>> from racebeam import envpool
         >>> envs = envpool.make_gymnasium("Beamfall-v5", num_envs=2)
         >>> observations, info = envs.reset()
@@ -106,7 +106,7 @@ class GymEnvPool(EnvPool):
         render_env_id: Index of the environment that `render` returns by default.
         render_mode: None or "rgb_array"; has no effect.
 
-    Example:
+    Examples:
         >>> from racebeam import envpool
         >>> envs = envpool.make("Beamfall-v5", env_type="gym", num_envs=2)
         >>> envs.reset().shape
@@ -194,7 +194,7 @@ class DMEnvPool(EnvPool):
         render_env_id: Index of the environment that `render` returns by default.
         render_mode: None or "rgb_array"; has no effect.
 
-    Example:
+    Examples:
         >>> from racebeam import envpool
         >>> envs = envpool.make_dm("Beamfall-v5", num_envs=2)
         >>> envs.reset().first().tolist()

@@ -23,7 +23,7 @@ class RawSpec(EnvSpec):
     Raises:
         InvalidSetting: If a value is wrong.
 
-    Example:
+    Examples:
         >>> from racebeam.envpool.raw import RawSpec
         >>> config = dict(zip(RawSpec._config_keys, RawSpec._default_config_values)) | {"task": b"beamfall"}
         >>> RawSpec(config.values()).id
@@ -52,7 +52,7 @@ class RawPool:
     Args:
         spec: Spec of the task.
 
-    Example:
+    Examples:
         >>> from racebeam.envpool import make_spec
         >>> from racebeam.envpool.raw import RawPool
         >>> pool = RawPool(make_spec("Beamfall-v5", num_envs=2))

@@ -234,7 +234,7 @@ class EnvSpec:
     Raises:
         InvalidSetting: If a value is wrong.
 
-    Example:
+    Examples:
         >>> from racebeam.envpool import make_spec
         >>> spec = make_spec("Beamfall-v5", num_envs=4)
         >>> spec.id, spec.config.num_envs, spec.observation_space.shape

@@ -28,7 +28,7 @@ HEIGHTS = {-1: "DOWN", 0: "", 1: "UP"}
 class EnvWithActions(gymnasium.Env[Any, Any]):
     """Base class of environments that convert actions to numbers of `Action`.
 
-    Example:
+    Examples:
         >>> from racebeam.single.actions import EnvWithActions
         >>> EnvWithActions.map_action_idx(1, 1, True).name
         'UPRIGHTFIRE'

@@ -20,7 +20,7 @@ __all__ = ["EnvWithGame"]
 class EnvWithGame(EnvWithActions):
     """Base class of environments that load a game.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> env = racebeam.AtariEnv("beamfall")
         >>> state = env.clone_state()

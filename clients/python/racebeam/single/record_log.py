@@ -51,7 +51,7 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         FileExistsError: If the folder exists.
         OSError: If the folder cannot be made.
 
-    Example:
+    Examples:
         >>> import tempfile
         >>> import racebeam
         >>> env = racebeam.AtariEnv("beamfall", preset="machado2018")

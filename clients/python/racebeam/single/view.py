@@ -25,7 +25,7 @@ VIEWS = {"rgb": View.RGB, "grayscale": View.GRAYSCALE, "ram": View.RAM}
 class EnvWithView(EnvWithGame):
     """Base class of environments that show the game.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> racebeam.AtariEnv("beamfall", render_mode="rgb_array").render().shape
         (210, 160, 3)

@@ -26,7 +26,7 @@ RAM_SIZE, SOUND_SIZE, SCREEN_WIDTH = 128, 512, 160
 class VectorBase(VectorEnv[Any, Any, Any]):
     """Base class of vectors of environments. A subclass calls `_use` in its constructor.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> from racebeam.vector.base import VectorBase
         >>> isinstance(racebeam.AtariVectorEnv("beamfall", 2), VectorBase)

@@ -18,7 +18,7 @@ __all__ = ["VectorOfEach"]
 class VectorOfEach(VectorBase):
     """Base class of vectors that give access to each of their environments.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> envs = racebeam.AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)
         >>> envs.get_attr("game")

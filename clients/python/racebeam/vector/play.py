@@ -28,7 +28,7 @@ Seeds: TypeAlias = SupportsIndex | Sequence[SupportsIndex | None] | npt.NDArray[
 class PlayedVector(VectorOfEach):
     """Base class of vectors whose environments are reset and stepped.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> envs = racebeam.AtariVectorEnv("beamfall", 2, seed=7)
         >>> envs.send([1, 0])

@@ -126,7 +126,7 @@ class AsyncSession:
     Attributes:
         again: Opens a new session of the same server, or None.
 
-    Example:
+    Examples:
         >>> import asyncio
         >>> from racebeam.wire import aio
         >>> async def play():

@@ -34,7 +34,7 @@ class Session(Commands):
     Attributes:
         again: Opens a new session with the same server, or None.
 
-    Example:
+    Examples:
         >>> import racebeam
         >>> with racebeam.launch() as session:
         ...     game = session.load("beamfall", seed=7, frame_skip=4)

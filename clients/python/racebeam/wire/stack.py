@@ -15,7 +15,7 @@ class Stack:
     Args:
         depth: Number of screens in the stack.
 
-    Example:
+    Examples:
         >>> from racebeam.wire.client import Stack
         >>> stack = Stack(3)
         >>> stack.push(b"ab")
