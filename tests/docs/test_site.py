@@ -60,7 +60,9 @@ class Links(unittest.TestCase):
         for text in ('<script src="{}"></script>', '<img src="{}">', '<link rel="stylesheet" href="{}">'):
             address = "https://example.org/x"
             self.assertEqual(self.faults(text.format(address)), [f"one.html: loads {address} from elsewhere"])
-        self.assertEqual(self.faults('<link rel="canonical" href="https://example.org/x"><img src="data:image/png,">'), [])
+        self.assertEqual(
+            self.faults('<link rel="canonical" href="https://example.org/x"><img src="data:image/png,">'), []
+        )
 
     def test_links_that_do_not_are_refused(self):
         self.assertEqual(self.faults('<img src="a.png">'), ["one.html: a.png does not exist"])
