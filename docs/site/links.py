@@ -1,5 +1,5 @@
-"""Checks that each link and picture of a built site leads to a file and an anchor of it, and that no page loads anything
-from elsewhere. Usage: links.py FOLDER"""
+"""Checks that each link and picture of a built site leads to a file and an anchor of it, and that no page loads
+a file of another site. Usage: links.py FOLDER"""
 
 import html.parser
 import pathlib
@@ -26,8 +26,10 @@ class Page(html.parser.HTMLParser):
 
 
 def faults(folder):
-    """A line for each link that leads nowhere, and for each file of another site that a page loads. Other links to other
-    sites are not followed."""
+    """A line for each link that leads nowhere, and for each file of another site that a page loads.
+
+    Links to other sites are not followed.
+    """
     pages = {path: Page(path.read_text(errors="replace")) for path in sorted(folder.rglob("*.html"))}
     for path, page in pages.items():
         for target in page.loaded:
