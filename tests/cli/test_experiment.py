@@ -273,9 +273,8 @@ class Experiment(unittest.TestCase):
     def test_the_results_in_the_tree_are_confirmed(self):
         folders = [plan.parent for plan in sorted((ROOT / "docs/results").glob("*/plan.toml"))]
         self.assertIn(ROOT / "docs/results/own-games", folders)
-        self.assertLess(
-            sum(path.stat().st_size for path in (ROOT / "docs/results").rglob("*") if path.is_file()), 1 << 20
-        )
+        kept = sum(path.stat().st_size for path in (ROOT / "docs/results").rglob("*") if path.is_file())
+        self.assertLess(kept, 6 << 20)  # which a clone carries: logs of 990 units of Perturb and 60 of learners
         for folder in folders:
             status, printed, _ = run("verify", str(folder))
             self.assertEqual(status, 0 if folder.name == "own-games" else 2, printed)  # 2: the image is not here

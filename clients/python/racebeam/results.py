@@ -3,7 +3,7 @@
     from racebeam.results import load
     load("results").scores
 
-That package is in racebeam's source, and importing this module needs it: pip install ./evaluation.
+Importing this module needs that package, which is the folder evaluation of racebeam's source.
 """
 
 from __future__ import annotations

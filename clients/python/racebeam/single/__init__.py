@@ -1,1 +1,1 @@
-"""The parts of AtariEnv: arguments, the game, actions, and what is shown."""
+"""The parts of AtariEnv: arguments, the game, actions, what is shown, and the window."""

@@ -10,8 +10,8 @@ from gymnasium import error, spaces
 
 from .. import images
 from .._core import View
-from ..window import Window
 from .game import EnvWithGame
+from .window import Window
 
 __all__ = ["VIEWS", "EnvWithView", "Observation", "Pixels"]
 

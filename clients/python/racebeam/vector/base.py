@@ -10,8 +10,8 @@ from gymnasium.vector.utils import batch_space
 
 from .. import images
 from ..errors import InvalidInput
+from ..single.window import Grid
 from ..vector_options import VectorOptions, autoreset_of
-from ..window import Grid
 from ..wire.remote_machines import RemoteMachines
 from ..wire.spread_machines import SpreadMachines
 from .autoreset import AutoresetMode, VectorEnv

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .errors import InvalidInput
-from .extras import install_hint
+from ..errors import InvalidInput
+from ..extras import install_hint
 
 FRAMES_PER_SECOND = 60
 SAMPLES_PER_FRAME = 512
