@@ -41,6 +41,10 @@ class Version(unittest.TestCase):
     def test_the_clients_have_it(self):
         self.assertEqual(version.differences(), [])
 
+    def test_the_changelog_has_a_section_with_its_date(self):
+        heading = rf"(?m)^## \[{re.escape(version.decided())}\] - \d{{4}}-\d\d-\d\d$"
+        self.assertRegex((ROOT / "CHANGELOG.md").read_text(), heading)
+
     def test_the_wheel_takes_it_from_cmake(self):
         project = tomllib.loads((ROOT / "pyproject.toml").read_text())
         self.assertIn("version", project["project"]["dynamic"])
