@@ -29,7 +29,7 @@ RETURNS = {
     "first": ("Values", "_first"),
     "groups": ("list[Values]", "_rest"),
     "nothing": ("None", "ask"),
-    "list": ("list[str]", "list_of"),
+    "list": ("list[str]", "_list_of"),
     "ints": ("list[int]", "_ints_of"),
 }
 

@@ -724,14 +724,15 @@ Result = TypeVar("Result")
 class Connection:
     """The streams of a session. Every error of a stream ends the session.
 
+    This class and those above it are the base classes of `Session`. Their names with an underscore are for the modules
+    of this folder.
+
     Args:
         reader: Stream of replies.
         writer: Stream of requests.
         close: Closes the streams.
 
     Attributes:
-        reader: Stream of replies.
-        writer: Stream of requests.
         address: Address of the server, or "".
         longest_reply: Bytes of the longest reply that is accepted.
     """
@@ -739,7 +740,7 @@ class Connection:
     def __init__(
         self, reader: IO[bytes] | SocketStream, writer: IO[bytes] | SocketStream, close: Callable[[], object]
     ) -> None:
-        self.reader, self.writer, self._close = reader, writer, close
+        self._reader, self._writer, self._close = reader, writer, close
         self._process = os.getpid()
         self._end_reason = ""
         self.address = ""
@@ -749,11 +750,11 @@ class Connection:
         """Ends the session. A second call does nothing. In a child process, the parent's session goes on."""
         self._end("the session was closed")
 
-    def abort(self) -> None:
+    def _abort(self) -> None:
         """Ends the session because a request may lack its reply."""
         self._end("the session has ended: it was interrupted between a request and the end of its reply")
 
-    def fail(self, error: Exception | None) -> OSError:
+    def _fail(self, error: Exception | None) -> OSError:
         """Ends the session because of an error.
 
         Args:
@@ -776,18 +777,18 @@ class Connection:
             if os.getpid() == self._process:
                 self._close()
 
-    def check(self) -> None:
+    def _check(self) -> None:
         """Checks that the session can send a request.
 
         Raises:
             ConnectionError: If the session has ended.
             RuntimeError: In a child process after a fork.
         """
-        self.check_process()
+        self._check_process()
         if self._end_reason:
             raise ConnectionError(self._end_reason)
 
-    def check_process(self) -> None:
+    def _check_process(self) -> None:
         """Checks that this process opened the session.
 
         Raises:
@@ -803,42 +804,42 @@ class Connection:
         except Refused:
             raise
         except BaseException:
-            self.abort()
+            self._abort()
             raise
 
     def _write_line(self, line: str) -> None:
         try:
-            self.writer.write(f"{line}\n".encode())
+            self._writer.write(f"{line}\n".encode())
         except OSError as error:
-            raise self.fail(error) from error
+            raise self._fail(error) from error
 
     def _flush(self) -> None:
         try:
-            self.writer.flush()
+            self._writer.flush()
         except ConnectionError:
             pass  # the server may have written why it ends
         except OSError as error:
-            raise self.fail(error) from error
+            raise self._fail(error) from error
 
     def _read_line(self) -> str:
         self._flush()
         try:
-            line = self.reader.readline(self.longest_reply)
+            line = self._reader.readline(self.longest_reply)
         except OSError as error:  # such as a TimeoutError in the middle of a reply
-            raise self.fail(error) from error
+            raise self._fail(error) from error
         if not line.endswith(b"\n"):
             is_long = len(line) >= self.longest_reply
             too_long = ConnectionError(f"its reply is longer than {self.longest_reply} bytes")
-            raise self.fail(too_long if is_long else None)
+            raise self._fail(too_long if is_long else None)
         return line.decode("latin-1").rstrip("\n")
 
     def _read_bytes(self, count: int) -> bytes | bytearray:
         try:
-            data = self.reader.read(count)
+            data = self._reader.read(count)
         except OSError as error:
-            raise self.fail(error) from error
+            raise self._fail(error) from error
         if len(data) < count:
-            raise self.fail(None)
+            raise self._fail(None)
         return data
 
 
@@ -854,10 +855,6 @@ class Replies(Connection):
         writer: Stream of requests.
         close: Closes the streams.
         arrays: Whether bytes are returned as arrays of NumPy.
-
-    Attributes:
-        offered: Encodings that the server offers, after a greeting.
-        unanswered: Words of each request without a reply, in order.
     """
 
     def __init__(
@@ -869,15 +866,15 @@ class Replies(Connection):
     ) -> None:
         super().__init__(reader, writer, close)
         self._observations = Observations(arrays)
-        self.offered: list[str] = []
-        self.unanswered: collections.deque[list[str]] = collections.deque()
+        self._offered: list[str] = []  # encodings that the server offers, after a greeting
+        self._unanswered: collections.deque[list[str]] = collections.deque()  # words of requests without a reply
 
     @property
     def height(self) -> int:
         """Rows of the screen of the loaded game."""
         return self._observations.height
 
-    def check_greeting(self, greeting: Values) -> None:
+    def _check_greeting(self, greeting: Values) -> None:
         """Checks the reply to hello.
 
         Args:
@@ -889,11 +886,11 @@ class Replies(Connection):
         version = greeting.get("protocol")
         if version != PROTOCOL:
             sentence = f"it speaks version {version} of the protocol; this client speaks {PROTOCOL}"
-            raise self.fail(ConnectionError(sentence))
-        self.offered = str(greeting.get("encodings", "")).split(",")
+            raise self._fail(ConnectionError(sentence))
+        self._offered = str(greeting.get("encodings", "")).split(",")
 
-    def decode_plain(self, reply: Reply) -> list[Values]:
-        """Decodes a reply of `receive_plain`.
+    def _decode_plain(self, reply: Reply) -> list[Values]:
+        """Decodes a reply of `_await_plain`.
 
         Args:
             reply: The reply.
@@ -906,28 +903,28 @@ class Replies(Connection):
         """
         groups = parse_groups(reply.text)
         if groups[-1].pop("raw", None):
-            self.split_bytes(reply.words, groups, reply.data)
-        return self.decode(reply.words, groups)
+            self._split_bytes(reply.words, groups, reply.data)
+        return self._decode(reply.words, groups)
 
     def _receive_values(self) -> list[Values]:
-        return self.decode(*self._receive())
+        return self._decode(*self._receive())
 
     def _receive_plain(self) -> Reply:
-        words, text = self.read_status(self._read_line())
+        words, text = self._read_status(self._read_line())
         count = RAW_COUNT.search(text)
         return Reply(words, text, self._read_bytes(self._parse_count(count[1])) if count else b"")
 
     def _receive(self) -> tuple[list[str], list[Texts]]:
         """Returns the words of the oldest request without a reply, and the groups of its reply."""
-        words, groups, count = self.parse_reply(self._read_line())
+        words, groups, count = self._parse_reply(self._read_line())
         if count:
-            self.split_bytes(words, groups, self._read_bytes(count))
+            self._split_bytes(words, groups, self._read_bytes(count))
         return words, groups
 
-    # A session of asyncio reads replies by itself. It passes each line to `parse_reply` or `read_status`, the bytes
-    # that follow to `split_bytes`, and the groups to `decode`.
+    # A session of asyncio reads replies by itself. It passes each line to `_parse_reply` or `_read_status`, the
+    # bytes that follow to `_split_bytes`, and the groups to `_decode`.
 
-    def parse_reply(self, line: str) -> tuple[list[str], list[Texts], int]:
+    def _parse_reply(self, line: str) -> tuple[list[str], list[Texts], int]:
         """Parses the line of a reply.
 
         Args:
@@ -940,7 +937,7 @@ class Replies(Connection):
             Refused: If the server refuses the request.
             ConnectionError: If the reply is damaged.
         """
-        words, text = self.read_status(line)
+        words, text = self._read_status(line)
         groups = parse_groups(text)
         try:
             self._observations.follow(words, groups[0])
@@ -949,7 +946,7 @@ class Replies(Connection):
         except DAMAGES as error:
             raise self._damaged(error) from error
 
-    def read_status(self, line: str) -> tuple[list[str], str]:
+    def _read_status(self, line: str) -> tuple[list[str], str]:
         """Reads the status of a reply.
 
         Args:
@@ -963,16 +960,16 @@ class Replies(Connection):
             ConnectionError: If the line is not a reply.
         """
         # Without a request, the server writes why it ends.
-        words = self.unanswered.popleft() if self.unanswered else [""]
+        words = self._unanswered.popleft() if self._unanswered else [""]
         status, _, rest = line.partition(" ")
         if status == "error" and rest:
             code, _, sentence = rest.partition(" ")
             raise Refused(code, sentence)
         if status != "ok":
-            raise self.fail(ConnectionError(f"it sent {line[:60]!r}, which is not a reply"))
+            raise self._fail(ConnectionError(f"it sent {line[:60]!r}, which is not a reply"))
         return words, rest
 
-    def split_bytes(self, words: list[str], groups: list[Texts], data: bytes | bytearray) -> None:
+    def _split_bytes(self, words: list[str], groups: list[Texts], data: bytes | bytearray) -> None:
         """Gives each field with the encoding raw its part of the bytes that followed a reply.
 
         Args:
@@ -988,7 +985,7 @@ class Replies(Connection):
         except DAMAGES as error:
             raise self._damaged(error) from error
 
-    def decode(self, words: list[str], groups: list[Texts]) -> list[Values]:
+    def _decode(self, words: list[str], groups: list[Texts]) -> list[Values]:
         """Decodes a reply.
 
         Args:
@@ -1007,7 +1004,7 @@ class Replies(Connection):
             raise self._damaged(error) from error
 
     def _end(self, reason: str) -> None:
-        self.unanswered.clear()
+        self._unanswered.clear()
         super()._end(reason)
 
     def _parse_count(self, text: str) -> int:
@@ -1018,7 +1015,7 @@ class Replies(Connection):
 
     def _damaged(self, error: Exception) -> OSError:
         """Ends the session because a reply is damaged."""
-        return self.fail(ConnectionError(f"its reply is damaged: {error}"))
+        return self._fail(ConnectionError(f"its reply is damaged: {error}"))
 
 
 class Exchange(Replies):
@@ -1043,10 +1040,10 @@ class Exchange(Replies):
             ValueError: If the request is not one line.
         """
         line = format_request(words, settings)
-        self.check()
+        self._check()
         self._abort_on_interrupt(lambda: self._write(line))
 
-    def begin(self, *words: object, **settings: object) -> None:
+    def _begin(self, *words: object, **settings: object) -> None:
         """Sends one request at once. `receive` returns its reply.
 
         Args:
@@ -1069,7 +1066,7 @@ class Exchange(Replies):
             ConnectionError: If the server is gone.
             TimeoutError: If sending takes too long.
         """
-        self.check()
+        self._check()
         self._abort_on_interrupt(self._flush)
 
     def receive(self) -> list[Texts]:
@@ -1083,7 +1080,7 @@ class Exchange(Replies):
             ConnectionError: If the server is gone.
             TimeoutError: If the server does not answer in time.
         """
-        self.check()
+        self._check()
         return self._abort_on_interrupt(self._receive)[1]
 
     def receive_values(self) -> list[Values]:
@@ -1097,21 +1094,21 @@ class Exchange(Replies):
             ConnectionError: If the server is gone.
             TimeoutError: If the server does not answer in time.
         """
-        self.check()
+        self._check()
         return self._abort_on_interrupt(self._receive_values)
 
-    def receive_plain(self) -> Reply:
+    def _await_plain(self) -> Reply:
         """Receives the next reply, to a request that does not change later replies, such as `step`.
 
         Returns:
-            The reply for `decode_plain`.
+            The reply for `_decode_plain`.
 
         Raises:
             Refused: If the server refuses the request.
             ConnectionError: If the server is gone.
             TimeoutError: If the server does not answer in time.
         """
-        self.check()
+        self._check()
         return self._abort_on_interrupt(self._receive_plain)
 
     def request(self, *words: object, **settings: object) -> list[Values]:
@@ -1150,7 +1147,7 @@ class Exchange(Replies):
         """
         return self._exchange(lambda: self._receive()[1], *words, **settings)
 
-    def values(self, *words: object, **settings: object) -> Values:
+    def _values_of(self, *words: object, **settings: object) -> Values:
         """Sends a request whose reply has no bytes.
 
         Args:
@@ -1162,7 +1159,7 @@ class Exchange(Replies):
         """
         return {key: parse_number(text) for key, text in self.ask(*words, **settings)[0].items()}
 
-    def list_of(self, key: str, *words: object) -> list[str]:
+    def _list_of(self, key: str, *words: object) -> list[str]:
         """Sends a request whose reply has a list.
 
         Args:
@@ -1184,12 +1181,12 @@ class Exchange(Replies):
         return self.request(*words)[1:]
 
     def _ints_of(self, key: str, *words: object) -> list[int]:
-        return [int(text) for text in self.list_of(key, *words)]
+        return [int(text) for text in self._list_of(key, *words)]
 
     def _exchange(self, read: Callable[[], Result], *words: object, **settings: object) -> Result:
         """Sends a request, and returns what `read` returns for its reply."""
         line = format_request(words, settings)
-        self.check()
+        self._check()
         self._check_answered()
 
         def exchange() -> Result:
@@ -1199,11 +1196,11 @@ class Exchange(Replies):
         return self._abort_on_interrupt(exchange)
 
     def _check_answered(self) -> None:
-        if self.unanswered:
-            raise ValueError(f"{len(self.unanswered)} requests were sent ahead; receive their replies first")
+        if self._unanswered:
+            raise ValueError(f"{len(self._unanswered)} requests were sent ahead; receive their replies first")
 
     def _write(self, line: str) -> None:
-        self.unanswered.append(line.split())
+        self._unanswered.append(line.split())
         self._write_line(line)
 
 
@@ -1223,7 +1220,7 @@ class Commands(Exchange):
         Returns:
             The text of the reply.
         """
-        return self._exchange(lambda: self.read_status(self._read_line())[1], "help", *words)
+        return self._exchange(lambda: self._read_status(self._read_line())[1], "help", *words)
 
     def game(self, name: str) -> Values:
         """Describe one game.
@@ -1255,7 +1252,7 @@ class Commands(Exchange):
         Returns:
             The names of the actions by their numbers.
         """
-        pairs = (pair.split(":") for pair in self.list_of("actions", "actions"))
+        pairs = (pair.split(":") for pair in self._list_of("actions", "actions"))
         return {int(action): name for action, name in pairs}
 
     def names(self) -> tuple[dict[int, str], list[str]]:
@@ -1375,7 +1372,7 @@ class Commands(Exchange):
         Returns:
             The list of the reply.
         """
-        return self.list_of("games", "games", *optional_words(which))
+        return self._list_of("games", "games", *optional_words(which))
 
     def settings(self) -> Values:
         """The settings in effect.
@@ -1422,7 +1419,7 @@ class Commands(Exchange):
         Returns:
             The list of the reply.
         """
-        return self.list_of("fields", "observe", *fields)
+        return self._list_of("fields", "observe", *fields)
 
     def look(self, *fields: str) -> Values:
         """Show these fields once; without fields, the selected ones.
@@ -1500,7 +1497,7 @@ class Commands(Exchange):
         Returns:
             The list of the reply.
         """
-        return self.list_of("states", "states")
+        return self._list_of("states", "states")
 
     def open(
         self,
@@ -1870,7 +1867,7 @@ def launch(*options: str, program: str | None = None, arrays: bool = False) -> S
     racebeam, _, _, *rest = command
     session = Session.start(racebeam, *rest, arrays=arrays)
     try:
-        session.check_greeting(session.hello())
+        session._check_greeting(session.hello())
         return session
     except ConnectionError as error:
         raise not_serving(command, error) from error
@@ -1917,7 +1914,7 @@ def connect(
         session.again = lambda: connect(
             address, token=token, tls=tls, timeout=timeout, longest_reply=longest_reply, arrays=arrays
         )
-        session.check_greeting(session.hello(token))
+        session._check_greeting(session.hello(token))
         return session
     except BaseException:
         session.close_connection()

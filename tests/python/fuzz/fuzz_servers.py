@@ -111,8 +111,8 @@ class Servers:
             lambda: session.open(2),
             lambda: session.step(1),
         ]
-        if session.unanswered:
-            calls = [*calls, *[session.receive, session.receive_values, session.receive_plain] * 4]
+        if session._unanswered:
+            calls = [*calls, *[session.receive, session.receive_values, session._await_plain] * 4]
         word([*calls, session.close_connection] if self.chance.random() < 0.05 else calls)()
 
     async def at_once(self):

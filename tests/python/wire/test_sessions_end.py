@@ -120,7 +120,7 @@ class Interrupted(unittest.TestCase):
     def test_a_session_that_is_cut_off_says_so(self):
         with racebeam.launch() as session:
             session.load("beamfall", seed=1)
-            session.reader = unittest.mock.Mock(readline=unittest.mock.Mock(side_effect=KeyboardInterrupt))
+            session._reader = unittest.mock.Mock(readline=unittest.mock.Mock(side_effect=KeyboardInterrupt))
             self.assertRaises(KeyboardInterrupt, session.act, 1)
             for call in (
                 session.flush,
@@ -138,7 +138,7 @@ class Interrupted(unittest.TestCase):
         with racebeam.launch() as session:
             session.load("beamfall", seed=1)
             session.send("act", 1)
-            for call in (lambda: session.begin("act", 1), lambda: session.act(1), session.help):
+            for call in (lambda: session._begin("act", 1), lambda: session.act(1), session.help):
                 with self.assertRaisesRegex(ValueError, "1 requests were sent ahead; receive their replies first"):
                     call()
             self.assertIn("reward", session.receive()[0])

@@ -140,7 +140,7 @@ class Halves(Compared):
     def test_the_server_plays_between_the_halves(self):
         with server() as (address, _):
             envs = AtariVectorEnv("beamfall", 3, seed=1, server=address)
-            replies = envs.machines()._session.reader.connection
+            replies = envs.machines()._session._reader.connection
             self.assertEqual(select.select([replies], [], [], 0)[0], [])
             envs.send([1, 1, 1])
             self.assertEqual(select.select([replies], [], [], 60)[0], [replies])

@@ -102,7 +102,7 @@ async def launch(*options: str, program: str | None = None, arrays: bool = False
 async def _greet(session: AsyncSession, token: str | None) -> AsyncSession:
     try:
         groups = await session.request("hello", **({} if token is None else {"token": token}))
-        session.check_greeting(groups[0])
+        session._check_greeting(groups[0])
         return session
     except BaseException:
         await session.close()
@@ -157,7 +157,7 @@ class AsyncSession:
 
     def __del__(self) -> None:
         with contextlib.suppress(Exception):  # the constructor failed, or the event loop has ended
-            self._session.check_process()
+            self._session._check_process()
             self._reading.get_loop().call_soon_threadsafe(self._reading.cancel)  # which ends the session
 
     async def __aenter__(self) -> AsyncSession:
@@ -166,7 +166,7 @@ class AsyncSession:
     async def __aexit__(self, *_: object) -> None:
         await self.close()
 
-    def check_greeting(self, greeting: Values) -> None:
+    def _check_greeting(self, greeting: Values) -> None:
         """Checks the reply to the first request.
 
         Args:
@@ -175,7 +175,7 @@ class AsyncSession:
         Raises:
             ConnectionError: If the server speaks another version of the protocol.
         """
-        self._session.check_greeting(greeting)
+        self._session._check_greeting(greeting)
 
     async def request(self, *words: object, **settings: object) -> list[Values]:
         """Sends a request, and waits for its reply.
@@ -231,7 +231,7 @@ class AsyncSession:
             remaining = max(begin, self._replies.last_reply) + limit - clock()
             if remaining <= 0:
                 answer.cancel()
-                raise self._session.fail(TimeoutError())
+                raise self._session._fail(TimeoutError())
             await asyncio.wait([answer], timeout=remaining)
 
     async def reconnect(self) -> AsyncSession:
@@ -279,9 +279,9 @@ class _Replies:
             while True:
                 await self._read_reply()
         except asyncio.IncompleteReadError:
-            error = self._session.fail(None)
+            error = self._session._fail(None)
         except (OSError, asyncio.LimitOverrunError) as why:
-            error = why if isinstance(why, ConnectionError) else self._session.fail(why)
+            error = why if isinstance(why, ConnectionError) else self._session._fail(why)
         finally:
             self._session.close_connection()
             for answer, _ in self.awaited:
@@ -305,10 +305,10 @@ class _Replies:
         Args:
             line: Line of the reply.
         """
-        words, groups, count = self._session.parse_reply(line)
+        words, groups, count = self._session._parse_reply(line)
         if count:
-            self._session.split_bytes(words, groups, await self._reader.readexactly(count))
-        return self._session.decode(words, groups)
+            self._session._split_bytes(words, groups, await self._reader.readexactly(count))
+        return self._session._decode(words, groups)
 
     async def text(self, line: str) -> str:
         """Returns a reply without its status.
@@ -316,14 +316,14 @@ class _Replies:
         Args:
             line: Line of the reply.
         """
-        return self._session.read_status(line)[1]
+        return self._session._read_status(line)[1]
 
     def _answer(self, how: Callable[[asyncio.Future[Any]], None]) -> None:
         """Answers the oldest request, if it still waits."""
         self.last_reply = asyncio.get_running_loop().time()
         if (
-            self.awaited and len(self.awaited) != len(self._session.unanswered) + 1
+            self.awaited and len(self.awaited) != len(self._session._unanswered) + 1
         ):  # Ctrl-C came between send() and append()
-            raise self._session.fail(ConnectionError("it was interrupted between a request and the end of its reply"))
+            raise self._session._fail(ConnectionError("it was interrupted between a request and the end of its reply"))
         if self.awaited and not (oldest := self.awaited.popleft()[0]).done():
             how(oldest)

@@ -27,7 +27,7 @@ class Commands(Exchange):
         Returns:
             The text of the reply.
         """
-        return self._exchange(lambda: self.read_status(self._read_line())[1], "help", *words)
+        return self._exchange(lambda: self._read_status(self._read_line())[1], "help", *words)
 
     def game(self, name: str) -> Values:
         """Describe one game.
@@ -59,7 +59,7 @@ class Commands(Exchange):
         Returns:
             The names of the actions by their numbers.
         """
-        pairs = (pair.split(":") for pair in self.list_of("actions", "actions"))
+        pairs = (pair.split(":") for pair in self._list_of("actions", "actions"))
         return {int(action): name for action, name in pairs}
 
     def names(self) -> tuple[dict[int, str], list[str]]:
@@ -179,7 +179,7 @@ class Commands(Exchange):
         Returns:
             The list of the reply.
         """
-        return self.list_of("games", "games", *optional_words(which))
+        return self._list_of("games", "games", *optional_words(which))
 
     def settings(self) -> Values:
         """The settings in effect.
@@ -226,7 +226,7 @@ class Commands(Exchange):
         Returns:
             The list of the reply.
         """
-        return self.list_of("fields", "observe", *fields)
+        return self._list_of("fields", "observe", *fields)
 
     def look(self, *fields: str) -> Values:
         """Show these fields once; without fields, the selected ones.
@@ -304,7 +304,7 @@ class Commands(Exchange):
         Returns:
             The list of the reply.
         """
-        return self.list_of("states", "states")
+        return self._list_of("states", "states")
 
     def open(
         self,

@@ -17,14 +17,15 @@ Result = TypeVar("Result")
 class Connection:
     """The streams of a session. Every error of a stream ends the session.
 
+    This class and those above it are the base classes of `Session`. Their names with an underscore are for the modules
+    of this folder.
+
     Args:
         reader: Stream of replies.
         writer: Stream of requests.
         close: Closes the streams.
 
     Attributes:
-        reader: Stream of replies.
-        writer: Stream of requests.
         address: Address of the server, or "".
         longest_reply: Bytes of the longest reply that is accepted.
     """
@@ -32,7 +33,7 @@ class Connection:
     def __init__(
         self, reader: IO[bytes] | SocketStream, writer: IO[bytes] | SocketStream, close: Callable[[], object]
     ) -> None:
-        self.reader, self.writer, self._close = reader, writer, close
+        self._reader, self._writer, self._close = reader, writer, close
         self._process = os.getpid()
         self._end_reason = ""
         self.address = ""
@@ -42,11 +43,11 @@ class Connection:
         """Ends the session. A second call does nothing. In a child process, the parent's session goes on."""
         self._end("the session was closed")
 
-    def abort(self) -> None:
+    def _abort(self) -> None:
         """Ends the session because a request may lack its reply."""
         self._end("the session has ended: it was interrupted between a request and the end of its reply")
 
-    def fail(self, error: Exception | None) -> OSError:
+    def _fail(self, error: Exception | None) -> OSError:
         """Ends the session because of an error.
 
         Args:
@@ -69,18 +70,18 @@ class Connection:
             if os.getpid() == self._process:
                 self._close()
 
-    def check(self) -> None:
+    def _check(self) -> None:
         """Checks that the session can send a request.
 
         Raises:
             ConnectionError: If the session has ended.
             RuntimeError: In a child process after a fork.
         """
-        self.check_process()
+        self._check_process()
         if self._end_reason:
             raise ConnectionError(self._end_reason)
 
-    def check_process(self) -> None:
+    def _check_process(self) -> None:
         """Checks that this process opened the session.
 
         Raises:
@@ -96,40 +97,40 @@ class Connection:
         except Refused:
             raise
         except BaseException:
-            self.abort()
+            self._abort()
             raise
 
     def _write_line(self, line: str) -> None:
         try:
-            self.writer.write(f"{line}\n".encode())
+            self._writer.write(f"{line}\n".encode())
         except OSError as error:
-            raise self.fail(error) from error
+            raise self._fail(error) from error
 
     def _flush(self) -> None:
         try:
-            self.writer.flush()
+            self._writer.flush()
         except ConnectionError:
             pass  # the server may have written why it ends
         except OSError as error:
-            raise self.fail(error) from error
+            raise self._fail(error) from error
 
     def _read_line(self) -> str:
         self._flush()
         try:
-            line = self.reader.readline(self.longest_reply)
+            line = self._reader.readline(self.longest_reply)
         except OSError as error:  # such as a TimeoutError in the middle of a reply
-            raise self.fail(error) from error
+            raise self._fail(error) from error
         if not line.endswith(b"\n"):
             is_long = len(line) >= self.longest_reply
             too_long = ConnectionError(f"its reply is longer than {self.longest_reply} bytes")
-            raise self.fail(too_long if is_long else None)
+            raise self._fail(too_long if is_long else None)
         return line.decode("latin-1").rstrip("\n")
 
     def _read_bytes(self, count: int) -> bytes | bytearray:
         try:
-            data = self.reader.read(count)
+            data = self._reader.read(count)
         except OSError as error:
-            raise self.fail(error) from error
+            raise self._fail(error) from error
         if len(data) < count:
-            raise self.fail(None)
+            raise self._fail(None)
         return data

@@ -31,10 +31,10 @@ class Exchange(Replies):
             ValueError: If the request is not one line.
         """
         line = format_request(words, settings)
-        self.check()
+        self._check()
         self._abort_on_interrupt(lambda: self._write(line))
 
-    def begin(self, *words: object, **settings: object) -> None:
+    def _begin(self, *words: object, **settings: object) -> None:
         """Sends one request at once. `receive` returns its reply.
 
         Args:
@@ -57,7 +57,7 @@ class Exchange(Replies):
             ConnectionError: If the server is gone.
             TimeoutError: If sending takes too long.
         """
-        self.check()
+        self._check()
         self._abort_on_interrupt(self._flush)
 
     def receive(self) -> list[Texts]:
@@ -71,7 +71,7 @@ class Exchange(Replies):
             ConnectionError: If the server is gone.
             TimeoutError: If the server does not answer in time.
         """
-        self.check()
+        self._check()
         return self._abort_on_interrupt(self._receive)[1]
 
     def receive_values(self) -> list[Values]:
@@ -85,21 +85,21 @@ class Exchange(Replies):
             ConnectionError: If the server is gone.
             TimeoutError: If the server does not answer in time.
         """
-        self.check()
+        self._check()
         return self._abort_on_interrupt(self._receive_values)
 
-    def receive_plain(self) -> Reply:
+    def _await_plain(self) -> Reply:
         """Receives the next reply, to a request that does not change later replies, such as `step`.
 
         Returns:
-            The reply for `decode_plain`.
+            The reply for `_decode_plain`.
 
         Raises:
             Refused: If the server refuses the request.
             ConnectionError: If the server is gone.
             TimeoutError: If the server does not answer in time.
         """
-        self.check()
+        self._check()
         return self._abort_on_interrupt(self._receive_plain)
 
     def request(self, *words: object, **settings: object) -> list[Values]:
@@ -138,7 +138,7 @@ class Exchange(Replies):
         """
         return self._exchange(lambda: self._receive()[1], *words, **settings)
 
-    def values(self, *words: object, **settings: object) -> Values:
+    def _values_of(self, *words: object, **settings: object) -> Values:
         """Sends a request whose reply has no bytes.
 
         Args:
@@ -150,7 +150,7 @@ class Exchange(Replies):
         """
         return {key: parse_number(text) for key, text in self.ask(*words, **settings)[0].items()}
 
-    def list_of(self, key: str, *words: object) -> list[str]:
+    def _list_of(self, key: str, *words: object) -> list[str]:
         """Sends a request whose reply has a list.
 
         Args:
@@ -172,12 +172,12 @@ class Exchange(Replies):
         return self.request(*words)[1:]
 
     def _ints_of(self, key: str, *words: object) -> list[int]:
-        return [int(text) for text in self.list_of(key, *words)]
+        return [int(text) for text in self._list_of(key, *words)]
 
     def _exchange(self, read: Callable[[], Result], *words: object, **settings: object) -> Result:
         """Sends a request, and returns what `read` returns for its reply."""
         line = format_request(words, settings)
-        self.check()
+        self._check()
         self._check_answered()
 
         def exchange() -> Result:
@@ -187,9 +187,9 @@ class Exchange(Replies):
         return self._abort_on_interrupt(exchange)
 
     def _check_answered(self) -> None:
-        if self.unanswered:
-            raise ValueError(f"{len(self.unanswered)} requests were sent ahead; receive their replies first")
+        if self._unanswered:
+            raise ValueError(f"{len(self._unanswered)} requests were sent ahead; receive their replies first")
 
     def _write(self, line: str) -> None:
-        self.unanswered.append(line.split())
+        self._unanswered.append(line.split())
         self._write_line(line)

@@ -38,7 +38,7 @@ class LastReply:
         """Takes a reply as the last one.
 
         Args:
-            reply: The reply, as `receive_plain` returned it.
+            reply: The reply, as `Session._await_plain` returned it.
         """
         self._reply = reply
 
@@ -46,7 +46,7 @@ class LastReply:
     def values(self) -> list[Values]:
         """The values of each machine. The list may be changed."""
         if self._reply is not None:
-            self._decoded, self._reply = self._session.decode_plain(self._reply)[1:], None
+            self._decoded, self._reply = self._session._decode_plain(self._reply)[1:], None
         return self._decoded
 
     @values.setter

@@ -33,7 +33,7 @@ def launch(*options: str, program: str | None = None, arrays: bool = False) -> S
     racebeam, _, _, *rest = command
     session = Session.start(racebeam, *rest, arrays=arrays)
     try:
-        session.check_greeting(session.hello())
+        session._check_greeting(session.hello())
         return session
     except ConnectionError as error:
         raise not_serving(command, error) from error
@@ -80,7 +80,7 @@ def connect(
         session.again = lambda: connect(
             address, token=token, tls=tls, timeout=timeout, longest_reply=longest_reply, arrays=arrays
         )
-        session.check_greeting(session.hello(token))
+        session._check_greeting(session.hello(token))
         return session
     except BaseException:
         session.close_connection()

@@ -38,13 +38,13 @@ def exclusive(method: Method) -> Method:
 
     @functools.wraps(method)
     def call(self: RemoteGame, *words: Any, **settings: Any) -> Any:
-        self.session.check_process()  # after a fork, a thread that the child lacks may hold the lock
+        self.session._check_process()  # after a fork, a thread that the child lacks may hold the lock
         with self.turn:
             try:
                 return method(self, *words, **settings)
             except BaseException:
-                if self.session.unanswered:
-                    self.session.abort()
+                if self.session._unanswered:
+                    self.session._abort()
                 raise
 
     return cast(Method, call)
@@ -213,7 +213,7 @@ class RemoteGame:
         )
 
     def _list(self, key: str, command: str) -> list[int]:
-        return [int(number) for number in self.ask(self.session.list_of, key, command)]
+        return [int(number) for number in self.ask(self.session._list_of, key, command)]
 
     def _actions(self, key: str) -> list[Action]:
         return [Action(number) for number in self._list(key, "actions")]
@@ -246,12 +246,12 @@ class RemoteGame:
     @exclusive
     def getMode(self) -> int:
         """Returns the present mode."""
-        return int(self.ask(self.session.values, "modes")["mode"])
+        return int(self.ask(self.session._values_of, "modes")["mode"])
 
     @exclusive
     def getDifficulty(self) -> int:
         """Returns the present difficulty."""
-        return int(self.ask(self.session.values, "difficulties")["difficulty"])
+        return int(self.ask(self.session._values_of, "difficulties")["difficulty"])
 
     @exclusive
     @check_types

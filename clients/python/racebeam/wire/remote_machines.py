@@ -65,7 +65,7 @@ class RemoteMachines(Halves):
             self._session.observe,
             *NUMBERS,
             *FLAGS,
-            field + (":raw" if "raw" in self._session.offered else ":base64"),
+            field + (":raw" if "raw" in self._session._offered else ":base64"),
             *(["rgb:zlib"] if settings.screens else []),
         )
         self._open(settings)
@@ -201,14 +201,14 @@ class RemoteMachines(Halves):
     @contextlib.contextmanager
     def _exclusively(self, *, is_second: bool = False) -> Iterator[None]:
         """Takes the turn of one thread. Ends the session if an exception leaves a request without its reply."""
-        self._session.check_process()  # after a fork, a thread that the child lacks may hold the lock
+        self._session._check_process()  # after a fork, a thread that the child lacks may hold the lock
         with self._turn:
             self._check_half(is_second)
             try:
                 yield
             except BaseException:
                 if self.is_waiting():
-                    self._session.abort()
+                    self._session._abort()
                 raise
 
     def begin(self, *words: object, **settings: object) -> None:
@@ -221,11 +221,11 @@ class RemoteMachines(Halves):
             *words: Words of the request.
             **settings: Settings of the request.
         """
-        self._session.begin(*words, **settings)
+        self._session._begin(*words, **settings)
 
     def is_waiting(self) -> bool:
         """Returns whether a reply is still to come, which a later request would mistake for its own."""
-        return bool(self._session.unanswered)
+        return bool(self._session._unanswered)
 
     def check_process(self) -> None:
         """Checks that this is the process that opened the session.
@@ -233,7 +233,7 @@ class RemoteMachines(Halves):
         Raises:
             RuntimeError: In a child process after a fork.
         """
-        self._session.check_process()
+        self._session._check_process()
 
     def finish(self, results: Results) -> None:
         """Receives the reply to the request that `begin` sent.
@@ -241,7 +241,7 @@ class RemoteMachines(Halves):
         Args:
             results: Receives what the machines show.
         """
-        self.last.keep(self._machine.ask(self._session.receive_plain))
+        self.last.keep(self._machine.ask(self._session._await_plain))
         self.last.fill(results)
 
     def words(self, actions: Actions) -> list[int]:

@@ -25,10 +25,6 @@ class Replies(Connection):
         writer: Stream of requests.
         close: Closes the streams.
         arrays: Whether bytes are returned as arrays of NumPy.
-
-    Attributes:
-        offered: Encodings that the server offers, after a greeting.
-        unanswered: Words of each request without a reply, in order.
     """
 
     def __init__(
@@ -40,15 +36,15 @@ class Replies(Connection):
     ) -> None:
         super().__init__(reader, writer, close)
         self._observations = Observations(arrays)
-        self.offered: list[str] = []
-        self.unanswered: collections.deque[list[str]] = collections.deque()
+        self._offered: list[str] = []  # encodings that the server offers, after a greeting
+        self._unanswered: collections.deque[list[str]] = collections.deque()  # words of requests without a reply
 
     @property
     def height(self) -> int:
         """Rows of the screen of the loaded game."""
         return self._observations.height
 
-    def check_greeting(self, greeting: Values) -> None:
+    def _check_greeting(self, greeting: Values) -> None:
         """Checks the reply to hello.
 
         Args:
@@ -60,11 +56,11 @@ class Replies(Connection):
         version = greeting.get("protocol")
         if version != PROTOCOL:
             sentence = f"it speaks version {version} of the protocol; this client speaks {PROTOCOL}"
-            raise self.fail(ConnectionError(sentence))
-        self.offered = str(greeting.get("encodings", "")).split(",")
+            raise self._fail(ConnectionError(sentence))
+        self._offered = str(greeting.get("encodings", "")).split(",")
 
-    def decode_plain(self, reply: Reply) -> list[Values]:
-        """Decodes a reply of `receive_plain`.
+    def _decode_plain(self, reply: Reply) -> list[Values]:
+        """Decodes a reply of `_await_plain`.
 
         Args:
             reply: The reply.
@@ -77,28 +73,28 @@ class Replies(Connection):
         """
         groups = parse_groups(reply.text)
         if groups[-1].pop("raw", None):
-            self.split_bytes(reply.words, groups, reply.data)
-        return self.decode(reply.words, groups)
+            self._split_bytes(reply.words, groups, reply.data)
+        return self._decode(reply.words, groups)
 
     def _receive_values(self) -> list[Values]:
-        return self.decode(*self._receive())
+        return self._decode(*self._receive())
 
     def _receive_plain(self) -> Reply:
-        words, text = self.read_status(self._read_line())
+        words, text = self._read_status(self._read_line())
         count = RAW_COUNT.search(text)
         return Reply(words, text, self._read_bytes(self._parse_count(count[1])) if count else b"")
 
     def _receive(self) -> tuple[list[str], list[Texts]]:
         """Returns the words of the oldest request without a reply, and the groups of its reply."""
-        words, groups, count = self.parse_reply(self._read_line())
+        words, groups, count = self._parse_reply(self._read_line())
         if count:
-            self.split_bytes(words, groups, self._read_bytes(count))
+            self._split_bytes(words, groups, self._read_bytes(count))
         return words, groups
 
-    # A session of asyncio reads replies by itself. It passes each line to `parse_reply` or `read_status`, the bytes
-    # that follow to `split_bytes`, and the groups to `decode`.
+    # A session of asyncio reads replies by itself. It passes each line to `_parse_reply` or `_read_status`, the
+    # bytes that follow to `_split_bytes`, and the groups to `_decode`.
 
-    def parse_reply(self, line: str) -> tuple[list[str], list[Texts], int]:
+    def _parse_reply(self, line: str) -> tuple[list[str], list[Texts], int]:
         """Parses the line of a reply.
 
         Args:
@@ -111,7 +107,7 @@ class Replies(Connection):
             Refused: If the server refuses the request.
             ConnectionError: If the reply is damaged.
         """
-        words, text = self.read_status(line)
+        words, text = self._read_status(line)
         groups = parse_groups(text)
         try:
             self._observations.follow(words, groups[0])
@@ -120,7 +116,7 @@ class Replies(Connection):
         except DAMAGES as error:
             raise self._damaged(error) from error
 
-    def read_status(self, line: str) -> tuple[list[str], str]:
+    def _read_status(self, line: str) -> tuple[list[str], str]:
         """Reads the status of a reply.
 
         Args:
@@ -134,16 +130,16 @@ class Replies(Connection):
             ConnectionError: If the line is not a reply.
         """
         # Without a request, the server writes why it ends.
-        words = self.unanswered.popleft() if self.unanswered else [""]
+        words = self._unanswered.popleft() if self._unanswered else [""]
         status, _, rest = line.partition(" ")
         if status == "error" and rest:
             code, _, sentence = rest.partition(" ")
             raise Refused(code, sentence)
         if status != "ok":
-            raise self.fail(ConnectionError(f"it sent {line[:60]!r}, which is not a reply"))
+            raise self._fail(ConnectionError(f"it sent {line[:60]!r}, which is not a reply"))
         return words, rest
 
-    def split_bytes(self, words: list[str], groups: list[Texts], data: bytes | bytearray) -> None:
+    def _split_bytes(self, words: list[str], groups: list[Texts], data: bytes | bytearray) -> None:
         """Gives each field with the encoding raw its part of the bytes that followed a reply.
 
         Args:
@@ -159,7 +155,7 @@ class Replies(Connection):
         except DAMAGES as error:
             raise self._damaged(error) from error
 
-    def decode(self, words: list[str], groups: list[Texts]) -> list[Values]:
+    def _decode(self, words: list[str], groups: list[Texts]) -> list[Values]:
         """Decodes a reply.
 
         Args:
@@ -178,7 +174,7 @@ class Replies(Connection):
             raise self._damaged(error) from error
 
     def _end(self, reason: str) -> None:
-        self.unanswered.clear()
+        self._unanswered.clear()
         super()._end(reason)
 
     def _parse_count(self, text: str) -> int:
@@ -189,4 +185,4 @@ class Replies(Connection):
 
     def _damaged(self, error: Exception) -> OSError:
         """Ends the session because a reply is damaged."""
-        return self.fail(ConnectionError(f"its reply is damaged: {error}"))
+        return self._fail(ConnectionError(f"its reply is damaged: {error}"))
