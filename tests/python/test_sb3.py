@@ -10,14 +10,42 @@ package.require("numpy", "gymnasium", "stable_baselines3")
 
 import gymnasium
 import numpy as np
+from gymnasium.vector.utils import batch_space
 from racebeam import AtariVectorEnv
 from racebeam.sb3 import VecEnv
+from racebeam.testing import VectorEnvironmentTests
 from stable_baselines3 import PPO
 from stable_baselines3.common.env_util import make_atari_env
 from stable_baselines3.common.evaluation import evaluate_policy
 from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env import VecEnv as Base
 from stable_baselines3.common.vec_env import VecMonitor
+
+
+class AsVector:
+    """A VecEnv with the calls of a vector of Gymnasium."""
+
+    def __init__(self, envs):
+        self.envs, self.num_envs, self.metadata, self.unwrapped = envs, envs.num_envs, {}, self
+        self.single_observation_space, self.single_action_space = envs.observation_space, envs.action_space
+        self.observation_space = batch_space(envs.observation_space, envs.num_envs)
+
+    def reset(self, *, seed):
+        self.envs.seed(seed)
+        return self.envs.reset(), {}
+
+    def step(self, actions):
+        observations, rewards, done, infos = self.envs.step(actions)
+        truncated = np.array([info.get("TimeLimit.truncated", False) for info in infos])
+        return observations, rewards, done & ~truncated, truncated, {}
+
+    def close(self):
+        self.envs.close()
+
+
+class Contract(VectorEnvironmentTests, unittest.TestCase):
+    def make_envs(self, count):
+        return AsVector(VecEnv("beamfall", count, frameskip=20))
 
 
 class Interface(unittest.TestCase):

@@ -4,6 +4,7 @@ import contextlib
 import os
 import tempfile
 import unittest
+import warnings
 
 import package
 
@@ -13,7 +14,9 @@ import gymnasium
 import numpy as np
 import racebeam
 import racebeam.ale_py
+import racebeam.envpool
 import racebeam.program
+from gymnasium.vector.utils import batch_space
 from gymnasium.wrappers import ClipReward, FrameStackObservation
 from racebeam import AtariEnv, AtariVectorEnv
 from racebeam.testing import EnvironmentTests, VectorEnvironmentTests, equal
@@ -28,19 +31,21 @@ def case(kind, name, make, **attributes):
     globals()[name] = type(name, (kind, unittest.TestCase), members)
 
 
-def on_server(kind):
-    """Makes environments on a new server, which ends with the test."""
+def scratch_folder(test):
+    """Makes a folder, which ends with the test."""
+    folder = tempfile.TemporaryDirectory()
+    test.addCleanup(folder.cleanup)
+    return folder.name
 
-    def make(self, *count):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        address = f"unix:{os.path.join(folder.name, 'socket')}"
-        ready = os.path.join(folder.name, "ready")
-        server = racebeam.program.path(), "serve", "--log-level", "warning", "--listen", address, "--ready-file", ready
-        self.addCleanup(stop, os.posix_spawn(server[0], server, os.environ))
-        return kind("beamfall", *count, server=f"file:{ready}?wait=60")
 
-    return make
+def start_server(test):
+    """Starts a server, which ends with the test. Returns its address."""
+    folder = scratch_folder(test)
+    ready = os.path.join(folder, "ready")
+    listen = "--listen", f"unix:{os.path.join(folder, 'socket')}", "--ready-file", ready
+    server = racebeam.program.path(), "serve", "--log-level", "warning", *listen
+    test.addCleanup(stop, os.posix_spawn(server[0], server, os.environ))
+    return f"file:{ready}?wait=60"
 
 
 def stop(process):
@@ -54,6 +59,10 @@ for _name, _settings in {
     "Ram": {"obs_type": "ram"},
     "Grey": {"obs_type": "grayscale", **SHORT},
     "Sound": {"sound_obs": True},
+    "AllSound": {"sound_obs": "all"},
+    "Console": {"full_action_space": "console"},
+    "Lives": {"life_loss": "end", "reward_range": (-1, 1), "frameskip": 20},
+    "Restarts": {"life_loss": "restart", "frameskip": 20},
     "Skips": {"frameskip": (2, 5)},
     "Continuous": {"continuous": True},
     "Dqn": {"preset": "dqn2015"},
@@ -80,6 +89,8 @@ for _name, _settings in {
     "Disabled": {"autoreset_mode": "Disabled", **SHORT},
     "Continuous": {"continuous": True, "repeat_action_probability": 0.25},
     "Lives": {"life_loss": "end", "start": "baselines", "frameskip": 20},
+    "Sound": {"sound_obs": True, **SHORT},
+    "Console": {"full_action_space": "console"},
 }.items():
     case(
         VectorEnvironmentTests,
@@ -92,11 +103,69 @@ case(VectorEnvironmentTests, "VectorMade", lambda count: gymnasium.make_vec("rac
 
 
 class EnvOnServer(EnvironmentTests, unittest.TestCase):
-    make_env = on_server(AtariEnv)
+    def make_env(self):
+        return AtariEnv("beamfall", server=start_server(self))
 
 
 class VectorOnServer(VectorEnvironmentTests, unittest.TestCase):
-    make_envs = on_server(AtariVectorEnv)
+    def make_envs(self, count):
+        return AtariVectorEnv("beamfall", count, server=start_server(self))
+
+
+class VectorOnServers(VectorEnvironmentTests, unittest.TestCase):
+    def make_envs(self, count):
+        return AtariVectorEnv("beamfall", count, server=[start_server(self), start_server(self)])
+
+
+class WithLogs(unittest.TestCase):
+    """The tests leave episodes before their end, and restore states: such episodes have no log, and cause a warning."""
+
+    def setUp(self):
+        caught = warnings.catch_warnings(record=True)
+        caught.__enter__()
+        self.addCleanup(caught.__exit__, None, None, None)
+
+    def new_folder(self):
+        return os.path.join(scratch_folder(self), "logs")
+
+
+class EnvWithLogs(EnvironmentTests, WithLogs):
+    def make_env(self):
+        env = AtariEnv("beamfall", max_num_frames_per_episode=60)
+        return racebeam.RecordLog(env, self.new_folder(), agent="random")
+
+
+class VectorWithLogs(VectorEnvironmentTests, WithLogs):
+    def make_envs(self, count):
+        about = {"folder": self.new_folder(), "agent": "random"}
+        return AtariVectorEnv("beamfall", count, noop_max=0, use_fire_reset=False, log=about)
+
+
+class SeededPool:
+    """Environments of racebeam.envpool, which take their seed when they are made, as a vector that `reset` seeds."""
+
+    def __init__(self, count):
+        self.num_envs, self.metadata, self.unwrapped = count, {}, self
+        self._pool = self._make(1)
+        self.single_observation_space, self.single_action_space = self._pool.observation_space, self._pool.action_space
+        self.observation_space = batch_space(self.single_observation_space, count)
+
+    def _make(self, seed):
+        return racebeam.envpool.make_gymnasium("Beamfall-v5", num_envs=self.num_envs, seed=seed)
+
+    def reset(self, *, seed):
+        self._pool.close()
+        self._pool = self._make(seed)
+        return self._pool.reset()
+
+    def step(self, actions):
+        return self._pool.step(actions)
+
+    def close(self):
+        self._pool.close()
+
+
+case(VectorEnvironmentTests, "VectorOfEnvPool", SeededPool)
 
 
 class Broken(unittest.TestCase):

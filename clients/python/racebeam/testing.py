@@ -16,6 +16,7 @@ and says how to make the environment:
 
 from __future__ import annotations
 
+import copy
 import unittest
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -57,6 +58,11 @@ def equal(one: Any, other: Any) -> bool:
     if isinstance(one, np.ndarray) and one.dtype == object:
         return one.shape == other.shape and all(map(equal, one.flat, other.flat))
     return np.asarray(one).dtype == np.asarray(other).dtype and np.array_equal(one, other)
+
+
+def _row(values: Any, index: int) -> Any:
+    """Returns the part of an environment: an element of each array."""
+    return {key: _row(part, index) for key, part in values.items()} if isinstance(values, Mapping) else values[index]
 
 
 class EnvironmentTests(Base):
@@ -132,13 +138,9 @@ class EnvironmentTests(Base):
         """Later steps do not change earlier observations."""
         env = self._open()
         observation, _ = env.reset(seed=self.seed)
-        copy = (
-            {key: value.copy() for key, value in observation.items()}
-            if isinstance(observation, dict)
-            else observation.copy()
-        )
+        before = copy.deepcopy(observation)
         self._play(env, 3)
-        self.assertTrue(equal(observation, copy))
+        self.assertTrue(equal(observation, before))
 
     def test_a_state_restores_the_game(self) -> None:
         """After restore_state, the same actions give the same results."""
@@ -219,8 +221,10 @@ class VectorEnvironmentTests(Base):
         """Observations lie in the space; rewards and ends have one element per environment."""
         envs = self._open(3)
         observations, info = envs.reset(seed=self.seed)
-        self.assertEqual((envs.num_envs, envs.observation_space.shape[0]), (3, 3))
+        self.assertEqual(envs.num_envs, 3)
         self.assertIn(observations, envs.observation_space)
+        self.assertIn(_row(observations, 2), envs.single_observation_space)
+        self.assertRaises(IndexError, _row, observations, 3)
         for actions in self._actions(envs, 3, 2):
             observations, rewards, terminated, truncated, info = envs.step(actions)
             self.assertIn(observations, envs.observation_space)
@@ -253,17 +257,17 @@ class VectorEnvironmentTests(Base):
             single += [
                 step[:4] for step in self._play(one, [row[index : index + 1] for row in actions]) if len(step) == 5
             ]
-            rows = [together[0][index], *(tuple(array[index] for array in step) for step in together[1:])]
-            singles = [single[0][0], *(tuple(array[0] for array in step) for step in single[1:])]
+            rows = [_row(together[0], index), *(tuple(_row(part, index) for part in step) for step in together[1:])]
+            singles = [_row(single[0], 0), *(tuple(_row(part, 0) for part in step) for step in single[1:])]
             self.assertTrue(equal(rows, singles), f"environment {index} differs")
 
     def test_results_belong_to_the_caller(self) -> None:
         """Later steps do not change earlier observations."""
         envs = self._open(2)
         observations, _ = envs.reset(seed=self.seed)
-        copy = observations.copy()
+        before = copy.deepcopy(observations)
         self._play(envs, self._actions(envs, 2, 5))
-        self.assertTrue(equal(observations, copy))
+        self.assertTrue(equal(observations, before))
 
     def test_a_state_restores_an_environment(self) -> None:
         """After restoring all states, the same actions give the same results."""

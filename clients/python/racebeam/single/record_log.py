@@ -25,7 +25,8 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
 
     It wraps the environment directly, or what `gymnasium.make` returns: wrappers that change actions go around it. A
     game that `life_loss` splits into several episodes is one episode of the log. Without a seed, `reset` draws one
-    and powers the game on with it, because a log contains the seed of its episode.
+    and powers the game on with it, because a log contains the seed of its episode. `reset(seed=S)` also decides what
+    later resets draw.
 
     An episode gets no log if it was left before its end, if a state was restored in it, or if the log cannot be
     written. It then causes a warning.
@@ -124,6 +125,7 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         else:
             result = self.env.reset(seed=seed, options=options)
             game_seed = int(result[1]["seeds"][1])
+            self._seeds = np.random.default_rng(seed)
         self._start = self._template._replace(seed=game_seed, difficulty=self._base.ale.getDifficulty())
         return result
 
