@@ -40,7 +40,8 @@ RowVerdict LogJudge::judge(const ResultRow& row, const EpisodeLog& log) {
   truth.end = played.end;
   truth.hashes = played.hashes;
   std::string reason = first_difference(row, row_of(truth, field(row, "log_digest")), "the replay gives");
-  if (reason.empty() && log.hashes != played.hashes) reason = "the end is the same, the way is not";
+  if (reason.empty() && log.hashes != played.hashes)
+    reason = "the end is the same, but earlier states differ from the log";
   if (!reason.empty()) return {Judgement::kWrong, reason + first_stretch(log, played), played.end.frames};
   if (!played.over)
     return {Judgement::kWrong, "the episode is not over after its last action; the log was cut short",

@@ -65,7 +65,7 @@ class Share {
    private:
     const std::shared_ptr<Share> share_;
   };
-  // Null if there are as many watchers as there may be. Thread-safe.
+  // Null if the number of watchers has reached its limit. Thread-safe.
   static std::unique_ptr<Place> place(const std::shared_ptr<Share>& share);
 
   // For the session, on its thread.

@@ -13,7 +13,7 @@ namespace racebeam {
 class Context;
 class Reply;
 
-// Lists of actions, one after the other in one piece of memory: there may be half a million.
+// Up to half a million lists of actions, one after the other in one piece of memory.
 struct ActionLists {
   std::vector<Action> actions;
   std::vector<std::size_t> ends;  // per list, in `actions`

@@ -94,8 +94,8 @@ std::size_t read_machines(const Context& context, std::string_view word) {
   const auto count = number_within(word, "N", 1, std::numeric_limits<std::int64_t>::max());
   const int most = context.service.limits.machines;
   if (count <= most) return static_cast<std::size_t>(count);
-  throw RequestError(ErrorCode::kLimit,
-                     "N is " + quote(word) + "; there may be " + std::to_string(most) + " machines");
+  throw RequestError(ErrorCode::kLimit, "N is " + std::to_string(count) + "; the limit is " +
+                                            std::to_string(most) + " machines");
 }
 
 [[noreturn]] void refuse_count(const Context& context, std::size_t count, const std::string& what) {
