@@ -190,7 +190,7 @@ class AtariVectorEnv(PlayedVector):
         machines: Machines
         if server is None:
             machines = make_local_machines(names, game_of_env, rom, options, own_file)
-        elif unplayed := [*options.console(), *(["sound_obs"] if options.sound_obs else [])]:
+        elif unplayed := [*options._console(), *(["sound_obs"] if options.sound_obs else [])]:
             raise WrongValue(f"{' and '.join(unplayed)} cannot be given with server; AtariEnv takes both")
         else:
             machines = make_remote_machines(names, rom, options, server, token, seconds("timeout", timeout))
@@ -198,7 +198,7 @@ class AtariVectorEnv(PlayedVector):
             warn(warning)
         self._use(machines, names, game_of_env, options, options.seed if is_seeded else None)
         if log is not None:
-            if own := [*options.console(), *(["game_file"] if own_file else []), *(["server"] if server else [])]:
+            if own := [*options._console(), *(["game_file"] if own_file else []), *(["server"] if server else [])]:
                 raise WrongValue(f"{' and '.join(own)} cannot be given with log")
             self._logs = VectorLogs(log, options, [names[game] for game in game_of_env], rom, machines)
 

@@ -309,11 +309,11 @@ class VectorOptions:
         """Whether observations are screens in colour."""
         return self.obs_type == "rgb" if self.obs_type else not self.grayscale
 
-    def console(self) -> dict[str, str]:
+    def _console(self) -> dict[str, str]:
         """Returns the settings of the console that are given, as texts."""
         return console_of(**{name: getattr(self, name) for name in CONSOLE})
 
-    def core_settings(self) -> _core.VectorSettings:
+    def _core_settings(self) -> _core.VectorSettings:
         """Converts the options to the settings of `_core.VectorMachines`."""
         core = _core.VectorSettings()
         core.seed = self.seed

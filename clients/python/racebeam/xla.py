@@ -49,7 +49,7 @@ class Environments(Protocol):
     sound_obs: bool | Literal["all"]
     continuous_action_threshold: float
 
-    def machines(self) -> Machines:
+    def _open_machines(self) -> Machines:
         """Returns the machines that play the environments."""
 
 
@@ -143,7 +143,7 @@ def handle_of(envs: Environments) -> npt.NDArray[np.uint8]:
     Raises:
         InvalidInput: If the environments run on a server.
     """
-    machines = envs.machines()
+    machines = envs._open_machines()
     if not isinstance(machines, _core.VectorMachines):
         raise InvalidInput("custom calls of XLA are not possible for environments on a server")
     return np.array([_core.xla_handle(machines)], np.uint64).view(np.uint8)

@@ -109,7 +109,7 @@ class Options(unittest.TestCase):
     def test_the_core_has_what_they_say(self):
         core = VectorOptions(
             obs_type="ram", life_loss="end", max_num_frames_per_episode=7, reward_clipping=False
-        ).core_settings()
+        )._core_settings()
         self.assertEqual(
             (core.stack, core.lives.name, core.max_episode_frames, core.reward_max), (0, "END", 7, 2**31 - 1)
         )

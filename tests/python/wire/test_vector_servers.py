@@ -115,7 +115,7 @@ class Halves(Servers):
                 there.step([0] * COUNT)
             self.check(there.recv(), here.recv())
         for envs in (here, there):
-            envs.machines().send_resets(np.arange(COUNT) * 7)
+            envs._open_machines().send_resets(np.arange(COUNT) * 7)
         self.check(there.recv(), here.recv())
         self.play(here, there, 5)
 

@@ -140,7 +140,7 @@ class Halves(Compared):
     def test_the_server_plays_between_the_halves(self):
         with server() as (address, _):
             envs = AtariVectorEnv("beamfall", 3, seed=1, server=address)
-            replies = envs.machines()._session._reader.connection
+            replies = envs._open_machines()._session._reader.connection
             self.assertEqual(select.select([replies], [], [], 0)[0], [])
             envs.send([1, 1, 1])
             self.assertEqual(select.select([replies], [], [], 60)[0], [replies])
@@ -151,7 +151,7 @@ class Halves(Compared):
             here, there = both(address, seed=5)
             for seeds in ([3, 9, -1], None, [4, 5, 6]):
                 for envs in (here, there):
-                    envs.machines().send_resets(None if seeds is None else np.array(seeds))
+                    envs._open_machines().send_resets(None if seeds is None else np.array(seeds))
                 self.check(there.recv(), here.recv())
                 self.play(here, there, 3)
 
@@ -201,7 +201,7 @@ class Halves(Compared):
             for _ in range(2):
                 with self.assertRaises(ConnectionError):
                     while True:  # the first reply may have been there
-                        self.halves(envs, [0, 0]) if envs.machines()._pending is None else envs.recv()
+                        self.halves(envs, [0, 0]) if envs._open_machines()._pending is None else envs.recv()
 
 
 class States(Compared):
@@ -263,7 +263,7 @@ class States(Compared):
                         envs.restore(env, state)
             with self.assertRaisesRegex(IndexError, "environment 2 is out of range; accepted: 0 to 1"):
                 there.save(2)
-            self.assertEqual(there.machines()._session.states(), [])
+            self.assertEqual(there._open_machines()._session.states(), [])
             self.play(here, there, 5)
 
 

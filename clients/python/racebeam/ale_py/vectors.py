@@ -137,7 +137,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
 
     def action_numbers(self) -> list[int]:
         """Returns the numbers of the actions that `step` takes indices of."""
-        return self.machines().actions_of(0)
+        return self._open_machines().actions_of(0)
 
     def send_strengths(self, actions: Any, strengths: Any) -> None:
         """Begins a step with the strengths of paddles.
@@ -158,7 +158,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
             raise TypeError(f"paddle strengths have the type {turned.dtype}; they must be numbers")
         check_shape("paddle strengths", turned, (self.batch_size,))
         parsed = vector_env.AtariVectorEnv._parse_actions(self, actions)
-        self.machines().send_strengths(parsed, turned.astype(np.float32), self._last_received())
+        self._open_machines().send_strengths(parsed, turned.astype(np.float32), self._last_received())
 
     def _parse_actions(self, actions: Any, count: int | None = None) -> Actions:
         assert isinstance(actions, np.ndarray) and actions.dtype in (np.int32, np.int64), (

@@ -97,7 +97,7 @@ class VectorBase(VectorEnv[Any, Any, Any]):
     def _shape_of_images(self) -> tuple[int, ...]:
         if self._shows_ram:
             return (RAM_SIZE,)
-        settings = self._options.core_settings()
+        settings = self._options._core_settings()
         shape = (settings.stack, settings.height or self._machines.height(), settings.width or SCREEN_WIDTH)
         return shape if self.grayscale else (*shape, 3)
 

@@ -104,7 +104,7 @@ class VectorOfEach(VectorBase):
         if not 0 <= operator.index(env) < self.num_envs:
             raise IndexError(f"environment {env} is out of range; accepted: 0 to {self.num_envs - 1}")
 
-    def machines(self) -> Machines:
+    def _open_machines(self) -> Machines:
         """Returns the machines that play the environments; for other modules of this package."""
         self._check_open()
         machines: Machines = self._machines
@@ -127,7 +127,7 @@ class VectorOfEach(VectorBase):
             IndexError: If the index is out of range.
         """
         self._check_open()
-        return self.machines().save(operator.index(env), include_rng)
+        return self._open_machines().save(operator.index(env), include_rng)
 
     def restore(self, env: int, state: _core.SavedMachine) -> None:
         """Restores the state of one environment. `show` returns its observation.

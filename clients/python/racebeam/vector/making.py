@@ -83,7 +83,7 @@ def make_local_machines(
     if len(names) > 1 and rom is not None:
         raise WrongValue(f"there are {len(names)} games; rom and server take one")
     found = [(images.find(str(name)) if rom is None else rom, name) for name in names]
-    return _core.VectorMachines(found, game_of_env, options.core_settings(), game_file, options.console())
+    return _core.VectorMachines(found, game_of_env, options._core_settings(), game_file, options._console())
 
 
 def make_remote_machines(

@@ -52,7 +52,7 @@ class RemoteMachines(Halves):
             raise InvalidInput(
                 f"batch_size is {options.batch_size}; a server plays all {options.num_envs} environments together"
             )
-        settings = options.core_settings()
+        settings = options._core_settings()
         self._count = options.num_envs
         self._turn = threading.Lock()
         self._machine = RemoteInterface(server, token, timeout)
