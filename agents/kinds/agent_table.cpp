@@ -119,7 +119,7 @@ constexpr std::array kWidthSettings = {
     kWidthGamma,
     merge(0, "docs/paper-notes.md, Full tree"),
     reuse(1, "docs/paper-notes.md, IW(1)"),
-    AgentSetting{"reward_aside", 0, 0, 1, true, "docs/paper-notes.md, IW(1)"},
+    AgentSetting{"reward_aside", 1, 0, 1, true, "docs/paper-notes.md, IW(1)"},
     kRewardScale};
 constexpr std::array kRolloutSettings = {frames_of(150000, "docs/paper-notes.md, Rollout-IW(1)"), kWidthGamma,
                                          reuse(1, kBandres), kRewardScale};

@@ -85,8 +85,9 @@ void TreeSearch::visit(Number number) {
   const Number first = nodes_[number].first_child;
   for (Number child = first; child < first + order_.size(); ++child) {
     Node& node = nodes_[child];
+    const bool known = reused && node.opened;  // to a search before
     if (reused) look_again(node);
-    if (node.opened) (settings_.reward_aside && node.reward > 0 ? aside_ : open_).push_back(child);
+    if (node.opened) (settings_.reward_aside && node.reward > 0 && !known ? aside_ : open_).push_back(child);
     if (!settings_.reuse_tree && !node.opened) node.state = nullptr;
   }
 }

@@ -20,7 +20,7 @@ struct TreeSettings {
   bool merge_duplicates = false;  // paper-notes: of siblings in the same state one is expanded
   bool needs_novelty = false;     // IW(1)
   bool reuse_tree = false;        // paper-notes: the next tree begins with the chosen child's
-  bool reward_aside = false;      // paper-notes: nodes with a reward are opened when no others are left
+  bool reward_aside = false;      // paper-notes: new nodes with a reward are opened when no others are left
   RewardScale reward_scale = RewardScale::kFirst;  // paper-notes
 };
 

@@ -28,7 +28,7 @@ CHANGED = (
         "iw1",
         "iw1",
         lambda settings: "reuse_tree" in settings,
-        "built its tree anew for each decision",
+        "built its tree anew for each decision, and opened nodes with a reward like others",
     ),
 )
 MACHINE = ("processor", "version")  # of machine.txt: what the table of plans shows

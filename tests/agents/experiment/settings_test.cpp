@@ -52,7 +52,7 @@ const std::vector<Case> kCases = {
     {"full_tree", "frames = 400\n", {{"frames", "2000"}, {"reuse_tree", "1"}}},
     {"iw1",
      "frames = 1500\n",
-     {{"frames", "300"}, {"gamma", "0.1"}, {"reuse_tree", "0"}, {"reward_aside", "1"}}},
+     {{"frames", "300"}, {"gamma", "0.1"}, {"reuse_tree", "0"}, {"reward_aside", "0"}}},
     {"rollout_iw1", "frames = 1500\n", {{"frames", "300"}, {"gamma", "0.1"}, {"reuse_tree", "0"}}},
     {"uct",
      "simulations = 20\n",

@@ -269,6 +269,24 @@ TEST_CASE("Nodes with a reward are opened when no others are left") {
   CHECK(search.nodes() > 40);  // in the end it was opened
 }
 
+TEST_CASE("A node that was put aside is opened like others in the next search") {
+  // Both actions lead from 0 to 1. There, action 0 begins a line of rewards, and action 1 one without.
+  const auto world = [](int place, int action) -> Arrow {
+    if (place == 0) return {1, 0};
+    if (place == 1) return action == 0 ? Arrow{1000, 1} : Arrow{2, 0};
+    return {place + 1, place >= 1000 ? 1.0 : 0.0};
+  };
+  ToyModel model(2, world);
+  TreeSettings settings = iw1(5 * 2 * 21);
+  settings.reward_aside = true;
+  TreeSearch search(model, settings, 1);
+  const int action = search.choose(ToyModel::place(0));
+  CHECK(search.value(action) == settings.discount);  // of the first reward only
+  search.keep(action, ToyModel::place(1));
+  CHECK(search.choose(ToyModel::place(1)) == 0);
+  CHECK(search.value(0) == 1 + settings.discount);  // and now of the second, which is new and put aside
+}
+
 TEST_CASE("Of equal actions, one that ends the episode is not chosen") {
   ToyModel model(3, [](int place, int action) -> Arrow { return {place, 0, action != 1}; });
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
