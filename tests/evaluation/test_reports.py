@@ -11,7 +11,9 @@ import package
 
 package.require()
 
+import pandas as pd  # noqa: E402
 from made_results import CURVES, curve, evaluate, results_of, tables, write  # noqa: E402
+from racebeam_evaluation.output.figure import intervals  # noqa: E402
 
 GAMES = ("asterix", "freeway", "boxing", "pong")
 GROUPS = ("scores", "times-best", "normalised", "aggregates", "distribution", "profiles")
@@ -86,6 +88,13 @@ class Reports(unittest.TestCase):
         for name in [*names, "efficiency", "learning-curves"]:
             self.assertEqual(self.files[f"figures/{name}.png"][:8], b"\x89PNG\r\n\x1a\n")
             self.assertTrue(xml.etree.ElementTree.fromstring(self.files[f"figures/{name}.svg"]).tag.endswith("svg"))
+
+    def test_intervals_are_whole_in_their_panels(self):
+        rows = {"normalisation": ["human"], "agent": ["one"], "IQM": [0.5], "IQM low": [0.3], "IQM high": [0.8]}
+        [axes] = intervals(pd.DataFrame(rows), ["IQM"]).axes
+        self.assertLess(axes.get_xlim()[0], 0.3)
+        self.assertGreater(axes.get_xlim()[1], 0.8)
+        self.assertEqual(axes.get_title(), "IQM\nhuman")
 
     def test_tables_name_what_they_were_made_from(self):
         for name, content in self.files.items():

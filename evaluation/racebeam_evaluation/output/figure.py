@@ -116,11 +116,11 @@ def intervals(rows: pd.DataFrame, statistics: list[str]) -> Figure:
     """A line of panels for each normalisation, a panel for each statistic: the interval of each agent."""
     names = list(dict.fromkeys(rows["normalisation"]))
     agents = list(dict.fromkeys(rows["agent"]))
-    figure, panels = _grid(len(names), len(statistics), 2.4 * len(statistics), (0.7 + 0.26 * len(agents)) * len(names))
+    figure, panels = _grid(len(names), len(statistics), 2.4 * len(statistics), (0.9 + 0.26 * len(agents)) * len(names))
     for line, (name, shown) in enumerate(_parts(rows, "normalisation")):
         for column, (axes, statistic) in enumerate(zip(panels[line * len(statistics) :], statistics)):
             _bars(axes, shown, statistic, "agent", _colours(agents))
-            axes.set(title=f"{statistic}, {name}", yticklabels=list(shown["agent"]) if column == 0 else [])
+            axes.set(title=f"{statistic}\n{name}", yticklabels=list(shown["agent"]) if column == 0 else [])
     return figure
 
 
@@ -149,6 +149,8 @@ def _bars(
     )
     axes.vlines(value, places - 0.3, places + 0.3, color="black", linewidth=1.2)
     axes.set(yticks=places, ylim=(len(rows) - 0.5, -0.5))
+    axes.use_sticky_edges = False  # else the panel begins where the lowest bar does
+    axes.margins(x=0.05)
     axes.xaxis.set_major_locator(MaxNLocator(4))
     axes.grid(axis="x", linewidth=0.3)
 
