@@ -7,24 +7,26 @@ namespace racebeam {
 namespace {
 
 struct Form {
+  MediaKind kind;
   std::string_view name;  // as a recording's kind; empty if recordings lack it
   std::string_view ending;
   decltype(&make_png) make;
 };
 
-constexpr std::array kForms = {Form{"png", "", make_png},        Form{"gif", ".gif", make_gif},
-                               Form{"y4m", ".y4m", make_y4m},    Form{"wav", ".wav", make_wav},
-                               Form{"webm", ".webm", make_webm}, Form{"mp4", ".mp4", make_mp4},
-                               Form{"", ".png", make_picture}};
+constexpr std::array kForms = {
+    Form{MediaKind::kPng, "png", "", make_png},         Form{MediaKind::kGif, "gif", ".gif", make_gif},
+    Form{MediaKind::kY4m, "y4m", ".y4m", make_y4m},     Form{MediaKind::kWav, "wav", ".wav", make_wav},
+    Form{MediaKind::kWebm, "webm", ".webm", make_webm}, Form{MediaKind::kMp4, "mp4", ".mp4", make_mp4},
+    Form{MediaKind::kPicture, "", ".png", make_picture}};
 
-const Form& form(MediaKind kind) { return kForms[static_cast<std::size_t>(kind)]; }
+const Form& form(MediaKind kind) { return *std::ranges::find(kForms, kind, &Form::kind); }
 
 }  // namespace
 
 std::optional<MediaKind> media_kind(std::string_view name) {
   const auto found = std::ranges::find(kForms, name, &Form::name);
   if (name.empty() || found == kForms.end()) return std::nullopt;
-  return static_cast<MediaKind>(found - kForms.begin());
+  return found->kind;
 }
 
 bool is_encoded(MediaKind kind) { return kind == MediaKind::kWebm || kind == MediaKind::kMp4; }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <iterator>
 #include <string_view>
 #include <vector>
@@ -13,6 +15,14 @@ std::vector<std::string_view> names_of(const Rows& rows) {
   std::vector<std::string_view> names;
   names.reserve(std::size(rows));
   for (const auto& row : rows) names.push_back(row.name);
+  return names;
+}
+
+// The same as a constant.
+template <typename Row, std::size_t kRows>
+constexpr std::array<std::string_view, kRows> name_array(const std::array<Row, kRows>& rows) {
+  std::array<std::string_view, kRows> names;
+  std::ranges::transform(rows, names.begin(), [](const Row& row) { return row.name; });
   return names;
 }
 

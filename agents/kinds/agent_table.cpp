@@ -17,6 +17,8 @@
 #include "agents/planning/rollout_search.hpp"
 #include "agents/planning/search_tree.hpp"
 #include "agents/planning/uct.hpp"
+#include "system/named_rows.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
@@ -25,7 +27,9 @@ constexpr std::array kPerturbSettings = {
     AgentSetting{"probability", 0.95, 0, 1, false, "section 3.1.3: of the fixed action"},
 };
 
-constexpr std::array<std::string_view, 3> kRewardScales = {"first", "none", "sign"};  // as RewardScale counts
+constexpr std::array<WordFor<RewardScale>, 3> kRewardScales = {
+    {{"first", RewardScale::kFirst}, {"none", RewardScale::kNone}, {"sign", RewardScale::kSign}}};
+constexpr auto kNamesOfRewardScales = name_array(kRewardScales);
 
 constexpr double kLeastStep = 1e-9, kMostStep = 100;
 constexpr int kMostVectors = 65535, kMostOnes = 100000;
@@ -43,8 +47,8 @@ constexpr AgentSetting kEvaluationEpsilon{
     "evaluation_epsilon", 0.05, 0, 1, false, "docs/paper-notes.md, Evaluation"};
 constexpr AgentSetting kLeastTrace{"least_trace", 0.01, 0, 1, false, "docs/paper-notes.md, Traces"};
 constexpr AgentSetting kClearTraces{"clear_other_traces", 0, 0, 1, true, "docs/paper-notes.md, Traces"};
-constexpr AgentSetting kRewardScale{"reward_scale", 0, 0, 2, true, "docs/paper-notes.md, Rewards",
-                                    kRewardScales};
+constexpr AgentSetting kRewardScale{"reward_scale",      0, 0, 2, true, "docs/paper-notes.md, Rewards",
+                                    kNamesOfRewardScales};
 
 constexpr std::array kTileSettings = {
     alpha(0.5, "appendix C, BASS and Basic"),
@@ -131,7 +135,7 @@ constexpr std::array kUctSettings = {AgentSetting{"simulations", 500, 1, 1e9, tr
                                      kRewardScale};
 
 RewardScale reward_scale(const AgentValues& values) {
-  return static_cast<RewardScale>(values.whole("reward_scale"));
+  return kRewardScales[static_cast<std::size_t>(values.whole("reward_scale"))].value;
 }
 
 SarsaSettings sarsa_settings(const AgentValues& values) {

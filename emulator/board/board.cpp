@@ -13,10 +13,8 @@
 namespace racebeam {
 namespace {
 
-constexpr std::uint64_t bit(unsigned reg) { return std::uint64_t{1} << reg; }
-
 // Drawing registers with other effects than on the picture, or on other registers.
-constexpr std::uint64_t kSpecialRegisters = bit(VBLANK) | bit(HMCLR);
+constexpr std::uint64_t kSpecialRegisters = register_bit(VBLANK) | register_bit(HMCLR);
 
 std::size_t ram_beside_state(const Scheme& scheme) { return scheme.ram > kRamInState ? scheme.ram : 0; }
 

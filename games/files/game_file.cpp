@@ -236,6 +236,9 @@ void read_classic(const TomlSource& source, const toml::table& rule, const toml:
   game.classic = std::make_shared<const Game>(std::move(classic));
 }
 
+constexpr std::array<WordFor<RuleSource>, 2> kRuleSources = {
+    {{"ale-0.12", RuleSource::kAle012}, {"racebeam", RuleSource::kRacebeam}}};
+
 // [rule], [fixed], [classic] and [mode]
 void read_rules(const TomlSource& source, const Section& section, Game& game) {
   const toml::table* const rule = section.table("rule");
@@ -250,8 +253,7 @@ void read_rules(const TomlSource& source, const Section& section, Game& game) {
   if (!rule) return;
   const Section rule_section(source, *rule, "rule");
   rule_section.allow({"step", "reset", "keep", "terminal", "lives", "wraps", "source"});
-  game.rule_source =
-      static_cast<RuleSource>(rule_section.choice("source", {"ale-0.12", "racebeam"}).value_or(0));
+  game.rule_source = choice_of_section(rule_section, "source", kRuleSources).value_or(RuleSource::kAle012);
   read_rule(rule_section, source, setup ? &*setup : nullptr, game);
   if (fixed) read_fixed(source, *rule, *fixed, setup ? &*setup : nullptr, game);
   if (classic) read_classic(source, *rule, *classic, setup ? &*setup : nullptr, game);

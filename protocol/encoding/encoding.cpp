@@ -15,14 +15,15 @@
 namespace racebeam {
 namespace {
 
-consteval EncodingRow row(Encoding encoding, std::string_view name) {
-  return {encoding, name, row_named(description::kEncodings, name).summary};
-}
-
-constexpr std::array kEncodings = {row(Encoding::kHex, "hex"),     row(Encoding::kRunLength, "rle"),
-                                   row(Encoding::kDelta, "delta"), row(Encoding::kBase64, "base64"),
-                                   row(Encoding::kZlib, "zlib"),   row(Encoding::kRaw, "raw")};
-static_assert(same_names(kEncodings, description::kEncodings));
+static_assert(same_names(kEncodingNames, description::kEncodings));
+constexpr auto kEncodings = [] {
+  std::array<EncodingRow, kEncodingNames.size()> rows;
+  std::ranges::transform(kEncodingNames, description::kEncodings, rows.begin(),
+                         [](const auto& word, const auto& described) {
+                           return EncodingRow{word.value, word.name, described.summary};
+                         });
+  return rows;
+}();
 
 using Bytes = std::span<const std::uint8_t>;
 

@@ -1,6 +1,7 @@
 // The encodings of bytes in the line protocol (protocol/PROTOCOL.md, "Encodings").
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,9 +11,19 @@
 #include <string_view>
 #include <vector>
 
+#include "system/words.hpp"
+
 namespace racebeam {
 
 enum class Encoding { kHex, kRunLength, kDelta, kBase64, kZlib, kRaw };
+
+// As protocol/protocol.toml names them.
+inline constexpr std::array<WordFor<Encoding>, 6> kEncodingNames = {{{"hex", Encoding::kHex},
+                                                                     {"rle", Encoding::kRunLength},
+                                                                     {"delta", Encoding::kDelta},
+                                                                     {"base64", Encoding::kBase64},
+                                                                     {"zlib", Encoding::kZlib},
+                                                                     {"raw", Encoding::kRaw}}};
 
 struct EncodingRow {
   Encoding encoding;

@@ -21,9 +21,7 @@ constexpr int kDeepest = 16;
 using Number = std::int64_t (*)(const Environment&, const Outcome&);
 using BytesOf = Bytes (*)(const Environment&, ByteBuffer&);
 
-constexpr Encoding encoding_named(std::string_view name) {
-  return static_cast<Encoding>(&row_named(description::kEncodings, name) - description::kEncodings.data());
-}
+constexpr Encoding encoding_named(std::string_view name) { return row_named(kEncodingNames, name).value; }
 
 constexpr FieldRow number(std::string_view name, Number of) {
   const description::Field& row = row_named(description::kFields, name);

@@ -6,8 +6,6 @@
 namespace racebeam {
 namespace {
 
-constexpr std::uint8_t bit(Object object) { return static_cast<std::uint8_t>(1U << object); }
-
 struct Pair {
   Object a, b;
   Collisions latch;
@@ -32,7 +30,7 @@ constexpr auto make_possible() {
   std::array<Collisions, 64> table{};
   for (unsigned objects = 0; objects < 64; ++objects)
     for (const Pair& p : kPairs)
-      if ((objects & bit(p.a)) && (objects & bit(p.b))) table[objects] |= p.latch;
+      if ((objects & object_bit(p.a)) && (objects & object_bit(p.b))) table[objects] |= p.latch;
   return table;
 }
 static_assert(make_possible().back() == kAllPairs);
@@ -42,7 +40,7 @@ constexpr auto make_pairs_of() {
   std::array<Collisions, 64> table{};
   for (unsigned objects = 0; objects < 64; ++objects)
     for (const Pair& p : kPairs)
-      if (objects & (bit(p.a) | bit(p.b))) table[objects] |= p.latch;
+      if (objects & (object_bit(p.a) | object_bit(p.b))) table[objects] |= p.latch;
   return table;
 }
 constexpr auto kPairsOf = make_pairs_of();
@@ -65,24 +63,25 @@ std::uint8_t Line::outdated(const TiaRegisters& tia) const {
     if (differ(tia.player[i], shown.player[i])) objects |= 1U << (kP0 + i) | 1U << (kM0 + i);
     if (differ(tia.missile[i], shown.missile[i])) objects |= 1U << (kM0 + i);
   }
-  if (tia.cosmic_shape != shown.cosmic_shape) objects |= bit(kM0);
-  if (differ(tia.ball, shown.ball)) objects |= bit(kBall);
-  if (differ(tia.pf, shown.pf) || tia.reflect != shown.reflect) objects |= bit(kPlayfield);
-  if (tia.ctrlpf != shown.ctrlpf) objects |= bit(kBall) | bit(kPlayfield);
+  if (tia.cosmic_shape != shown.cosmic_shape) objects |= object_bit(kM0);
+  if (differ(tia.ball, shown.ball)) objects |= object_bit(kBall);
+  if (differ(tia.pf, shown.pf) || tia.reflect != shown.reflect) objects |= object_bit(kPlayfield);
+  if (tia.ctrlpf != shown.ctrlpf) objects |= object_bit(kBall) | object_bit(kPlayfield);
   return static_cast<std::uint8_t>(objects);
 }
 
 void Line::refresh(const TiaState& tia, std::uint8_t objects) {
   const auto note = [this](Object object) {
-    covered = static_cast<std::uint8_t>((covered & ~bit(object)) | (mask[object].any() ? 1U : 0U) << object);
+    covered =
+        static_cast<std::uint8_t>((covered & ~object_bit(object)) | (mask[object].any() ? 1U : 0U) << object);
   };
   for (unsigned i = 0; i < 2; ++i) {
     const auto player = static_cast<Object>(kP0 + i), missile = static_cast<Object>(kM0 + i);
-    if (objects & bit(player)) draw_player(mask[player], tia.player[i]), note(player);
-    if (objects & bit(missile)) draw_missile(mask[missile], tia, i), note(missile);
+    if (objects & object_bit(player)) draw_player(mask[player], tia.player[i]), note(player);
+    if (objects & object_bit(missile)) draw_missile(mask[missile], tia, i), note(missile);
   }
-  if (objects & bit(kBall)) draw_ball(mask[kBall], tia), note(kBall);
-  if (objects & bit(kPlayfield)) draw_playfield(mask[kPlayfield], tia), note(kPlayfield);
+  if (objects & object_bit(kBall)) draw_ball(mask[kBall], tia), note(kBall);
+  if (objects & object_bit(kPlayfield)) draw_playfield(mask[kPlayfield], tia), note(kPlayfield);
   const Collisions changed = kPairsOf[objects & kAllObjects];
   overlaps = static_cast<Collisions>(overlaps & ~changed);
   const auto possible = static_cast<Collisions>(kPossibleMeetings[covered] & changed);
@@ -95,7 +94,7 @@ std::uint8_t objects_of(Collisions pairs) {
   unsigned objects = 0;
   for (unsigned rest = pairs & kAllPairs; rest != 0; rest &= rest - 1) {
     const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(rest))];
-    objects |= bit(p.a) | bit(p.b);
+    objects |= object_bit(p.a) | object_bit(p.b);
   }
   return static_cast<std::uint8_t>(objects);
 }

@@ -10,18 +10,16 @@
 namespace racebeam {
 namespace {
 
-constexpr std::uint8_t bit(unsigned object) { return static_cast<std::uint8_t>(1U << object); }
-
 // The bytes that decide whether an object is enabled, and for kPlaceOfP0 and kPlaceOfP1 those that place its
 // copies.
 constexpr TiaRegisters control_bytes(unsigned which) {
   switch (which) {
-    case bit(kP0): return RACEBEAM_TIA_BYTES((p0.grp, p0.old_grp, p0.vdel));
-    case bit(kP1): return RACEBEAM_TIA_BYTES((p1.grp, p1.old_grp, p1.vdel));
-    case bit(kM0): return RACEBEAM_TIA_BYTES((m0.enabled, m0.locked));
-    case bit(kM1): return RACEBEAM_TIA_BYTES((m1.enabled, m1.locked));
-    case bit(kBall): return RACEBEAM_TIA_BYTES((ball.enabled, ball.old_enabled, ball.vdel));
-    case bit(kPlayfield): return RACEBEAM_TIA_BYTES((pf[0], pf[1], pf[2]));
+    case object_bit(kP0): return RACEBEAM_TIA_BYTES((p0.grp, p0.old_grp, p0.vdel));
+    case object_bit(kP1): return RACEBEAM_TIA_BYTES((p1.grp, p1.old_grp, p1.vdel));
+    case object_bit(kM0): return RACEBEAM_TIA_BYTES((m0.enabled, m0.locked));
+    case object_bit(kM1): return RACEBEAM_TIA_BYTES((m1.enabled, m1.locked));
+    case object_bit(kBall): return RACEBEAM_TIA_BYTES((ball.enabled, ball.old_enabled, ball.vdel));
+    case object_bit(kPlayfield): return RACEBEAM_TIA_BYTES((pf[0], pf[1], pf[2]));
     case kPlaceOfP0: return RACEBEAM_TIA_BYTES((p0.nusiz, p0.position, p0.motion));
     case kPlaceOfP1: return RACEBEAM_TIA_BYTES((p1.nusiz, p1.position, p1.motion));
     default: return {};
@@ -46,7 +44,7 @@ constexpr std::uint8_t control_of(unsigned reg) {
   const RegisterBytes& bytes = kRegisterBytes[reg];
   unsigned control = 0;
   for (unsigned object = 0; object < kObjects; ++object)
-    if (share_a_byte(bytes.sets, control_bytes(bit(object)))) control |= bit(object);
+    if (share_a_byte(bytes.sets, control_bytes(object_bit(object)))) control |= object_bit(object);
   if (share_a_byte(bytes.reads, RACEBEAM_TIA_BYTES((p0.nusiz)))) control |= kPlaceOfP0;
   if (share_a_byte(bytes.reads, RACEBEAM_TIA_BYTES((p1.nusiz)))) control |= kPlaceOfP1;
   return static_cast<std::uint8_t>(control);
@@ -67,11 +65,11 @@ constexpr std::array<LineEffect, 64> make_effects() {
 // line.
 constexpr TiaRegisters make_seen(unsigned seen) {
   const auto byte_if = [seen](unsigned bits) { return static_cast<std::uint8_t>(seen & bits ? 0xFF : 0); };
-  const std::uint8_t moves = byte_if(kMoves), ball = byte_if(bit(kBall)),
-                     playfield = byte_if(bit(kPlayfield));
+  const std::uint8_t moves = byte_if(kMoves), ball = byte_if(object_bit(kBall)),
+                     playfield = byte_if(object_bit(kPlayfield));
   TiaRegisters mask;
   for (unsigned i = 0; i < 2; ++i) {
-    const std::uint8_t player = byte_if(bit(kP0 + i)), missile = byte_if(bit(kM0 + i)),
+    const std::uint8_t player = byte_if(object_bit(kP0 + i)), missile = byte_if(object_bit(kM0 + i)),
                        either = player | missile;
     const std::uint8_t moved = player & moves;
     mask.player[i] = {player, player, player, player, either, player, moved, player};
@@ -82,7 +80,7 @@ constexpr TiaRegisters make_seen(unsigned seen) {
   mask.color[2] = mask.ctrlpf = ball | playfield;
   mask.reflect = playfield;
   mask.pf = {playfield, playfield, playfield};
-  mask.cosmic_shape = static_cast<CosmicShape>(byte_if(bit(kM0)));
+  mask.cosmic_shape = static_cast<CosmicShape>(byte_if(object_bit(kM0)));
   mask.vblank = 0xFF;
   mask.color[3] = mask.comb_armed = mask.enabled = byte_if(kLit);
   return mask;

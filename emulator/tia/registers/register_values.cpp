@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::uint32_t kNoVsync = 0x7FFFFFFF;
 
-std::uint8_t bit(int number, bool is_set) { return static_cast<std::uint8_t>(is_set ? 1 << number : 0); }
+std::uint8_t flag(int number, bool is_set) { return static_cast<std::uint8_t>(is_set ? 1 << number : 0); }
 std::uint8_t nibble(std::uint8_t motion) { return static_cast<std::uint8_t>(motion << 4); }
 
 std::uint8_t value_of(TiaRegister reg, const State& state, const Sound& sound) {
@@ -15,14 +15,14 @@ std::uint8_t value_of(TiaRegister reg, const State& state, const Sound& sound) {
   const BallState& ball = tia.ball;
   // clang-format off
   switch (reg) {
-    case VSYNC:  return bit(1, state.frame.vsync_finish != kNoVsync);
-    case VBLANK: return bit(1, tia.vblank) | bit(7, state.frame.dumping);
+    case VSYNC:  return flag(1, state.frame.vsync_finish != kNoVsync);
+    case VBLANK: return flag(1, tia.vblank) | flag(7, state.frame.dumping);
     case NUSIZ0: return p0.nusiz;
     case NUSIZ1: return p1.nusiz;
     case COLUP0: case COLUP1: case COLUPF: case COLUBK: return tia.color[reg - COLUP0] & 0xFE;
     case CTRLPF: return tia.ctrlpf;
-    case REFP0:  return bit(3, p0.refp);
-    case REFP1:  return bit(3, p1.refp);
+    case REFP0:  return flag(3, p0.refp);
+    case REFP1:  return flag(3, p1.refp);
     case PF0: case PF1: case PF2: return tia.pf[reg - PF0];
     case RESP0:  return p0.position;
     case RESP1:  return p1.position;
@@ -32,19 +32,19 @@ std::uint8_t value_of(TiaRegister reg, const State& state, const Sound& sound) {
     case AUDC0: case AUDC1: case AUDF0: case AUDF1: case AUDV0: case AUDV1: return sound.registers[reg - AUDC0];
     case GRP0:   return p0.grp;
     case GRP1:   return p1.grp;
-    case ENAM0:  return bit(1, m0.enabled);
-    case ENAM1:  return bit(1, m1.enabled);
-    case ENABL:  return bit(1, ball.enabled);
+    case ENAM0:  return flag(1, m0.enabled);
+    case ENAM1:  return flag(1, m1.enabled);
+    case ENABL:  return flag(1, ball.enabled);
     case HMP0:   return nibble(p0.motion);
     case HMP1:   return nibble(p1.motion);
     case HMM0:   return nibble(m0.motion);
     case HMM1:   return nibble(m1.motion);
     case HMBL:   return nibble(ball.motion);
-    case VDELP0: return bit(0, p0.vdel);
-    case VDELP1: return bit(0, p1.vdel);
-    case VDELBL: return bit(0, ball.vdel);
-    case RESMP0: return bit(1, m0.locked);
-    case RESMP1: return bit(1, m1.locked);
+    case VDELP0: return flag(0, p0.vdel);
+    case VDELP1: return flag(0, p1.vdel);
+    case VDELBL: return flag(0, ball.vdel);
+    case RESMP0: return flag(1, m0.locked);
+    case RESMP1: return flag(1, m1.locked);
     case WSYNC: case RSYNC: case HMOVE: case HMCLR: case CXCLR: case kTiaRegisters: case kNone: return 0;
   }
   // clang-format on

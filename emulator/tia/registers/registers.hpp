@@ -39,11 +39,14 @@ inline constexpr auto kRegisters = [] {  // by address bits 5-0
 
 constexpr bool is_sound(unsigned reg) { return kRegisters[reg].use == RegisterUse::kSound; }
 
-// A bit for each register whose writes may change the picture.
+// In sets of registers.
+constexpr std::uint64_t register_bit(unsigned reg) { return std::uint64_t{1} << reg; }
+
+// The registers whose writes may change the picture.
 inline constexpr std::uint64_t kPictureRegisters = [] {
   std::uint64_t registers = 0;
   for (unsigned reg = 0; reg < kRegisters.size(); ++reg)
-    if (kRegisters[reg].use == RegisterUse::kPicture) registers |= std::uint64_t{1} << reg;
+    if (kRegisters[reg].use == RegisterUse::kPicture) registers |= register_bit(reg);
   return registers;
 }();
 

@@ -70,8 +70,7 @@ HelpText on_encodings() {
   HelpText text = table("encodings of fields that are bytes, as in observe screen:delta:", encodings());
   std::string default_text = "without one:";
   for (const FieldRow& row : field_rows()) {
-    if (!row.number)
-      default_text += joined({" ", row.name, ":", encodings()[static_cast<std::size_t>(row.usual)].name});
+    if (!row.number) default_text += joined({" ", row.name, ":", word_for(kEncodingNames, row.usual)});
   }
   text.entries.push_back(std::move(default_text));
   return text;
