@@ -1,9 +1,10 @@
-// The effect of a write to each register of the TIA (docs/spec/tia.md, 4 and 7 to 9). A Painter is called
+// The effect of a write to each register of the TIA (docs/spec/tia.md, 4 and 7 to 9). A policy is called
 // before and after each change; render_policies.hpp describes its functions.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstdint>
 
 #include "emulator/base/inlining.hpp"
@@ -16,11 +17,26 @@
 
 namespace racebeam {
 
-template <class Painter>
+template <class T>
+concept ChangePolicy = requires(const T& policy, std::int32_t clock, std::uint8_t objects,
+                                PlayfieldPart part) {
+  policy.reach(clock);
+  policy.draw_to(clock, objects);
+  policy.draw_before(clock, part);
+  policy.come_to(clock);
+  policy.collide_to(clock);
+  policy.changed(objects);
+  policy.enabled();
+  policy.clear_collisions();
+  { policy.looks() } -> std::same_as<bool>;
+  { policy.minds(objects) } -> std::same_as<bool>;
+};
+
+template <ChangePolicy Policy>
 class RegisterEffects {
  public:
-  RegisterEffects(TiaState& state, const FrameState& frame, const Video& video, Painter painter)
-      : tia_(state), frame_(frame), video_(video), first_cycle_(state.origin / 3), painter_(painter) {}
+  RegisterEffects(TiaState& state, const FrameState& frame, const Video& video, Policy policy)
+      : tia_(state), frame_(frame), video_(video), first_cycle_(state.origin / 3), policy_(policy) {}
 
   // Plays the writes in [first, last) of a log, whose cycles count from `base`.
   void play(const std::uint32_t* first, const std::uint32_t* last, std::int32_t base);
@@ -28,11 +44,10 @@ class RegisterEffects {
  private:
   void play(TiaWrite write, std::int32_t cycle);
 
-  static constexpr std::uint8_t kNoObject = 0, kBallBit = 1U << kBall, kPlayfieldBit = 1U << kPlayfield;
+  static constexpr std::uint8_t kNoObject = 0, kBallBit = object_bit(kBall),
+                                kPlayfieldBit = object_bit(kPlayfield);
 
-  static constexpr std::uint8_t object(unsigned first, unsigned which) {
-    return static_cast<std::uint8_t>(1U << (first + which));
-  }
+  static constexpr std::uint8_t object(unsigned first, unsigned which) { return object_bit(first + which); }
 
   // Wraps a position that is at most one line off.
   static constexpr std::uint8_t wrapped(int position) {
@@ -59,11 +74,11 @@ class RegisterEffects {
 
   // Updates which of these objects are enabled, after a write that may change it.
   RACEBEAM_INLINE void control(unsigned objects) {
-    if (!painter_.minds(objects)) return;
+    if (!policy_.minds(objects)) return;
     const auto enabled = static_cast<std::uint8_t>((tia_.enabled & ~objects) | enabled_among(tia_, objects));
     if (enabled == tia_.enabled) return;
     tia_.enabled = enabled;
-    painter_.enabled();
+    policy_.enabled();
   }
 
   template <class T>
@@ -89,34 +104,33 @@ class RegisterEffects {
   const FrameState& frame_;
   const Video& video_;
   const std::int32_t first_cycle_;  // of line 0
-  Painter painter_;
+  Policy policy_;
 };
 
-template <class Painter>
+template <ChangePolicy Policy>
 template <class T>
-RACEBEAM_INLINE bool RegisterEffects<Painter>::assign(T& reg, T value, std::int32_t clock,
-                                                      std::uint8_t objects) {
-  if (painter_.looks() && reg == value) {
-    painter_.reach(clock);
+RACEBEAM_INLINE bool RegisterEffects<Policy>::assign(T& reg, T value, std::int32_t clock,
+                                                     std::uint8_t objects) {
+  if (policy_.looks() && reg == value) {
+    policy_.reach(clock);
     return false;
   }
-  painter_.draw_to(clock, objects);
+  policy_.draw_to(clock, objects);
   reg = value;
-  painter_.changed(objects);
+  policy_.changed(objects);
   return true;
 }
 
-template <class Painter>
-void RegisterEffects<Painter>::play(const std::uint32_t* first, const std::uint32_t* last,
-                                    std::int32_t base) {
+template <ChangePolicy Policy>
+void RegisterEffects<Policy>::play(const std::uint32_t* first, const std::uint32_t* last, std::int32_t base) {
   for (const std::uint32_t* entry = first; entry != last; ++entry) {
     const TiaWrite write(*entry);
     play(write, base + write.cycle());
   }
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t cycle) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::play(TiaWrite write, std::int32_t cycle) {
   const std::int32_t clock = 3 * cycle;
   const auto after = [clock](TiaRegister reg) { return clock + kRegisters[reg].delay; };
   const std::uint8_t value = write.value();
@@ -127,7 +141,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t
   const auto motion = [value] { return static_cast<std::uint8_t>(value >> 4); };
   // clang-format off
   switch (write.reg()) {
-    case VBLANK: assign(tia_.vblank, flag(1), after(VBLANK), kAllObjects); painter_.enabled(); break;
+    case VBLANK: assign(tia_.vblank, flag(1), after(VBLANK), kAllObjects); policy_.enabled(); break;
     case NUSIZ0: write_nusiz(0, value, after(NUSIZ0)); break;
     case NUSIZ1: write_nusiz(1, value, after(NUSIZ1)); break;
     case COLUP0: case COLUP1: case COLUPF: case COLUBK: write_color(write.reg() - COLUP0, value, clock); break;
@@ -145,119 +159,119 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t
     case ENAM0:  assign(m0.enabled, flag(1), clock, object(kM0, 0)); control(object(kM0, 0)); break;
     case ENAM1:  assign(m1.enabled, flag(1), clock, object(kM0, 1)); control(object(kM0, 1)); break;
     case ENABL:  write_ball(flag(1), ball.old_enabled, ball.vdel, clock); break;
-    case HMP0:   painter_.reach(clock); p0.motion = motion(); break;
-    case HMP1:   painter_.reach(clock); p1.motion = motion(); break;
+    case HMP0:   policy_.reach(clock); p0.motion = motion(); break;
+    case HMP1:   policy_.reach(clock); p1.motion = motion(); break;
     case HMM0:   write_hmm0(motion(), clock); break;
-    case HMM1:   painter_.reach(clock); m1.motion = motion(); break;
-    case HMBL:   painter_.reach(clock); ball.motion = motion(); break;
+    case HMM1:   policy_.reach(clock); m1.motion = motion(); break;
+    case HMBL:   policy_.reach(clock); ball.motion = motion(); break;
     case VDELP0: write_vdel(0, flag(0), clock); break;
     case VDELP1: write_vdel(1, flag(0), clock); break;
     case VDELBL: write_ball(ball.enabled, ball.old_enabled, flag(0), clock); break;
     case RESMP0: write_resmp(0, flag(1), clock); break;
     case RESMP1: write_resmp(1, flag(1), clock); break;
     case HMOVE:  strobe_hmove(cycle); break;
-    case HMCLR:  painter_.reach(clock); p0.motion = p1.motion = m0.motion = m1.motion = ball.motion = 0; break;
+    case HMCLR:  policy_.reach(clock); p0.motion = p1.motion = m0.motion = m1.motion = ball.motion = 0; break;
     case CXCLR:  clear_collisions(clock); break;
-    default:     painter_.reach(clock); break;
+    default:     policy_.reach(clock); break;
   }
   // clang-format on
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_color(unsigned which, std::uint8_t value,
-                                                           std::int32_t clock) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::write_color(unsigned which, std::uint8_t value,
+                                                          std::int32_t clock) {
   assign(tia_.color[which], static_cast<std::uint8_t>((value & 0xFE) | color_loss()), clock, kNoObject);
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_nusiz(unsigned which, std::uint8_t value,
-                                                           std::int32_t clock) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::write_nusiz(unsigned which, std::uint8_t value,
+                                                          std::int32_t clock) {
   PlayerState& player = tia_.player[which];
   const bool reselects = player.skip || (which == 0 && tia_.cosmic);
   value &= 0x37;
-  if (painter_.looks() && player.nusiz == value && !reselects) return painter_.reach(clock);
-  painter_.draw_to(clock, object(kP0, which) | object(kM0, which));
+  if (policy_.looks() && player.nusiz == value && !reselects) return policy_.reach(clock);
+  policy_.draw_to(clock, object(kP0, which) | object(kM0, which));
   player.nusiz = value;
   player.skip = 0;
   if (which == 0) tia_.cosmic_shape = CosmicShape::kNormal;
-  painter_.changed(object(kP0, which) | object(kM0, which));
+  policy_.changed(object(kP0, which) | object(kM0, which));
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, std::int32_t clock) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::write_ctrlpf(std::uint8_t value, std::int32_t clock) {
   const bool latches =
       line_cycle(clock / 3) < 49;  // a later write reflects the playfield only from the next line on
   const std::uint8_t reflect = latches ? value & 1 : tia_.reflect;
   value &= 0x37;
-  if (painter_.looks() && tia_.ctrlpf == value && tia_.reflect == reflect) return painter_.reach(clock);
+  if (policy_.looks() && tia_.ctrlpf == value && tia_.reflect == reflect) return policy_.reach(clock);
   if (latches)
-    painter_.draw_to(clock, kBallBit | kPlayfieldBit);
+    policy_.draw_to(clock, kBallBit | kPlayfieldBit);
   else
-    painter_.come_to(clock);
+    policy_.come_to(clock);
   // Drawing may have passed the end of a line, where the latch changes: read it again.
   tia_.reflect = latches ? value & 1 : tia_.reflect;
   tia_.ctrlpf = value;
-  painter_.changed(kBallBit | kPlayfieldBit);
+  policy_.changed(kBallBit | kPlayfieldBit);
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, std::uint8_t value,
-                                                               std::int32_t cycle) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::write_playfield(unsigned which, std::uint8_t value,
+                                                              std::int32_t cycle) {
   static constexpr std::array<std::uint8_t, 4> kDelay = {4, 5, 2, 3};  // to the next block of four pixels
   static_assert(kLineCycles % 4 == 0 && std::ranges::max(kDelay) == kRegisters[PF0].delay);
   const std::int32_t clock = 3 * cycle + kDelay[static_cast<std::size_t>(cycle - first_cycle_) % 4];
   std::uint8_t& reg = tia_.pf[which];
-  if (painter_.looks() && reg == value) {
-    painter_.reach(clock);
+  if (policy_.looks() && reg == value) {
+    policy_.reach(clock);
   } else {
-    painter_.draw_before(clock, kPlayfieldParts[tia_.reflect][which]);
+    policy_.draw_before(clock, kPlayfieldParts[tia_.reflect][which]);
     reg = value;
-    painter_.changed(kPlayfieldBit);
+    policy_.changed(kPlayfieldBit);
   }
   control(kPlayfieldBit);
 }
 
 // A write to one player's graphics copies the other player's into the register that VDELPx shows.
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, std::uint8_t value,
-                                                              std::int32_t clock) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::write_graphics(unsigned which, std::uint8_t value,
+                                                             std::int32_t clock) {
   PlayerState& written = tia_.player[which];
   PlayerState& other = tia_.player[1 - which];
   std::uint8_t objects = kBallBit | object(kP0, 0) | object(kP0, 1);
-  if (painter_.looks()) {
+  if (policy_.looks()) {
     objects = 0;
     if (!written.vdel && written.grp != value) objects |= object(kP0, which);
     if (other.vdel && other.old_grp != other.grp) objects |= object(kP0, 1 - which);
     if (which == 1 && tia_.ball.vdel && tia_.ball.old_enabled != tia_.ball.enabled) objects |= kBallBit;
   }
   if (objects != 0)
-    painter_.draw_to(clock, objects);
+    policy_.draw_to(clock, objects);
   else
-    painter_.reach(clock);
+    policy_.reach(clock);
   written.grp = value;
   other.old_grp = other.grp;
   if (which == 1) tia_.ball.old_enabled = tia_.ball.enabled;
   control(object(kP0, 0) | object(kP0, 1) | (which == 1 ? kBallBit : 0));
-  painter_.changed(objects);
+  policy_.changed(objects);
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_vdel(unsigned which, std::uint8_t value,
-                                                          std::int32_t clock) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::write_vdel(unsigned which, std::uint8_t value,
+                                                         std::int32_t clock) {
   assign(tia_.player[which].vdel, value, clock, object(kP0, which));
   control(object(kP0, which));
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, std::uint8_t old_enabled,
-                                                          std::uint8_t vdel, std::int32_t clock) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::write_ball(std::uint8_t enabled, std::uint8_t old_enabled,
+                                                         std::uint8_t vdel, std::int32_t clock) {
   BallState& ball = tia_.ball;
   const bool is_visible = vdel ? old_enabled != 0 : enabled != 0;
-  if (!painter_.looks() || is_visible != ball_enabled(ball)) {
-    painter_.draw_to(clock, kBallBit);
-    painter_.changed(kBallBit);
+  if (!policy_.looks() || is_visible != ball_enabled(ball)) {
+    policy_.draw_to(clock, kBallBit);
+    policy_.changed(kBallBit);
   } else {
-    painter_.reach(clock);
+    policy_.reach(clock);
   }
   ball.enabled = enabled;
   ball.vdel = vdel;
@@ -265,9 +279,9 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, 
 }
 
 // A missile that is unlocked stays in the middle of its player.
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_resmp(unsigned which, std::uint8_t value,
-                                                           std::int32_t clock) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::write_resmp(unsigned which, std::uint8_t value,
+                                                          std::int32_t clock) {
   MissileState& missile = tia_.missile[which];
   const bool unlocks = missile.locked && !value;
   const bool changed = assign(missile.locked, value, clock, object(kM0, which));
@@ -279,33 +293,33 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_resmp(unsigned which, std::
 }
 
 // If HMM0 changes from 7 to 6 exactly 21 cycles after an HMOVE, missile 0 keeps moving: "Cosmic Ark mode".
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_hmm0(std::uint8_t motion, std::int32_t clock) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::write_hmm0(std::uint8_t motion, std::int32_t clock) {
   MissileState& missile = tia_.missile[0];
   const bool enters =
       static_cast<std::uint32_t>(clock) == tia_.hmove_clock + 63 && missile.motion == 7 && motion == 6;
   if (enters) {
-    painter_.come_to(clock);
+    policy_.come_to(clock);
     tia_.cosmic = 1;
     tia_.cosmic_count = 0;
-    painter_.changed(object(kM0, 0));
+    policy_.changed(object(kM0, 0));
   }
-  painter_.reach(clock);
+  policy_.reach(clock);
   missile.motion = motion;
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::show_cosmic_normally() {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::show_cosmic_normally() {
   if (tia_.cosmic_shape == CosmicShape::kNormal) return;
   tia_.cosmic_shape = CosmicShape::kNormal;
-  painter_.changed(object(kM0, 0));
+  policy_.changed(object(kM0, 0));
 }
 
 // The position of a missile or of the ball after a strobe: where the beam is, or what docs/spec/tia.md, 8,
 // lists for a strobe so many clocks after an HMOVE.
-template <class Painter>
-RACEBEAM_INLINE std::uint8_t RegisterEffects<Painter>::strobe_position(TiaRegister reg,
-                                                                       std::int32_t clock) const {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE std::uint8_t RegisterEffects<Policy>::strobe_position(TiaRegister reg,
+                                                                      std::int32_t clock) const {
   struct Exception {
     TiaRegister reg;
     std::uint32_t since_hmove;
@@ -322,10 +336,10 @@ RACEBEAM_INLINE std::uint8_t RegisterEffects<Painter>::strobe_position(TiaRegist
   return beam_position(h, 2, 4);
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std::int32_t clock) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::strobe_player(unsigned which, std::int32_t clock) {
   PlayerState& player = tia_.player[which];
-  painter_.draw_to(clock, object(kP0, which));
+  policy_.draw_to(clock, object(kP0, which));
   const std::uint8_t position = beam_position(3 * line_cycle(clock / 3), 3, 5);
   const int distance = wrapped(position - player.position);
   const Copies& copies = kCopies[player.nusiz & 7];
@@ -335,43 +349,43 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std
     const int into = distance - copies.offset[i];
     if (into >= 0 && into <= 3) skip = false;
     // The old copy is being drawn, and is finished first.
-    if (into >= 4 && into <= 3 + width) painter_.draw_to(clock + kRegisters[RESP0].delay, object(kP0, which));
+    if (into >= 4 && into <= 3 + width) policy_.draw_to(clock + kRegisters[RESP0].delay, object(kP0, which));
   }
-  if (skip) painter_.come_to(clock);
+  if (skip) policy_.come_to(clock);
   player.position = position;
   player.skip = skip;
-  painter_.changed(object(kP0, which));
+  policy_.changed(object(kP0, which));
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_missile(unsigned which, std::int32_t clock) {
-  painter_.draw_to(clock + kRegisters[RESM0].delay, object(kM0, which));
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::strobe_missile(unsigned which, std::int32_t clock) {
+  policy_.draw_to(clock + kRegisters[RESM0].delay, object(kM0, which));
   tia_.missile[which].position = strobe_position(which == 0 ? RESM0 : RESM1, clock);
   if (which == 0) show_cosmic_normally();
-  painter_.changed(object(kM0, which));
+  policy_.changed(object(kM0, which));
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_ball(std::int32_t clock) {
-  painter_.draw_to(clock, kBallBit);
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::strobe_ball(std::int32_t clock) {
+  policy_.draw_to(clock, kBallBit);
   tia_.ball.position = strobe_position(RESBL, clock);
-  painter_.changed(kBallBit);
+  policy_.changed(kBallBit);
 }
 
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(std::int32_t cycle) {
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::strobe_hmove(std::int32_t cycle) {
   const std::int32_t clock = 3 * cycle;
   const int x = line_cycle(cycle);
   const bool arms = video_.hmove_blanks && (x == 75 || x <= 20);
   if (arms)
-    painter_.draw_to(clock, kAllObjects);
+    policy_.draw_to(clock, kAllObjects);
   else
-    painter_.come_to(clock);
+    policy_.come_to(clock);
   const auto& movement = kMovement[static_cast<std::size_t>(x)];
   const auto move = [&](std::uint8_t& position, std::uint8_t motion, std::uint8_t objects) {
     if (movement[motion] == 0) return;
     position = wrapped(position + movement[motion]);
-    painter_.changed(objects);
+    policy_.changed(objects);
   };
   auto& [p0, p1] = tia_.player;
   auto& [m0, m1] = tia_.missile;
@@ -383,7 +397,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(std::int32_t cycle) 
     move(tia_.ball.position, tia_.ball.motion, kBallBit);
   }
   if ((p0.skip | p1.skip) != 0) {
-    painter_.changed(object(kP0, 0) | object(kP0, 1));
+    policy_.changed(object(kP0, 0) | object(kP0, 1));
     p0.skip = p1.skip = 0;
   }
   if (arms) tia_.comb_armed = 1;
@@ -393,10 +407,10 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(std::int32_t cycle) 
 }
 
 // Pixels that are not drawn yet may have collided before the latches are cleared.
-template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::clear_collisions(std::int32_t clock) {
-  painter_.collide_to(clock);
-  painter_.clear_collisions();
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::clear_collisions(std::int32_t clock) {
+  policy_.collide_to(clock);
+  policy_.clear_collisions();
 }
 
 }  // namespace racebeam

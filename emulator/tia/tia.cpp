@@ -97,9 +97,9 @@ bool Tia::play_log(std::int32_t cycle, Collisions latches) {
 // Plays the log in steps without pixels.
 bool Tia::follow_log() {
   skip(end_of_unseen());
-  const TrackPolicy painter{beam_, tia_, reached_, watches_};
-  painter.enabled();
-  RegisterEffects(tia_, frame_, video_, painter).play(played_, log_->next, log_->base);
+  const TrackPolicy policy{beam_, tia_, reached_, watches_};
+  policy.enabled();
+  RegisterEffects(tia_, frame_, video_, policy).play(played_, log_->next, log_->base);
   played_ = log_->next;
   return true;
 }

@@ -23,7 +23,7 @@ constexpr const char* kNames[] = {
 
 constexpr int kTries = 20000;
 
-// What a painter hears of a write (render_policies.hpp). It draws nothing, so that only the writes change
+// What a policy is told of a write (render_policies.hpp). It draws nothing, so that only the writes change
 // registers.
 struct Effects {
   std::int32_t clock = -1000;  // the latest that was named
