@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <functional>
+#include <vector>
 
 using racebeam::DeferredRenderPolicy;
 
@@ -114,7 +115,47 @@ TEST_CASE("A probe that another program lengthened is corrected by the next") {
 TEST_CASE("A machine whose frames are all observed from now on takes no measurement") {
   DeferredRenderPolicy policy;
   while (!policy.measures()) policy.next_is_drawn();
-  CHECK(run(policy, 1000, 1, 1, [](const Frame&) { return 7000; }).measured <= 2);
+  CHECK(run(policy, 1000, 1, 1, [](const Frame&) { return 7000; }).measured == 2);
+}
+
+struct Frames {
+  std::vector<int> drawn, measured;  // the first frames of each row of such frames
+};
+
+Frames frames_of(int count, std::int64_t followed, std::int64_t drawn) {
+  DeferredRenderPolicy policy;
+  Frames found;
+  bool drew = false, measured = false;
+  for (int frame = 0; frame < count; ++frame) {
+    const bool draws = policy.next_is_drawn(), measures = policy.measures();
+    if (measures) policy.record(draws ? drawn : followed);
+    if (draws && !drew) found.drawn.push_back(frame);
+    if (measures && !measured) found.measured.push_back(frame);
+    drew = draws, measured = measures;
+  }
+  return found;
+}
+
+TEST_CASE("Probes come after 512 frames, then after twice as many, up to 4096") {
+  const Frames frames = frames_of(20000, 7000, 7001);
+  CHECK(frames.drawn == std::vector{479, 1503, 3551, 7647, 11743, 15839, 19935});
+}
+
+TEST_CASE("A probe draws 16 frames and follows 16, and the first four of each do not count") {
+  CHECK(frames_of(600, 7000, 7001).measured == std::vector{479 + 4, 479 + 16 + 4});
+  DeferredRenderPolicy policy;
+  int drawn = 0, measured = 0;
+  for (int frame = 0; frame < 600; ++frame) {
+    drawn += policy.next_is_drawn() ? 1 : 0;
+    measured += policy.measures() ? 1 : 0;
+  }
+  CHECK(drawn == 16);
+  CHECK(measured == 24);
+}
+
+TEST_CASE("Frames that take the same time both ways are followed") {
+  CHECK(frames_of(1000, 7000, 7000).drawn == std::vector{479});
+  CHECK(frames_of(1000, 7000, 6999).drawn == std::vector{479, 511});
 }
 
 }  // namespace

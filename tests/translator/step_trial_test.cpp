@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <functional>
+#include <vector>
 
 using racebeam::translator::StepTrial;
 
@@ -47,6 +48,52 @@ TEST_CASE("Steps that differ with their place among four are compared with their
     CHECK(run(faster, 10000, with(80)) < 50);
     CHECK(run(slower, 10000, with(160)) > 9500);
   }
+}
+
+// The steps that run in the way that is not the usual one, of those in which one way has always won.
+std::vector<int> interpreted_steps(int steps, int translated, int interpreted) {
+  StepTrial trial;
+  std::vector<int> found;
+  for (int step = 0; step < steps; ++step) {
+    const bool is_interpreted = trial.begin_step();
+    if (is_interpreted) found.push_back(step);
+    if (trial.measures()) trial.end_step(is_interpreted ? interpreted : translated);
+  }
+  return found;
+}
+
+TEST_CASE("The first trial comes after 128 steps, and four of them are a round, after which pauses double") {
+  CHECK(interpreted_steps(260, 100, 200) ==
+        std::vector{129, 136, 143, 150, 161, 172, 183, 194, 213, 232, 251});
+}
+
+TEST_CASE("Pauses between trials are no longer than 1024 steps") {
+  CHECK(interpreted_steps(50000, 100, 200).size() - interpreted_steps(50000 - 10 * 1027, 100, 200).size() ==
+        10);
+}
+
+TEST_CASE("Three lost rounds in turn change the usual way, and pauses are then no longer than 64 steps") {
+  const std::vector<int> steps = interpreted_steps(10000, 200, 100);
+  CHECK(std::vector(steps.begin(), steps.begin() + 12) ==
+        std::vector{129, 136, 143, 150, 157, 164, 171, 178, 185, 192, 199, 206});
+  CHECK(steps[12] == 208);
+  const std::vector<int> longer = interpreted_steps(10000 + 10 * 67, 200, 100);
+  CHECK(longer.size() - steps.size() == 10 * 66);
+}
+
+TEST_CASE("The winner of a round is faster by more than a quarter") {
+  CHECK(interpreted_steps(1000, 125, 100).size() < 50);
+  CHECK(interpreted_steps(1000, 126, 100).size() > 500);
+}
+
+TEST_CASE("A round that is won in between begins the count of lost ones anew") {
+  StepTrial trial;
+  int trials = 0;
+  const int interpreted = run(trial, 4000, [&trials](int, bool is_interpreted) {
+    const int round = trials++ / 12;  // 12 steps each
+    return is_interpreted ? 100 : round % 3 == 2 ? 90 : 200;
+  });
+  CHECK(interpreted < 700);
 }
 
 TEST_CASE("A single slow step changes nothing") {

@@ -1,6 +1,7 @@
 #include "emulator/translator/translation_budget.hpp"
 
 #include <catch2/catch.hpp>
+#include <utility>
 
 using racebeam::Clocks;
 using racebeam::translator::TranslationBudget;
@@ -103,6 +104,103 @@ TEST_CASE("A batch that costs much more than the usual one is paid for before th
   TranslationBudget budget(false, kClocks);
   run(budget, 100);
   CHECK(run(budget, 100, [](int) { work(300 * kMicrosecond); }) == 1);
+}
+
+// Batches of so much, until the budget covers no more. Returns how many it covered.
+int drain(TranslationBudget& budget) {
+  int batches = 0;
+  for (; budget.covers_batch(); ++batches) {
+    const TranslationBudget::Charge charge(budget);
+    work(25 * kMicrosecond);
+  }
+  return batches;
+}
+
+void charge(TranslationBudget& budget, std::int64_t time) {
+  const TranslationBudget::Charge charging(budget);
+  work(time);
+}
+
+void step(TranslationBudget& budget, std::int64_t time) {
+  budget.begin_step();
+  work(time);
+  budget.end_step();
+}
+
+// Steps of so much until the budget covers a batch.
+int steps_until_covered(TranslationBudget& budget, std::int64_t time) {
+  int steps = 0;
+  for (; !budget.covers_batch(); ++steps) step(budget, time);
+  return steps;
+}
+
+TEST_CASE("The credit covers 24 batches of the usual cost") {
+  TranslationBudget budget(false, kClocks);
+  CHECK(drain(budget) == 24);
+  CHECK_FALSE(budget.covers_batch());
+}
+
+TEST_CASE("A fifth of a step is added, of 0.4 ms at most") {
+  for (const std::int64_t time : {400 * kMicrosecond, 10 * kMillisecond}) {
+    TranslationBudget budget(false, kClocks);
+    drain(budget);
+    step(budget, time);
+    CHECK(drain(budget) == 3);  // 80 us, and 5 are left
+    step(budget, 100 * kMicrosecond);
+    CHECK(budget.covers_batch());
+  }
+  TranslationBudget budget(false, kClocks);
+  drain(budget);
+  step(budget, 124 * kMicrosecond);
+  CHECK_FALSE(budget.covers_batch());
+  step(budget, 1 * kMicrosecond);
+  CHECK(budget.covers_batch());
+}
+
+TEST_CASE("Of a batch, 0.4 ms are charged at most") {
+  for (const std::int64_t time : {400 * kMicrosecond, 10 * kMillisecond}) {
+    TranslationBudget budget(false, kClocks);
+    drain(budget);
+    charge(budget, time);
+    CHECK(steps_until_covered(budget, 125 * kMicrosecond) == 17);  // 425 us
+  }
+}
+
+TEST_CASE("What translation takes in a step does not count as time that the program has run") {
+  TranslationBudget budget(false, kClocks);
+  drain(budget);
+  budget.begin_step();
+  charge(budget, 300 * kMicrosecond);
+  CHECK(budget.spent() == 300 * kMicrosecond);
+  work(100 * kMicrosecond);
+  budget.end_step();
+  CHECK(steps_until_covered(budget, 100 * kMicrosecond) == 16);  // 300 us less 20, and 25
+  budget.begin_step();
+  CHECK(budget.spent() == 0);
+}
+
+TEST_CASE("After 256 batches, a twentieth of a step is added") {
+  for (const auto& [batches, covered] : {std::pair(255, true), std::pair(256, false)}) {
+    TranslationBudget budget(false, kClocks);
+    for (int batch = drain(budget); batch < batches; ++batch) charge(budget, 0);
+    step(budget, 400 * kMicrosecond);
+    CHECK(budget.covers_batch() == covered);
+  }
+}
+
+int reads;  // of the wall's clock
+const Clocks kCountingClocks{[] { return ++reads, wall; }, [] { return processor; }};
+
+TEST_CASE("A budget holds 4 ms, and no clock is read while it is full") {
+  TranslationBudget budget(false, kCountingClocks);
+  for (int steps = 0; steps < 43; ++steps) step(budget, 400 * kMicrosecond);
+  reads = 0;
+  step(budget, 400 * kMicrosecond);
+  CHECK(reads == 0);
+  CHECK(drain(budget) == 160);
+  reads = 0;
+  step(budget, 400 * kMicrosecond);
+  CHECK(reads == 2);
 }
 
 TEST_CASE("An unlimited budget covers every batch, and says what each step spent") {

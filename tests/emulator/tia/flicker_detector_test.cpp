@@ -1,0 +1,105 @@
+// When a second set of line records is tried, kept and dropped.
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "emulator/tia/line_cache/line_cache.hpp"
+
+using namespace racebeam;
+
+namespace {
+
+constexpr std::size_t kRows = 40;
+
+// What a row shows in a frame.
+using Content = std::function<std::uint32_t(int frame, std::size_t row)>;
+
+// Plays frames, and draws the rows that no record has, as the TIA does.
+class Picture {
+ public:
+  // Returns how many rows were drawn.
+  int play(int frames, const Content& content) {
+    int drawn = 0;
+    for (int n = 0; n < frames; ++n) drawn += draw(content);
+    return drawn;
+  }
+
+  // The frames, of so many, in which rows are drawn after one in which none was.
+  std::vector<int> beginnings(int frames, const Content& content) {
+    std::vector<int> found;
+    for (bool before = true; frames_ < frames;) {
+      const bool now = draw(content) > 0;
+      if (now && !before) found.push_back(frames_);
+      before = now;
+    }
+    return found;
+  }
+
+ private:
+  int draw(const Content& content) {
+    cache_.begin_frame();
+    cache_.aim(kRows);
+    ++frames_;
+    int drawn = 0;
+    for (std::size_t row = 0; row < kRows; ++row) {
+      LineRecord& record = cache_.row(row);
+      const std::uint32_t wanted = content(frames_, row);
+      if (record.number != kNoLine && record.event[0] == wanted) continue;
+      record.open({});
+      record.count = 1;
+      record.event[0] = wanted;
+      cache_.add(record);
+      ++drawn;
+    }
+    return drawn;
+  }
+
+  LineCache cache_;
+  int frames_ = 0;
+};
+
+Content flickers(std::size_t rows) {
+  return [rows](int frame, std::size_t row) { return row < rows && frame % 2 == 0 ? 7U : 3U; };
+}
+std::uint32_t scrolls(int frame, std::size_t row) {
+  return static_cast<std::uint32_t>(frame) + 4096U * static_cast<std::uint32_t>(row);
+}
+// Costs twice as much with two sets.
+std::uint32_t changes_in_pairs(int frame, std::size_t row) { return scrolls(frame / 2, row); }
+
+TEST_CASE("Eight rows that flicker are remembered in two sets, seven and a half are not") {
+  Picture eight, fewer;
+  eight.play(8, flickers(8));
+  CHECK(eight.play(6, flickers(8)) == 0);
+  const auto seven_and_a_half = [](int frame, std::size_t row) {
+    return row == 7 ? (frame == 3 ? 7U : 3U) : flickers(7)(frame, row);
+  };
+  fewer.play(8, seven_and_a_half);
+  CHECK(fewer.play(6, seven_and_a_half) == 6 * 7);
+}
+
+TEST_CASE("A second set is tried anew after 64 frames, then after twice as many, up to 512") {
+  Picture picture;
+  CHECK(picture.beginnings(2100, flickers(20)) == std::vector{65, 193, 449, 961, 1473, 1985});
+}
+
+TEST_CASE("Rows that show something new in each frame do not flicker") {
+  Picture picture;
+  picture.play(200, scrolls);
+  picture.play(1, changes_in_pairs);
+  CHECK(picture.play(100, changes_in_pairs) == 50 * static_cast<int>(kRows));
+}
+
+TEST_CASE("A second set is dropped where it does not save rows, and is found again") {
+  for (const Content& other : {Content(scrolls), Content(changes_in_pairs)}) {
+    Picture picture;
+    picture.play(50, flickers(20));
+    CHECK(picture.play(10, flickers(20)) == 0);
+    picture.play(80, other);
+    picture.play(1, changes_in_pairs);
+    CHECK(picture.play(20, changes_in_pairs) == 10 * static_cast<int>(kRows));
+    picture.play(140, flickers(20));
+    CHECK(picture.play(10, flickers(20)) == 0);
+  }
+}
+
+}  // namespace
