@@ -7,6 +7,9 @@
 namespace racebeam {
 namespace {
 
+constexpr int kGroup = 32;  // pixels that are cheap to write at once
+static_assert(kLinePixels % kGroup == 0);
+
 constexpr int kCombEnd = kBlankClocks + 8;  // an HMOVE blanks up to this clock of the line
 
 // The sets of enabled objects (bit n: Object n) for which the reference writes pixels in groups of four.
@@ -91,7 +94,7 @@ void Beam::forget() {
 void Beam::draw_beyond(std::int32_t clock) {
   const std::int32_t stop = end();
   const bool in_line = tia_.cursor >= start() && clock <= tia_.cursor + tia_.left && clock <= stop;
-  if (in_line && !exact_spans()) return draw_in_line(clock);
+  if (in_line && !exact_spans()) return draw_in_line<false>(clock);
   if (clock < start() || tia_.cursor >= stop || tia_.cursor >= clock) return;
   clock = std::min(clock, stop);
   do {
@@ -125,21 +128,24 @@ RACEBEAM_INLINE std::uint8_t* Beam::row_of(int first) {
                                          static_cast<std::uintptr_t>(first));
 }
 
-// The common case: from the cursor to a visible clock on the same line.
+// The common case: from the cursor to a visible clock on the same line. kMayPass: the pixels after that are
+// drawn later, so that whole groups of them can be written.
+template <bool kMayPass>
 void Beam::draw_in_line(std::int32_t clock) {
   const int first = std::max(kLinePixels - tia_.left, 0);
   tia_.left -= clock - tia_.cursor;
   tia_.cursor = clock;
   const int last = kLinePixels - tia_.left;
   std::uint8_t* const row = row_of(first);
-  if (tia_.pixel >= forgotten_) forget_row();
-  draw_visible(row, first, last);
+  if (!kMayPass && tia_.pixel >= forgotten_) forget_row();
+  draw_visible(row, first, last, kMayPass ? (last + kGroup - 1) & ~(kGroup - 1) : last);
   if (tia_.comb_armed && first < kCombEnd - kBlankClocks) blank_comb(row, first, last);
   tia_.pixel += last - first;
 }
+template void Beam::draw_in_line<true>(std::int32_t clock);
 
 void Beam::finish_line() {
-  if (tia_.left > 0) draw_in_line(line_end());
+  if (tia_.left > 0) draw_in_line<true>(line_end());
   tia_.left = kLineClocks;
   end_line();
 }
@@ -185,12 +191,13 @@ void Beam::draw_span(int begin, int clocks) {
   const int last = std::max(end_clock - kBlankClocks, first);
   std::uint8_t* const row = row_of(first);
   if (tia_.pixel >= forgotten_) forget_row();
-  if (last > first) draw_visible(row, first, last);
+  if (last > first) draw_visible(row, first, last, last);
   if (tia_.comb_armed && visible < kCombEnd) blank_comb(row, visible, end_clock, first, last);
   tia_.pixel += last - first;
 }
 
-RACEBEAM_INLINE void Beam::draw_visible(std::uint8_t* row, int first, int last) {
+// drawn_to: `last`, or a later pixel up to which the row may be overwritten.
+RACEBEAM_INLINE void Beam::draw_visible(std::uint8_t* row, int first, int last, int drawn_to) {
   if (tia_.vblank) {
     if (draws_pixels()) std::memset(row + first, 0, static_cast<std::size_t>(last - first));
     return;
@@ -199,7 +206,7 @@ RACEBEAM_INLINE void Beam::draw_visible(std::uint8_t* row, int first, int last) 
   seen_ |= tia_.enabled | kLit | (score ? kScoreSeen : 0);
   const int collided = last - (tia_.cursor - collided_);  // collide_to() has been here
   if (collided < last) collide(std::max(first, collided), last);
-  if (draws_pixels()) draw_pixels_(line_, tia_, row, first, last);
+  if (draws_pixels()) draw_pixels_(line_, tia_, row, first, drawn_to);
   if (exact_spans()) spill(row, first, last);
 }
 

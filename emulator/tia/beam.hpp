@@ -2,6 +2,7 @@
 // (docs/spec/tia.md, 3, 5 and 6).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "emulator/base/inlining.hpp"
@@ -56,6 +57,14 @@ class Beam {
     if (clock > tia_.cursor && !pass_blank(clock) && !passes_none(clock, part)) draw_beyond(clock);
   }
 
+  // The same on the cursor's line, after enter_line().
+  RACEBEAM_INLINE void draw_on_line(std::int32_t clock) {
+    if (clock > tia_.cursor) draw_in_line<true>(clock);
+  }
+  RACEBEAM_INLINE void draw_before_on_line(std::int32_t clock, const PlayfieldPart& part) {
+    if (clock > tia_.cursor && !misses(clock, part)) draw_in_line<true>(clock);
+  }
+
   // Computes the collisions up to `clock`, so that the latches can be read or cleared. The pixels are left
   // until a register changes, or the line ends.
   void collide_to(std::int32_t clock);
@@ -85,6 +94,13 @@ class Beam {
   // Draws what the reference writes beyond the last span, which began at `begin` or before. Returns false if
   // that cannot be known.
   bool end_picture(std::int32_t begin);
+  // The cursor leaves the blank. The line must be finished before anything else is drawn.
+  void enter_line(bool is_recorded) {
+    const std::int32_t blank = std::max(tia_.left - kLinePixels, 0);
+    tia_.cursor += blank;
+    tia_.left -= blank;
+    if (!is_recorded && tia_.pixel >= forgotten_) forget_row();
+  }
   void finish_line();          // draws the rest of the line and processes its end
   void pass_lines(int count);  // skips lines that are drawn already, and whose ends have been processed
   int lines_to_end() const { return (end() - 1 - tia_.cursor) / kLineClocks; }  // without the last
@@ -140,7 +156,12 @@ class Beam {
   }
 
   bool passes_none(std::int32_t clock, const PlayfieldPart& part) {
-    if (exact_spans() || tia_.cursor < start_ || clock > line_end() || clock > end_) return false;
+    return !exact_spans() && tia_.cursor >= start_ && clock <= line_end() && clock <= end_ &&
+           misses(clock, part);
+  }
+
+  // Whether no pixel of the part lies between the cursor and `clock`, which is on its line.
+  bool misses(std::int32_t clock, const PlayfieldPart& part) {
     const int first = kLinePixels - tia_.left, last = first + clock - tia_.cursor;
     const bool left = first < part.left_end && last > part.left,
                right = first < part.right_end && last > part.right;
@@ -157,13 +178,14 @@ class Beam {
 
   bool comb_may_pass(int last) const;
   void draw_beyond(std::int32_t clock);
+  template <bool kMayPass>
   void draw_in_line(std::int32_t clock);
   void forget_row();
   std::size_t rows_needed() const;
   void find_window();
   void draw_span(int begin, int clocks);
   std::uint8_t* row_of(int first);
-  void draw_visible(std::uint8_t* row, int first, int last);
+  void draw_visible(std::uint8_t* row, int first, int last, int drawn_to);
   void collide(int first, int last);
   void spill(std::uint8_t* row, int first, int last);
   void blank_comb(std::uint8_t* row, int begin, int end, int first, int last);

@@ -1,4 +1,4 @@
-// Three receivers of the changes that writes to the TIA make (register_effects.hpp): one draws, one only
+// The receivers of the changes that writes to the TIA make (register_effects.hpp): two draw, one only
 // computes collisions, and one replays writes of a line whose pixels exist.
 //
 // Before a change:
@@ -47,6 +47,19 @@ struct RenderPolicy {
   RACEBEAM_INLINE void changed(std::uint8_t objects) const { beam.changed(objects); }
   RACEBEAM_INLINE void enabled() const {}
   RACEBEAM_INLINE void clear_collisions() const { beam.clear_collisions(); }
+};
+
+// Draws the rest of a line, all of whose writes are known.
+struct LinePolicy : RenderPolicy {
+  RACEBEAM_INLINE void draw_to(std::int32_t clock, unsigned) const { come_to(clock); }
+  RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart& part) const {
+    reach(clock);
+    beam.draw_before_on_line(reached, part);
+  }
+  RACEBEAM_INLINE void come_to(std::int32_t clock) const {
+    reach(clock);
+    beam.draw_on_line(reached);
+  }
 };
 
 // Computes collisions without pixels. The beam stays behind, except while objects are shown that may meet.

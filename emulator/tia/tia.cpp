@@ -78,6 +78,12 @@ void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& l
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
 
+void Tia::forget() {
+  beam_.forget();
+  recorded_ = nullptr;
+  reached_ = std::numeric_limits<std::int32_t>::min();
+}
+
 // The word behind the last write tells the cycle before which no other write is. On the line of that cycle,
 // only writes that affect the `latches` need be played. Returns false if that line was left.
 bool Tia::play_log(std::int32_t cycle, Collisions latches) {
@@ -149,6 +155,14 @@ void Tia::play(const std::uint32_t* next) {
   if (beam_.exact_spans()) beam_.draw_to(reached_);
 }
 
+// Plays the remaining writes of the cursor's line, and draws the line to its end.
+void Tia::play_rest(const std::uint32_t* next) {
+  beam_.enter_line(recorded_ != nullptr);
+  RegisterEffects(tia_, frame_, video_, LinePolicy{{beam_, reached_}}).play(played_, next, log_->base);
+  played_ = next;
+  beam_.finish_line();
+}
+
 // Plays writes that need no drawing.
 void Tia::skip(const std::uint32_t* next) {
   if (next == played_) return;
@@ -170,12 +184,14 @@ std::uint32_t Tia::line_origin() const {
   return TiaWrite(beam_.line_end() / 3 - kLineCycles - log_->base, 0, 0).packed();
 }
 
-// Whether the next write is on the cursor's line or after it, and the line can be recorded.
+// Whether the next write is on the cursor's line or after it, and the line can be taken as a whole. The beam
+// must not have reached what lies behind that.
 bool Tia::at_line() const {
   if (beam_.exact_spans() || tia_.cursor < beam_.start() || !beam_.line_can_end()) return false;
   const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles - log_->base;
   if (first_cycle < 0 || TiaWrite(*played_).cycle() + kEarliestWrite < first_cycle) return false;
-  return recorded_ != nullptr || !beam_.at_line_start() || reached_ <= tia_.cursor;
+  const bool begins = beam_.at_line_start() && recorded_ == nullptr;
+  return reached_ <= (begins ? tia_.cursor : beam_.line_end());
 }
 
 // Takes line after line as a whole: recalled if it exists, else drawn and recorded. Returns true if nothing
@@ -261,24 +277,25 @@ bool Tia::draw_line(std::uint32_t origin) {
     recorded_->open(tia_.registers());
     beam_.look_afresh();
   }
-  if (!record_writes(origin)) return false;
-  beam_.finish_line();
+  const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;
+  if (recorded_ == nullptr)
+    while (LineWrite(*next, origin).acts_here()) ++next;
+  if (!LineWrite(*next, origin).is_of_line())
+    play_rest(next);
+  else if (play(next); ends_early(next, origin))
+    beam_.finish_line();
+  else
+    return false;
   close_record();
   return true;
 }
 
-// Plays and records the writes of the cursor's line. Returns true if they are complete. Writes that act on
-// two lines, or are too many, are left, and the line is not recorded.
-bool Tia::record_writes(std::uint32_t origin) {
-  const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;
-  if (recorded_ == nullptr)
-    while (LineWrite(*next, origin).acts_here()) ++next;
-  play(next);
-  const LineWrite write(*next, origin);
-  if (!write.is_of_line()) return true;
+// Whether only late writes of the line are left. Otherwise writes that act on two lines, or are too many, are
+// left, and the line is not recorded.
+bool Tia::ends_early(const std::uint32_t* next, std::uint32_t origin) {
   // In Cosmic Ark mode, the end of a line has a further effect, and it matters whether that comes before a
   // late write.
-  if (write.is_late() && recorded_ != nullptr && tia_.cosmic == 0) return true;
+  if (LineWrite(*next, origin).is_late() && recorded_ != nullptr && tia_.cosmic == 0) return true;
   if (next != log_->next) recorded_ = nullptr;
   return false;
 }

@@ -35,7 +35,7 @@ class Tia {
   bool end_picture(std::int32_t cycle);
   // Whether pixels that were drawn ahead are visible in a picture that stops here.
   bool stopped_inside(std::int32_t cycle) const;
-  void forget() { beam_.forget(); }  // the registers were replaced as a whole
+  void forget();  // the registers were replaced as a whole
   void forget_lines() { beam_.forget_lines(); }
   // Greys the rows that were not drawn when a step ended open.
   void grey(FrameBuffer& picture, std::int32_t cycle) const;
@@ -46,6 +46,7 @@ class Tia {
   bool play_log(std::int32_t cycle, Collisions latches);
   bool follow_log();
   void play(const std::uint32_t* next);
+  void play_rest(const std::uint32_t* next);
   void skip(const std::uint32_t* next);
   const std::uint32_t* end_of_unseen() const;
   bool at_line() const;
@@ -55,7 +56,7 @@ class Tia {
   bool recall_lines(std::uint32_t& origin, Collisions latches);
   void play_recalled(const std::uint32_t* next, LineRecord& record);
   bool draw_line(std::uint32_t origin);
-  bool record_writes(std::uint32_t origin);
+  bool ends_early(const std::uint32_t* next, std::uint32_t origin);
   void close_record();
 
   TiaState& tia_;

@@ -1,7 +1,9 @@
 #include "emulator/tia/line/line.hpp"
 
 #include <bit>
-#include <cstring>
+
+#include "emulator/state/register_vectors.hpp"
+#include "emulator/state/tia_bytes.hpp"
 
 namespace racebeam {
 namespace {
@@ -53,20 +55,22 @@ constexpr auto make_pair_of_latch() {
 }
 constexpr auto kPairOfLatch = make_pair_of_latch();
 
+// The bytes that a mask is made from, by Object.
+constexpr std::array<ByteSet, kObjects> kShapeBytes = {
+    RACEBEAM_TIA_BYTE_SET((p0.grp, p0.old_grp, p0.refp, p0.vdel, p0.nusiz, p0.position, p0.skip)),
+    RACEBEAM_TIA_BYTE_SET((p1.grp, p1.old_grp, p1.refp, p1.vdel, p1.nusiz, p1.position, p1.skip)),
+    RACEBEAM_TIA_BYTE_SET((m0.enabled, m0.locked, m0.position, p0.nusiz, cosmic_shape)),
+    RACEBEAM_TIA_BYTE_SET((m1.enabled, m1.locked, m1.position, p1.nusiz)),
+    RACEBEAM_TIA_BYTE_SET((ball.enabled, ball.old_enabled, ball.vdel, ball.position, ctrlpf)),
+    RACEBEAM_TIA_BYTE_SET((pf[0], pf[1], pf[2], reflect))};
+
 }  // namespace
 
 std::uint8_t Line::outdated(const TiaRegisters& tia) const {
-  const auto differ = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) != 0; };
+  const ByteSet changed = RegisterVectors(tia).bytes_other_than(RegisterVectors(shown));
   unsigned objects = 0;
-  for (unsigned i = 0; i < 2; ++i) {
-    // NUSIZx is shared
-    if (differ(tia.player[i], shown.player[i])) objects |= 1U << (kP0 + i) | 1U << (kM0 + i);
-    if (differ(tia.missile[i], shown.missile[i])) objects |= 1U << (kM0 + i);
-  }
-  if (tia.cosmic_shape != shown.cosmic_shape) objects |= object_bit(kM0);
-  if (differ(tia.ball, shown.ball)) objects |= object_bit(kBall);
-  if (differ(tia.pf, shown.pf) || tia.reflect != shown.reflect) objects |= object_bit(kPlayfield);
-  if (tia.ctrlpf != shown.ctrlpf) objects |= object_bit(kBall) | object_bit(kPlayfield);
+  for (unsigned object = 0; object < kObjects; ++object)
+    if ((changed & kShapeBytes[object]) != 0) objects |= object_bit(static_cast<Object>(object));
   return static_cast<std::uint8_t>(objects);
 }
 

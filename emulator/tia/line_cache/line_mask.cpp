@@ -1,6 +1,7 @@
 #include "emulator/tia/line_cache/line_mask.hpp"
 
 #include <array>
+#include <bit>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -12,36 +13,38 @@ namespace {
 
 constexpr std::size_t kMost = 1 << 14;
 
-// A bit for each byte.
 struct Key {
-  std::uint64_t counts = 0, sets = 0;
+  ByteSet counts = 0, sets = 0;
   auto operator<=>(const Key&) const = default;
 };
 
+TiaRegisters mask_of(ByteSet set) {
+  TiaBytes bytes{};
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = set >> i & 1 ? 0xFF : 0;
+  return std::bit_cast<TiaRegisters>(bytes);
+}
+
 // Elements of a map do not move.
-const LineMask* find_or_add(const Key& key, const RegisterVectors& counts, const RegisterVectors& sets) {
+const LineMask* find_or_add(const Key& key) {
   static std::mutex mutex;
   static std::map<Key, LineMask> all;
   const std::lock_guard lock(mutex);
   if (const auto found = all.find(key); found != all.end()) return &found->second;
   if (all.size() == kMost) return nullptr;
-  LineMask& mask = all[key];
-  counts.write(mask.counts);
-  sets.write(mask.sets);
-  return &mask;
+  return &(all[key] = {mask_of(key.counts), mask_of(key.sets)});
 }
 
 }  // namespace
 
-const LineMask* LineMask::find(const RegisterVectors& counts, const RegisterVectors& sets) {
+const LineMask* LineMask::find(ByteSet counts, ByteSet sets) {
   struct Entry {
     Key key;
     const LineMask* mask = nullptr;
   };
   thread_local std::array<Entry, 256> recent;
-  const Key key{counts.bytes_set(), sets.bytes_set()};
+  const Key key{counts, sets};
   Entry& entry = recent[(key.counts * 0x9E3779B97F4A7C15 ^ key.sets * 0xC2B2AE3D27D4EB4F) >> 56];
-  if (entry.mask == nullptr || entry.key != key) entry = {key, find_or_add(key, counts, sets)};
+  if (entry.mask == nullptr || entry.key != key) entry = {key, find_or_add(key)};
   return entry.mask;
 }
 

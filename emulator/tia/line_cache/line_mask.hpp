@@ -3,7 +3,7 @@
 #pragma once
 
 #include "emulator/state/state.hpp"
-#include "emulator/tia/registers/register_vectors.hpp"
+#include "emulator/state/tia_bytes.hpp"
 
 namespace racebeam {
 
@@ -14,7 +14,7 @@ struct LineMask {
 
   // Returns the mask with these bytes. It is shared by all machines and never released. Thread-safe. Returns
   // null if there are too many masks, which only a program causes that writes at random.
-  static const LineMask* find(const RegisterVectors& counts, const RegisterVectors& sets);
+  static const LineMask* find(ByteSet counts, ByteSet sets);
 };
 
 }  // namespace racebeam

@@ -9,20 +9,36 @@
 namespace racebeam {
 namespace {
 
-constexpr std::uint8_t kAll = 0xFF;
-
 // A write that comes no later than this after RESPx may wait for the old copy of the player.
 constexpr std::uint32_t kWaitOfRespx = TiaWrite(4, 0, 0).packed() - 1;
 
 // Bytes that a line may change without a write, and what that depends on. The end of a line latches REFLECT,
 // and lets players be shown again. Missile 0 moves in its Cosmic Ark mode.
-constexpr TiaRegisters kAlways = RACEBEAM_TIA_BYTES((ctrlpf, reflect, enabled, cosmic, p0.skip, p1.skip));
-constexpr TiaRegisters kUsedUp = RACEBEAM_TIA_BYTES((comb_armed));  // by a line that uses them
-constexpr TiaRegisters kMotions = kRegisterBytes[HMCLR].sets;
+constexpr ByteSet kAlways = RACEBEAM_TIA_BYTE_SET((ctrlpf, reflect, enabled, cosmic, p0.skip, p1.skip));
+constexpr ByteSet kUsedUp = RACEBEAM_TIA_BYTE_SET((comb_armed));  // by a line that uses them
+constexpr ByteSet kMotions = set_of(kRegisterBytes[HMCLR].sets);
+constexpr ByteSet kColubkByte = RACEBEAM_TIA_BYTE_SET((color[3]));
+constexpr ByteSet kForeseen = RACEBEAM_TIA_BYTE_SET((spare[0]));
 
-void clear_but(TiaRegisters& registers, const RegisterVectors& mask) {
+// What a write sets and may set, by register. HMOVE sets the positions that it moves.
+struct WrittenBytes {
+  ByteSet sets, may_set;
+};
+constexpr auto kWrittenBytes = [] {
+  std::array<WrittenBytes, 64> table{};
+  for (unsigned reg = 0; reg < table.size(); ++reg)
+    table[reg] = {set_of(kRegisterBytes[reg].sets), reg == HMOVE ? 0 : set_of(kRegisterBytes[reg].may_set)};
+  return table;
+}();
+
+constexpr std::array<ByteSet, 5> kPositions = {  // by Object
+    RACEBEAM_TIA_BYTE_SET((p0.position)), RACEBEAM_TIA_BYTE_SET((p1.position)),
+    RACEBEAM_TIA_BYTE_SET((m0.position)), RACEBEAM_TIA_BYTE_SET((m1.position)),
+    RACEBEAM_TIA_BYTE_SET((ball.position))};
+
+void clear_but(TiaRegisters& registers, const TiaRegisters& mask) {
   RegisterVectors bytes(registers);
-  bytes &= mask;
+  bytes &= RegisterVectors(mask);
   bytes.write(registers);
 }
 
@@ -32,21 +48,13 @@ std::array<std::uint8_t, 5> motions_of(const TiaRegisters& tia) {
           tia.ball.motion};
 }
 
-// The objects that an HMOVE in this cycle moves.
-unsigned moved_objects(int cycle, const std::array<std::uint8_t, 5>& motion) {
+// The positions that an HMOVE in this cycle changes.
+ByteSet moved_positions(int cycle, const std::array<std::uint8_t, 5>& motion) {
   const auto& movement = kMovement[static_cast<std::size_t>(cycle + kLineCycles) % kLineCycles];
-  unsigned moved = 0;
-  for (unsigned object = 0; object < motion.size(); ++object)
-    moved |= (movement[motion[object]] != 0 ? 1U : 0U) << object;
+  ByteSet moved = 0;
+  for (std::size_t object = 0; object < motion.size(); ++object)
+    if (movement[motion[object]] != 0) moved |= kPositions[object];
   return moved;
-}
-
-void add_positions(TiaRegisters& mask, unsigned objects) {
-  for (unsigned i = 0; i < 2; ++i) {
-    if (objects >> (kP0 + i) & 1) mask.player[i].position = kAll;
-    if (objects >> (kM0 + i) & 1) mask.missile[i].position = kAll;
-  }
-  if (objects & object_bit(kBall)) mask.ball.position = kAll;
 }
 
 }  // namespace
@@ -90,15 +98,14 @@ std::uint8_t LineRecord::hash() const {
 // Computes which bytes count, and which are known at the end. A register's value at the end depends on the
 // writes, on the bytes that count for what is shown (line_dependencies.hpp), and on the following.
 void LineRecord::summarize(bool pal) {
-  TiaRegisters more = kAlways;
-  RegisterVectors sets(kUsedUp), may_set(TiaRegisters{});
+  ByteSet counts = kAlways, sets = kUsedUp;
   std::array<std::uint8_t, 5> motion = motions_of(start);
   bool foreseen = (start.cosmic | end.cosmic) == 0;
   for (unsigned i = 0; i < count; ++i) {
     const LineWrite write(event[i]);
     const unsigned reg = write.reg();
-    sets |= RegisterVectors(kRegisterBytes[reg].sets);
-    if (reg != HMOVE) may_set |= RegisterVectors(kRegisterBytes[reg].may_set);  // or stay as they were
+    sets |= kWrittenBytes[reg].sets;
+    counts |= kWrittenBytes[reg].may_set;  // or they stay as they were
     // clang-format off
     switch (reg) {
       // HMM0 may start the Cosmic Ark mode, by an HMOVE on the previous line.
@@ -107,24 +114,24 @@ void LineRecord::summarize(bool pal) {
       case HMCLR: motion = {}; break;
       case HMOVE:
         hmove_cycle = static_cast<std::int8_t>(write.cycle());
-        add_positions(more, moved_objects(hmove_cycle, motion));
+        counts |= moved_positions(hmove_cycle, motion);
         break;
       // In PAL, all colours have the frame's colour loss in bit 0.
-      case COLUP0: case COLUP1: case COLUPF: case COLUBK: more.color[3] |= pal ? kAll : 0; break;
+      case COLUP0: case COLUP1: case COLUPF: case COLUBK:
+        if (pal) counts |= kColubkByte;
+        break;
       default: break;
     }
     // clang-format on
   }
-  more.spare[0] = foreseen ? 0 : kAll;
-  RegisterVectors counts(more);
-  counts |= may_set;
-  counts |= seen_bytes();
-  if (view.seen & kMoves) counts |= RegisterVectors(kMotions);
+  counts |= seen_bytes().bytes_set();
+  if (view.seen & kMoves) counts |= kMotions;
+  if (!foreseen) counts |= kForeseen;
   sets |= counts;
   mask = LineMask::find(counts, sets);
   if (mask == nullptr) return;
-  clear_but(start, counts);
-  clear_but(end, sets);
+  clear_but(start, mask->counts);
+  clear_but(end, mask->sets);
   start.spare[0] = foreseen ? 0 : 1;  // a value that it never has: the writes must be played
 }
 

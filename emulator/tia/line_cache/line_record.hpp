@@ -6,11 +6,11 @@
 #include <cstdint>
 
 #include "emulator/base/inlining.hpp"
+#include "emulator/state/register_vectors.hpp"
 #include "emulator/state/state.hpp"
 #include "emulator/tia/line/line.hpp"
 #include "emulator/tia/line_cache/line_dependencies.hpp"
 #include "emulator/tia/line_cache/line_mask.hpp"
-#include "emulator/tia/registers/register_vectors.hpp"
 #include "emulator/tia/registers/write_log.hpp"
 
 namespace racebeam {

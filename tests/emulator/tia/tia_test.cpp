@@ -1,4 +1,5 @@
 // The cases of docs/spec/tia.md, "How to check", by number.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <sstream>
 #include <string>
@@ -39,13 +40,19 @@ struct Write {
   unsigned reg, value;
 };
 
-// S0, then these writes, then everything is drawn.
-Bench played(std::initializer_list<Write> writes) {
+// S0, then these writes.
+Bench begun(std::initializer_list<Write> writes) {
   Bench bench;
   for (const auto& [reg, x, value] :
        {std::tuple{COLUBK, 10, 0x0E}, {COLUPF, 13, 0x34}, {COLUP0, 16, 0x56}, {COLUP1, 19, 0x78}})
     bench.write(0, x, reg, static_cast<unsigned>(value));
   for (const Write& w : writes) bench.write(w.line, w.x, w.reg, w.value);
+  return bench;
+}
+
+// The same, and everything is drawn.
+Bench played(std::initializer_list<Write> writes) {
+  Bench bench = begun(writes);
   bench.write(250, 0, VSYNC, 0);
   bench.end_step();
   return bench;
@@ -189,6 +196,28 @@ TEST_CASE("Case 10: without VSYNC a frame closes with the first write after line
     CHECK(console.state().cycle == 22116);
     CHECK(console.state().frame.lines == 291);
   }
+}
+
+// The ball meets no playfield, so that each read of their latch draws up to its cycle.
+Bench interrupted_on_line_60(bool goes_further) {
+  Bench bench = begun({{0, 30, PF0, 0xF0}, {0, 33, ENABL, 2}, {1, 40, RESBL, 0}, {60, 30, COLUBK, 0x12}});
+  bench.end_step();
+  const State kept = bench.state;
+  bench.read(60, 35, kCXBLPF);
+  if (goes_further) bench.read(61, 60, kCXBLPF);
+  bench.restore(kept);
+  bench.write(60, 50, COLUBK, 0x9A);
+  bench.write(250, 0, VSYNC, 0);
+  bench.end_step();
+  return bench;
+}
+
+TEST_CASE(
+    "A state restored in the middle of a step goes on from its own clock, though the beam was further") {
+  Bench expected = interrupted_on_line_60(false), further = interrupted_on_line_60(true);
+  CHECK(expected.row(26)[100] == 0x9A);
+  CHECK(std::ranges::equal(further.picture().pixels(), expected.picture().pixels()));
+  CHECK(further.state.tia.pixel == expected.state.tia.pixel);
 }
 
 // Pixels that the reference writes ahead of the beam (section 6), in a frame that closes inside the window.

@@ -36,6 +36,17 @@ struct RegisterVectors {
            std::uint64_t{top_bits(part[2])} << 32;
   }
 
+  // Returns a bit for each byte that differs.
+  RACEBEAM_INLINE std::uint64_t bytes_other_than(const RegisterVectors& other) const {
+    using Bytes [[gnu::vector_size(16)]] = char;
+    std::uint64_t set = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const auto differ = reinterpret_cast<Bytes>(part[i]) != reinterpret_cast<Bytes>(other.part[i]);
+      set |= std::uint64_t{top_bits(reinterpret_cast<TwoWords>(differ))} << 16 * i;
+    }
+    return set;
+  }
+
   // A part of what lies in memory.
   RACEBEAM_INLINE static TwoWords of(const TiaRegisters& registers, std::size_t i) {
     return load<TwoWords>(reinterpret_cast<const std::uint8_t*>(&registers) + i * sizeof(TwoWords));
