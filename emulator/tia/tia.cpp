@@ -74,6 +74,7 @@ void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& l
   watches_ = beam_.may_meet() || tia_.cosmic;
   log_ = &log;
   played_ = log.next;
+  pending_ = {};
   recorded_ = nullptr;
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
@@ -100,6 +101,30 @@ bool Tia::play_log(std::int32_t cycle, Collisions latches) {
   }
 }
 
+// Whether the latches are the same after the writes that have not been played: none of them clears one that
+// is set, and in each other pair, one object is not enabled, nor will be. Many writes are played instead.
+bool Tia::is_settled(Collisions latches) {
+  if (pending_.first != played_) pending_ = {played_, played_};
+  if (log_->next - pending_.last > kMostExamined) return false;
+  for (; pending_.last != log_->next; ++pending_.last) {
+    const TiaWrite write(*pending_.last);
+    pending_.control |= kLineEffects[write.reg()].control & kAllObjects;
+    pending_.clears |= write.reg() == CXCLR;
+    if (write.reg() - GRP0 < 2U && write.value() != 0)
+      pending_.filled |= object_bit(kP0 + write.reg() - GRP0);
+  }
+  if (pending_.clears && (tia_.collisions & latches) != 0) return false;
+  unsigned objects = tia_.enabled | pending_.control;
+  const auto meet = [&] {
+    const auto others = static_cast<Collisions>(tia_.collisions | ~latches);
+    return can_meet(static_cast<std::uint8_t>(objects), others);
+  };
+  if (!meet()) return true;
+  for (unsigned i = 0; i < 2; ++i)  // VDELPx and the other player's GRPx cannot enable an empty player
+    if ((tia_.player[i].grp | tia_.player[i].old_grp) == 0) objects &= pending_.filled | ~(1U << (kP0 + i));
+  return !meet();
+}
+
 // Plays the log in steps without pixels.
 bool Tia::follow_log() {
   skip(end_of_unseen());
@@ -114,6 +139,7 @@ void Tia::empty_log(std::int32_t cycle) {
   play_log(cycle);
   log_->rewind(cycle);
   played_ = log_->next;
+  pending_ = {};
 }
 
 void Tia::catch_up(std::int32_t cycle) {
@@ -124,6 +150,7 @@ void Tia::catch_up(std::int32_t cycle) {
 
 void Tia::find_collisions(std::int32_t cycle, Collisions latches) {
   latches_read_ |= latches;
+  if (beam_.draws_pixels() && !beam_.exact_spans() && is_settled(latches)) return;
   if (!play_log(cycle, latches)) return;
   if (!beam_.draws_pixels()) return touch(cycle);
   RenderPolicy{beam_, reached_}.collide_to(3 * cycle);

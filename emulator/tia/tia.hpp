@@ -43,6 +43,17 @@ class Tia {
  private:
   static constexpr Collisions kWholePicture = 0xFFFF;  // a value of `latches`: more than collisions
 
+  static constexpr int kMostExamined = 32;  // writes between two reads of latches
+
+  // Writes that have not been played, from `first` to `last`.
+  struct Pending {
+    const std::uint32_t *first = nullptr, *last = nullptr;
+    unsigned control = 0;  // the objects that they may enable (bit n: Object n)
+    unsigned filled = 0;   // the players that they give graphics
+    bool clears = false;   // there is a CXCLR
+  };
+
+  bool is_settled(Collisions latches);
   bool play_log(std::int32_t cycle, Collisions latches);
   bool follow_log();
   void play(const std::uint32_t* next);
@@ -65,7 +76,8 @@ class Tia {
   Beam beam_;
   WriteLog* log_ = nullptr;
   const std::uint32_t* played_ = nullptr;  // entries up to here have been played
-  LineRecord* recorded_ = nullptr;         // the cursor's line, as far as it has been drawn
+  Pending pending_;
+  LineRecord* recorded_ = nullptr;  // the cursor's line, as far as it has been drawn
   Collisions latches_read_ = 0;
   bool watches_ = false;  // objects of a sought pair may meet, in a step without pixels
   // The clock that the reference's beam has reached; ours may be behind, with the same registers.
