@@ -94,12 +94,11 @@ void check_frame(const FrameState& frame) {
   check_flag("the flag of a paddle's capacitor", frame.dumping);
   check_flag("the flag of an open frame", frame.open);
   check_range("the flag of a greyed frame", frame.greyed, 0, frame.open);
-  check_zeros("a spare byte of the frame", std::array{frame.spare});
 }
 
 void check_inputs(const Inputs& inputs) {
   for (const std::int32_t ohms : inputs.paddle) check_range("a paddle's resistance", ohms, 0, INT32_MAX);
-  for (const std::uint8_t stick : inputs.joystick) check_range("a joystick", stick, 0, 0x1F);
+  for (const std::uint8_t stick : inputs.joystick) check_range("a joystick", stick, 0, kStickBits);
   check_range("the paddles' buttons", inputs.paddle_fire, 0, 0x0F);
 }
 

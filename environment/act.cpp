@@ -12,6 +12,11 @@ int Environment::act(int a, int b, float strength_a, float strength_b) {
   return impl_->act(presses);
 }
 
+bool Environment::takes(const Act& act) const {
+  return is_action(act.a) && is_action_of_b(act.b) && impl_->legal.takes_a(act.a) &&
+         impl_->legal.takes_b(act.b);
+}
+
 int Environment::act_for(int frames, int a, int b, float strength_a, float strength_b) {
   const Presses presses{{a, strength_a}, {b, strength_b}};
   impl_->legal.check(presses);

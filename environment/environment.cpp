@@ -79,9 +79,9 @@ Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_pt
       power_on(make_power_on(settings, random)),
       console(image->bytes, properties, *power_on, settings.cpu, pace),
       rule(*game),
-      legal(game->legal_actions, console.has_paddles()),
+      legal(game->legal_actions, properties.left, properties.right),
       sticky(settings.sticky),
-      controller_input(console.has_paddles(), paddle_limits(settings, *game)),
+      controller_input(properties, paddle_limits(settings, *game)),
       lives_at_start(rule.initial_lives()),
       drawing(settings.color_averaging ? Drawing::kLastTwo : Drawing::kLast),
       blend(settings.color_averaging ? &racebeam::blend(console.format()) : nullptr) {

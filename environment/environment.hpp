@@ -45,9 +45,10 @@ class Environment {
   Environment(Environment&&) noexcept;
   Environment& operator=(Environment&&) noexcept;
 
-  // One agent step of `frame_skip` frames. a: 0-25, b: 18-35 (docs/spec/environment.md, 1). Returns the
-  // clamped sum of rewards.
+  // One agent step of `frame_skip` frames. a: 0-25, b: 18-35, or numbers of the controllers' own
+  // (docs/spec/environment.md, 1). Returns the clamped sum of rewards.
   int act(int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
+  bool takes(const Act& act) const;  // whether the actions are numbers of this machine's
   int act(const Act& act) { return this->act(act.a, act.b, act.strength_a, act.strength_b); }
   // The clamped rewards of both players for the last act; `a` is what act() returned. `b` is 0 if the game's
   // rule has no second player.

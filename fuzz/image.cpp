@@ -1,5 +1,5 @@
-// A cartridge image on two machines, interpreted and translated. The first bytes are scheme, size, seed, and
-// eight steps of play of two bytes each. The rest is the image, repeated up to its size.
+// A cartridge image on two machines, interpreted and translated. The first bytes are scheme and controller,
+// size, seed, and eight steps of play of two bytes each. The rest is the image, repeated up to its size.
 #include <array>
 #include <memory>
 #include <vector>
@@ -12,9 +12,11 @@
 namespace racebeam::fuzz {
 namespace {
 
-constexpr std::array<std::size_t, 10> kSizes = {2048,  4096,  8192,  8448,  10496,
-                                                12288, 16384, 32768, 65536, 131072};
+constexpr std::array<std::size_t, 12> kSizes = {2048,  4096,  8192,  8448,   10496, 12288,
+                                                16384, 32768, 65536, 131072, 28672, 262144};
 constexpr int kSteps = 8;
+constexpr std::array<Controller, 4> kLeft = {Controller::kJoystick, Controller::kKeyboard,
+                                             Controller::kPaddles, Controller::kLightGun};
 
 // A small picture, because the CPU is tested.
 Properties properties_of(std::uint8_t scheme) {
@@ -22,7 +24,7 @@ Properties properties_of(std::uint8_t scheme) {
   Properties properties;
   properties.format = Format::kNtsc;
   properties.height = 100;
-  properties.left = (scheme & 0x80) != 0 ? Controller::kPaddles : Controller::kJoystick;
+  properties.left = kLeft[scheme >> 6];
   const std::size_t number = scheme % 0x40U % (names.size() + 1);
   if (number > 0) properties.scheme = names[number - 1];
   return properties;

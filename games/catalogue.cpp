@@ -175,11 +175,24 @@ std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const I
   return std::make_shared<const Game>(with_image(*game, {image.md5, properties, game->accepts(image.md5)}));
 }
 
-std::string image_warning(const Game& game, const Image& image) {
+bool is_other_dump(const Game& game, const Image& image) {
   const bool lists_images = std::ranges::any_of(game.images, &GameImage::accepted);
-  if (!game.has_rule() || !lists_images || game.accepts(image.md5)) return "";
-  return "the MD5 of this image, " + image.md5 + ", is not that of the image which the rule of '" +
-         game.name + "' was written for; score and end may be wrong";
+  return game.has_rule() && lists_images && !game.accepts(image.md5);
+}
+
+bool is_doubtful(const Game& game, const Image& image) {
+  if (!game.properties_for(image.md5).scheme.empty() || known_image(image.md5) != nullptr) return false;
+  return accesses_no_hot_spot(*image.bytes, scheme_of(*image.bytes));
+}
+
+std::string image_warning(const Game& game, const Image& image) {
+  if (is_other_dump(game, image))
+    return "the MD5 of this image, " + image.md5 + ", is not that of the image which the rule of '" +
+           game.name + "' was written for; score and end may be wrong";
+  if (!is_doubtful(game, image)) return "";
+  return "no code of this image selects a bank of the cartridge scheme " +
+         std::string(scheme_of(*image.bytes).name) +
+         ", which its size suggests; it may not run. The setting scheme names another one";
 }
 
 }  // namespace racebeam

@@ -71,7 +71,13 @@ Recognition recognise_as(const Image& image, const std::shared_ptr<const Game>& 
 std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const Image& image,
                                        const GivenProperties& choices);
 
-// Warns that a game's rule was written for another image than this one. Empty if it was not.
+// Whether a game's rule was written for another image than this one.
+bool is_other_dump(const Game& game, const Image& image);
+
+// Whether the image hardly has the cartridge scheme that its size suggests, and nothing else says which one.
+bool is_doubtful(const Game& game, const Image& image);
+
+// The sentence about such an image; empty if there is nothing to say.
 std::string image_warning(const Game& game, const Image& image);
 
 // An image and its game. Both are const, so that any number of machines share them.

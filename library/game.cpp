@@ -43,9 +43,7 @@ std::vector<std::string> Game::names() {
 const std::string& Game::name() const noexcept { return impl_->game->name; }
 const std::string& Game::title() const noexcept { return impl_->game->title; }
 bool Game::has_rewards() const noexcept { return impl_->game->has_rule(); }
-bool Game::fits(const Image& image) const {
-  return image_warning(*impl_->game, *Internals::of(image)).empty();
-}
+bool Game::fits(const Image& image) const { return !is_other_dump(*impl_->game, *Internals::of(image)); }
 std::vector<Action> Game::legal_actions() const { return as_actions(impl_->game->legal_actions); }
 std::vector<Action> Game::minimal_actions() const { return as_actions(impl_->game->minimal_actions); }
 std::vector<int> Game::modes() const { return impl_->game->offered_modes(); }

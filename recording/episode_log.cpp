@@ -112,8 +112,9 @@ class LogReader {
     for (std::size_t i = 0; i < hashes; ++i) log.hashes.push_back(hash_at(left_.substr(8 * i)));
     for (const char byte : left_.substr(8 * hashes)) {
       const auto action = static_cast<std::uint8_t>(byte);
-      if (action >= kConsoleActions)
-        throw InvalidInput("it has action " + std::to_string(action) + "; accepted: 0 to 25");
+      if (!is_action(action))
+        throw InvalidInput("it has action " + std::to_string(action) +
+                           "; accepted: 0 to 37, and those with more buttons");
       log.actions.push_back(action);
     }
   }

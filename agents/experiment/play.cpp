@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "agents/base/episode_start.hpp"
+#include "environment/input/has_paddles.hpp"
 #include "games/game/actions.hpp"
 #include "recording/episode_account.hpp"
 #include "system/invalid_input.hpp"
@@ -102,7 +103,8 @@ Replay Replayer::play(const EpisodeLog& log, const Cartridge& cartridge) {
   settings.machine.cpu = cpu_;
   auto stage = std::make_unique<Stage>(cartridge, settings, Drawing::kNone);
   stage->begin(settings.machine.random_seed);
-  const std::vector<int>& actions = actions_of(settings.action_set, *cartridge.game);
+  const std::vector<int> actions =
+      actions_of(settings.action_set, *cartridge.game, properties_of(stage->machine()));
   Player player(stage->machine(), settings.life_loss);
   for (const int action : log.actions) {
     if (player.over()) break;

@@ -59,7 +59,7 @@ struct AgentContext {
   PlaySettings play;
   GameFacts* facts = nullptr;  // what was discovered about the game before
 
-  const std::vector<int>& actions() const { return actions_of(play.action_set, *cartridge.game); }
+  std::vector<int> actions() const { return actions_of(play.action_set, *cartridge.game); }
 };
 
 // What an experiment does with an agent if the plan says nothing else.

@@ -21,9 +21,8 @@ void warn_about(const Recognition& recognition, const Image& image, const Tell& 
     tell(
         "'" + image.stem + "' (MD5 " + image.md5 +
         ") is not in the catalogue: it runs without a score; --game NAME or --game-file FILE selects a rule");
-  } else if (const std::string warning = image_warning(game, image); !warning.empty()) {
-    tell(warning);
   }
+  if (const std::string warning = image_warning(game, image); !warning.empty()) tell(warning);
 }
 
 // The keys of GivenProperties.
@@ -32,8 +31,8 @@ struct ConsoleOption {
 };
 constexpr ConsoleOption kConsoleOptions[] = {
     {"scheme", "NAME", "Cartridge scheme of the image, such as F8; auto: detected"},
-    {"left", "CONTROLLER", "Controller in the left port: joystick or paddles"},
-    {"right", "CONTROLLER", "Controller in the right port: joystick or paddles"},
+    {"left", "CONTROLLER", "Controller in the left port: joystick, paddles, keyboard, ..."},
+    {"right", "CONTROLLER", "Controller in the right port, the same"},
     {"format", "FORMAT", "Television standard: auto, ntsc, pal, pal60 or secam"},
     {"ystart", "LINE", "First line of the picture, 0 to 50"},
     {"height", "LINES", "Lines of the picture, 100 to 256"},

@@ -19,7 +19,9 @@ constexpr std::uint64_t kSpecialRegisters = register_bit(VBLANK) | register_bit(
 std::size_t ram_beside_state(const Scheme& scheme) { return scheme.ram > kRamInState ? scheme.ram : 0; }
 
 constexpr std::uint8_t kNop = 0xEA;
-constexpr unsigned kRiot = 0x80;  // the address bit that selects the RIOT
+constexpr unsigned kFirstButton = 12;  // INPT4 among the registers that are read
+constexpr unsigned kRiot = 0x80;       // the address bit that selects the RIOT
+constexpr unsigned kRamBits = 0x1280, kMirrorBit = 0x0800;
 constexpr int kLineLimit = 290, kLineLimitPal = 342;
 constexpr std::uint64_t kHash = 0x9E3779B97F4A7C15;
 constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::min() / 4;
@@ -31,6 +33,7 @@ Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
       tia(state.tia, state.frame, video),
       slot{*rom, scheme_of(*rom, properties.scheme), state, {}, map},
       cartridge_ram(ram_beside_state(slot.scheme)),
+      ram_bits(slot.scheme.watches_mirrors ? kRamBits | kMirrorBit : kRamBits),
       rom_(std::move(rom)),
       ports_(properties),
       unwatched_(slot.scheme.watches_riot ? 0 : kRiot) {
@@ -44,7 +47,7 @@ Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
 void Board::map_memory() {
   for (std::size_t page = 0; page < map.page.size(); ++page) {
     const std::size_t address = page * MemoryMap::kPageSize;
-    map.page[page] = (address & 0x1280) == 0x0080 ? state.riot.ram.data() + (address & 0x40) : nullptr;
+    map.page[page] = (address & ram_bits) == kRiot ? state.riot.ram.data() + (address & 0x40) : nullptr;
   }
   slot.scheme.map(slot);
   code = {};
@@ -238,7 +241,7 @@ std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::
   if (address & unwatched_) return read_riot(address, cycle);
   if (slot.scheme.watches_tia) [[unlikely]] {
     read_cartridge(address, cycle);
-    if (address & kRiot) return read_riot(address, cycle);
+    if (address & kRiot) return read_watched(address, cycle);
   }
   return read_tia(address, latch, cycle);
 }
@@ -260,17 +263,29 @@ std::int32_t Board::write_anywhere(std::uint16_t address, std::uint8_t value, st
   if (to_cartridge || slot.scheme.watches_tia) {
     if (write_cartridge(address, value) == Delivery::kTaken) return cycle;
     if (!to_cartridge && (address & kRiot) != 0) {
-      write_riot(address, value, cycle);
+      write_watched(address, value, cycle);
       return cycle;
     }
   }
   return write_tia(address, value, cycle, after_read);
 }
 
+// The RIOT, also its RAM, behind a cartridge that has seen the access.
+std::uint8_t Board::read_watched(std::uint16_t address, std::int32_t cycle) {
+  return (address & kRamBits) == kRiot ? state.riot.ram[address & 0x7F] : read_riot(address, cycle);
+}
+
+void Board::write_watched(std::uint16_t address, std::uint8_t value, std::int32_t cycle) {
+  if ((address & kRamBits) == kRiot)
+    state.riot.ram[address & 0x7F] = value;
+  else
+    write_riot(address, value, cycle);
+}
+
 std::uint8_t Board::read_riot(std::uint16_t address, std::int32_t cycle) {
   // clang-format off
   switch (address & 7) {
-    case 0: return ports_.swcha(state.inputs);
+    case 0: return ports_.swcha(state, cycle);
     case 1: return state.riot.swacnt;
     case 2: return state.inputs.switches;
     case 3: return 0;
@@ -280,10 +295,18 @@ std::uint8_t Board::read_riot(std::uint16_t address, std::int32_t cycle) {
   // clang-format on
 }
 
+// SWCHA and SWACNT. Only a keyboard notices the levels.
+void Board::write_port(unsigned reg, std::uint8_t value) {
+  if (reg == 1) state.riot.swacnt = value;
+  if (!ports_.has_keyboard()) return;
+  if (reg == 0) state.frame.swcha = value;
+  set_pins();
+}
+
 // The ports come first, and ignore A4 (docs/spec/riot.md, 1).
 void Board::write_riot(std::uint16_t address, std::uint8_t value, std::int32_t cycle) {
-  if ((address & 7) == 1)
-    state.riot.swacnt = value;
+  if ((address & 7) < 2)
+    write_port(address & 7, value);
   else if ((address & 0x14) == 0x14)
     Timer(state.riot, cycle).set(value, kTimerShift[address & 3]);
 }
@@ -306,8 +329,14 @@ std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int
   } else {
     touch_tia(cycle);
     driven = static_cast<std::uint32_t>(cycle) >= pin_high_from_[reg - 8] ? 0x80 : 0;
+    if (reg >= kFirstButton && gun_sees_beam(reg - kFirstButton, cycle)) driven = 0;
   }
   return static_cast<std::uint8_t>(driven | (latch & 0x3F));
+}
+
+bool Board::gun_sees_beam(unsigned side, std::int32_t cycle) const {
+  if (!ports_.has_light_gun() || side > 1) return false;
+  return ports_.sees_beam(side, state.inputs, cycle, state.tia.origin / 3 + kLineCycles * video.ystart);
 }
 
 // These are the only reads that depend on the picture: the log is played up to `cycle`.
@@ -378,8 +407,7 @@ void Board::write_dump(bool on, std::int32_t cycle) {
 // The inputs are the same in the whole step.
 void Board::set_pins() {
   pin_high_from_.fill(Ports::kNever);
-  for (unsigned pin = 0; pin < Ports::kPins; ++pin)
-    pin_high_from_[pin] = ports_.high_from(pin, state.inputs, state.frame);
+  for (unsigned pin = 0; pin < Ports::kPins; ++pin) pin_high_from_[pin] = ports_.high_from(pin, state);
 }
 
 }  // namespace racebeam

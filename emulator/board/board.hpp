@@ -99,6 +99,12 @@ class Board {
   bool needs_exact_step() const;
   void set_format_limits();  // after `video` or the frame's origin has changed
 
+  // Whether translated code does not know what accesses do: a pin that follows the beam, or watched RAM.
+  bool must_be_interpreted() const { return ports_.has_light_gun() || slot.scheme.watches_mirrors; }
+
+  // RAM that no cartridge watches is where only bit 7 of these is set.
+  const std::uint16_t ram_bits;
+
   void map_memory();                 // rebuilds everything that is derived from the state, after a reset
   void restore(const State& other);  // replaces the state
 
@@ -111,6 +117,10 @@ class Board {
   std::uint8_t read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
   std::uint8_t read_riot(std::uint16_t address, std::int32_t cycle);
   void write_riot(std::uint16_t address, std::uint8_t value, std::int32_t cycle);
+  void write_port(unsigned reg, std::uint8_t value);
+  std::uint8_t read_watched(std::uint16_t address, std::int32_t cycle);
+  void write_watched(std::uint16_t address, std::uint8_t value, std::int32_t cycle);
+  bool gun_sees_beam(unsigned side, std::int32_t cycle) const;
   std::int32_t write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
   void close_frame();
   void write_vsync(std::uint8_t value, std::int32_t cycle);

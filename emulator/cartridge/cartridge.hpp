@@ -60,10 +60,13 @@ struct Scheme : MapperOps {
   unsigned ram;      // bytes on the cartridge, or of its registers
   bool random_ram;   // filled with random bytes at every reset
   bool watches_tia;  // takes part in accesses to the TIA's addresses
-  // Sees accesses to the RIOT's ports and timer, too; then watches_tia must be set. RAM is never watched.
+  // Sees accesses to the RIOT's ports and timer, too; then watches_tia must be set.
   bool watches_riot = false;
   unsigned registers = 0;   // bytes of the state in use where the RAM is beside it
   unsigned most_image = 0;  // the most bytes of an image; 0: any number, of which the first are used
+  // Sees accesses to RAM at addresses with bit 11 set; then watches_riot must be set. Such a cartridge is
+  // interpreted. RAM at other addresses is never watched.
+  bool watches_mirrors = false;
 };
 
 // RAM up to this size is part of the state. Larger RAM has a block of its own, which keeps the state of most
@@ -85,6 +88,10 @@ const Scheme& scheme_of(const Rom& rom, std::string_view asked_for = {});
 
 // The name that the size and the signatures give; empty if no scheme fits.
 std::string_view scheme_name(const Rom& rom);
+
+// Whether no instruction in the image accesses a hot spot of its scheme, which selects banks of 4K by hot
+// spots at the end of the cartridge. The image is then hardly one of that scheme. False for other schemes.
+bool accesses_no_hot_spot(const Rom& rom, const Scheme& scheme);
 
 // All names that can be asked for.
 std::span<const std::string_view> scheme_names();

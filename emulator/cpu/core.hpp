@@ -221,7 +221,7 @@ struct Core {
   }
 
   RACEBEAM_INLINE void write(std::uint16_t address, std::uint8_t value) {
-    if ((address & 0x1280) == 0x0080) {
+    if ((address & board.ram_bits) == 0x0080) {
       board.state.riot.ram[address & 0x7F] = value;
     } else {
       write_device(address, value);

@@ -7,7 +7,20 @@
 
 namespace racebeam {
 
-enum class Controller : std::uint8_t { kJoystick, kPaddles };
+// docs/spec/controllers.md. kNone: nothing that answers, such as a SaveKey that is not there.
+enum class Controller : std::uint8_t {
+  kJoystick,
+  kPaddles,
+  kKeyboard,
+  kDriving,
+  kBooster,
+  kGenesis,
+  kLightGun,
+  kTrackball,
+  kAtariMouse,
+  kAmigaMouse,
+  kNone
+};
 
 // The television standard. kAuto: 60 frames are run, and the long ones counted (docs/spec/console.md, 1).
 enum class Format : std::uint8_t { kAuto, kNtsc, kPal, kPal60, kSecam };

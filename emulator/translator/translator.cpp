@@ -224,7 +224,7 @@ Translator::Translator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Translator::~Translator() = default;
 
 std::unique_ptr<Translator> Translator::make(Board& board, CpuKind kind) {
-  if (kind == CpuKind::kInterpreter) return nullptr;
+  if (kind == CpuKind::kInterpreter || board.must_be_interpreted()) return nullptr;
   if (!executable_memory_error().empty()) {
     if (kind == CpuKind::kAuto) return nullptr;
     throw std::system_error(std::make_error_code(std::errc::permission_denied), executable_memory_error());

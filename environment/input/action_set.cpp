@@ -7,16 +7,26 @@
 
 namespace racebeam {
 
-const std::vector<int>& actions_of(ActionSet set, const Game& game) {
-  static const std::vector<int> full = all_actions();
-  static const std::vector<int> console = [] {
-    std::vector<int> list(kConsoleActions);
-    std::iota(list.begin(), list.end(), 0);
-    return list;
-  }();
-  if (set == ActionSet::kFull) return full;
-  if (set == ActionSet::kConsole) return console;
-  return set == ActionSet::kLegal ? game.legal_actions : game.minimal_actions;
+namespace {
+
+// All of the console, and those that only player A's controller has.
+std::vector<int> with_console(Controller controller) {
+  std::vector<int> list(kConsoleActions);
+  std::iota(list.begin(), list.end(), 0);
+  const std::vector<int> more = actions_with(controller);
+  list.insert(list.end(), more.begin(), more.end());
+  return list;
+}
+
+}  // namespace
+
+std::vector<int> actions_of(ActionSet set, const Game& game, const Properties& properties) {
+  switch (set) {
+    case ActionSet::kFull: return all_actions();
+    case ActionSet::kConsole: return with_console(properties.left);
+    case ActionSet::kLegal: return game.legal_actions;
+    default: return game.minimal_actions;
+  }
 }
 
 Act act_of(float radius, float angle, float fire, float threshold) {

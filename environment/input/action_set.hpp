@@ -9,7 +9,8 @@ namespace racebeam {
 
 enum class ActionSet { kFull, kLegal, kMinimal, kConsole };
 
-const std::vector<int>& actions_of(ActionSet set, const Game& game);  // player A's numbers, ascending
+// Player A's numbers, ascending. The controller matters for kConsole only.
+std::vector<int> actions_of(ActionSet set, const Game& game, const Properties& properties = {});
 
 // A joystick that is turned and tilted: `radius` 0 to 1, `angle` in radians, 0 to the right; FIRE where
 // `fire` is above the threshold. Its direction is the one of 9 whose components are above the threshold, and

@@ -1,9 +1,12 @@
-// Applies actions to the console's ports and switches (docs/spec/environment.md, 2; docs/spec/console.md, 5).
+// Applies actions to the console's ports and switches (docs/spec/environment.md, 2; docs/spec/console.md, 5;
+// docs/spec/controllers.md).
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "emulator/state/inputs.hpp"
+#include "emulator/state/properties.hpp"
 #include "environment/input/console_switches.hpp"
 #include "environment/input/effective_actions.hpp"
 #include "environment/input/paddles.hpp"
@@ -12,10 +15,11 @@ namespace racebeam {
 
 class ControllerInput {
  public:
-  ControllerInput(bool use_paddles, PaddleLimits limits) : use_paddles_(use_paddles), limits_(limits) {}
+  ControllerInput(const Properties& properties, PaddleLimits limits)
+      : controllers_{properties.left, properties.right}, limits_(limits) {}
 
   const PaddleLimits& limits() const { return limits_; }
-  PaddleValues middle() const { return limits_.middle(); }
+  PaddleValues middle() const;  // where paddles, wheels and guns are when an episode begins
 
   // For one frame. An unknown action presses nothing; player A's may press RESET or SELECT.
   void press(Inputs& inputs, const Presses& presses, const ConsoleSwitches& switches,
@@ -25,9 +29,12 @@ class ControllerInput {
   static void press_select(Inputs& inputs, const ConsoleSwitches& switches);
 
  private:
+  bool use_paddles() const {
+    return controllers_[0] == Controller::kPaddles || controllers_[1] == Controller::kPaddles;
+  }
   void turn_paddles(Inputs& inputs, const Presses& presses, PaddleValues& paddles) const;
 
-  bool use_paddles_;
+  std::array<Controller, 2> controllers_;  // player A's, player B's
   PaddleLimits limits_;
 };
 

@@ -23,7 +23,10 @@ std::uint64_t sticky_threshold(float p) {
   return draws <= 0 ? 0 : draws >= kDraws ? 1ULL << 32 : static_cast<std::uint64_t>(draws);
 }
 
-LegalActions::LegalActions(const std::vector<int>& legal, bool paddles) : paddles_(paddles) {
+LegalActions::LegalActions(const std::vector<int>& legal, Controller a, Controller b)
+    : paddles_(a == Controller::kPaddles || b == Controller::kPaddles),
+      more_a_(actions_with(a)),
+      more_b_(actions_with(b)) {
   for (const int action : legal) legal_ |= 1u << action;
 }
 
@@ -31,17 +34,13 @@ void LegalActions::check(const Presses& presses) const {
   if (!std::isfinite(presses.a.strength) || !std::isfinite(presses.b.strength)) {
     throw std::invalid_argument("a paddle's strength must be a finite number");
   }
-  if (paddles_) return;
-  if (replace_a(presses.a.action) >= kConsoleActions) {
-    throw std::invalid_argument(
-        "action " + std::to_string(presses.a.action) +
-        " of player A is out of range; accepted: 0 to 25, and 40 which presses nothing");
-  }
-  if (replace_b(presses.b.action) >= 36) {
-    throw std::invalid_argument(
-        "action " + std::to_string(presses.b.action) +
-        " of player B is out of range; accepted: 18 to 35, and 40 which presses nothing");
-  }
+  const auto refuse = [](int action, const char* player, const char* accepted, bool has_more) {
+    throw std::invalid_argument("action " + std::to_string(action) + " of player " + player +
+                                " is out of range; accepted: " + accepted + ", and 40 which presses nothing" +
+                                (has_more ? "; and those of its controller" : ""));
+  };
+  if (!takes_a(presses.a.action)) refuse(presses.a.action, "A", "0 to 25", !more_a_.empty());
+  if (!takes_b(presses.b.action)) refuse(presses.b.action, "B", "18 to 35", !more_b_.empty());
 }
 
 }  // namespace racebeam

@@ -2,6 +2,7 @@
 // (docs/spec/environment.md, 1, 3 and 4).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -42,10 +43,15 @@ class Sticky {
 // The action numbers that a game accepts, and the replacement of others.
 class LegalActions {
  public:
-  LegalActions(const std::vector<int>& legal, bool paddles);
+  // The controllers are player A's and player B's.
+  LegalActions(const std::vector<int>& legal, Controller a, Controller b);
 
-  // Throws std::invalid_argument for actions that would abort the reference's process. With paddles, any
-  // number is accepted.
+  // Whether the machine has an action of that number: those that would abort the reference's process are
+  // replaced, or belong to a controller that is connected. With paddles, any number is accepted.
+  bool takes_a(int a) const { return paddles_ || has(replace_a(a), kConsoleActions, more_a_); }
+  bool takes_b(int b) const { return paddles_ || has(replace_b(b) - kActions, kActions, more_b_); }
+
+  // Throws std::invalid_argument for other actions, and for a strength that is not a finite number.
   void check(const Presses& presses) const;
 
   // Replaces illegal actions, and the reference's RESET, by NOOP.
@@ -54,6 +60,9 @@ class LegalActions {
   }
 
  private:
+  static bool has(int action, int end, const std::vector<int>& more) {
+    return (action >= 0 && action < end) || std::ranges::find(more, action) != more.end();
+  }
   bool is_legal(int a) const { return a >= 0 && a < 18 && (legal_ >> a & 1) != 0; }
   int replace_a(int a) const { return (a < 18 && !is_legal(a)) || a == kReferenceReset ? 0 : a; }
   int replace_b(int b) const {
@@ -62,6 +71,7 @@ class LegalActions {
 
   std::uint32_t legal_ = 0;  // bit n: action n is legal
   bool paddles_;
+  std::vector<int> more_a_, more_b_;  // of their controllers
 };
 
 }  // namespace racebeam

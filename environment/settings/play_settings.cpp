@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "emulator/cartridge/cartridge.hpp"
+#include "environment/input/has_paddles.hpp"
 #include "environment/settings/setting_tables.hpp"
 #include "system/entropy.hpp"
 #include "system/named_rows.hpp"
@@ -113,10 +114,6 @@ void append_frame_skip(std::string& out, const PlaySettings& settings, const Env
 
 void append_reward_limit(std::string& out, int limit, int none) {
   limit == none ? void(out += "none") : append_number(out, std::int64_t{limit});
-}
-
-Properties properties_of(const Environment& machine) {
-  return machine.game().properties_for(machine.image().md5);
 }
 
 // A short way to write the two functions of a row whose value is a number.

@@ -33,11 +33,11 @@ void check_count(std::size_t count, const std::string& what, std::size_t machine
   });
 }
 
-void check_act(const Act& act) {
-  refuse_unless(act.a >= 0 && act.a < kConsoleActions, [&] {
+void check_act(const Act& act, const Slot& slot) {
+  refuse_unless(slot.environment().takes({.a = act.a}), [&] {
     return "action " + std::to_string(act.a) + " of player A is out of range; accepted: 0 to 25";
   });
-  refuse_unless(act.b >= kActions && act.b < 2 * kActions, [&] {
+  refuse_unless(slot.environment().takes({.b = act.b}), [&] {
     return "action " + std::to_string(act.b) + " of player B is out of range; accepted: 18 to 35";
   });
   refuse_unless(std::isfinite(act.strength_a) && std::isfinite(act.strength_b),
@@ -303,7 +303,7 @@ BatchResults Batch::make_results() const { return impl_->layout.make_results(bat
 
 void Batch::step(std::span<const Act> acts, const BatchArrays& out) {
   check_count(acts.size(), "actions", size());
-  for (const Act& act : acts) check_act(act);
+  for (std::size_t i = 0; i < acts.size(); ++i) check_act(acts[i], impl_->vector.slot(i));
   impl_->check_free();
   const Impl::Output output(*impl_, out);
   impl_->vector.step(acts);
@@ -340,8 +340,9 @@ void Batch::end_episodes(std::span<const std::int32_t> machines, std::span<const
 
 void Batch::send(std::span<const Act> acts, std::span<const std::int32_t> machines) {
   check_count(acts.size(), "actions", machines.size());
-  for (const Act& act : acts) check_act(act);
   impl_->check_machines(machines);
+  for (std::size_t i = 0; i < acts.size(); ++i)
+    check_act(acts[i], impl_->vector.slot(static_cast<std::size_t>(machines[i])));
   for (std::size_t i = 0; i < machines.size(); ++i)
     impl_->jobs[static_cast<std::size_t>(machines[i])] = {.act = acts[i]};
   impl_->begin(machines);

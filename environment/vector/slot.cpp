@@ -4,6 +4,7 @@
 #include <string>
 
 #include "environment/act_parts.hpp"
+#include "environment/input/has_paddles.hpp"
 #include "environment/saved_state.hpp"
 #include "system/invalid_input.hpp"
 
@@ -67,7 +68,7 @@ Slot::Slot(const Cartridge& cartridge, const SlotSettings& settings, Pace* pace)
     : settings_(checked(settings)),
       pace_(pace),
       environment_(cartridge.image, cartridge.game, machine_settings(settings), pace),
-      actions_(actions_of(settings.action_set, environment_.game())),
+      actions_(actions_of(settings.action_set, environment_.game(), properties_of(environment_))),
       noops_(settings.machine.random_seed, settings.noop_max) {
   environment_.make_all_audio(settings.all_audio);
   set_up();

@@ -199,7 +199,7 @@ class Slot {
   const SlotSettings settings_;
   Pace* const pace_;
   Environment environment_;
-  const std::vector<int>& actions_;
+  const std::vector<int> actions_;
   Noops noops_;                             // with its own generator, as in the reference
   std::optional<std::uint32_t> next_seed_;  // of end_episode()
   Outcome outcome_;

@@ -12,8 +12,19 @@
 namespace racebeam {
 
 // The names in settings.
-inline constexpr std::array<WordFor<Controller>, 2> kControllers = {
-    {{"joystick", Controller::kJoystick}, {"paddles", Controller::kPaddles}}};
+inline constexpr std::array<WordFor<Controller>, 12> kControllers = {
+    {{"joystick", Controller::kJoystick},
+     {"paddles", Controller::kPaddles},
+     {"keyboard", Controller::kKeyboard},
+     {"driving", Controller::kDriving},
+     {"booster", Controller::kBooster},
+     {"genesis", Controller::kGenesis},
+     {"light_gun", Controller::kLightGun},
+     {"trackball", Controller::kTrackball},
+     {"atari_mouse", Controller::kAtariMouse},
+     {"amiga_mouse", Controller::kAmigaMouse},
+     {"none", Controller::kNone},
+     {"savekey", Controller::kNone}}};
 inline constexpr std::array<WordFor<Format>, 5> kFormats = {{{"auto", Format::kAuto},
                                                              {"ntsc", Format::kNtsc},
                                                              {"pal", Format::kPal},

@@ -13,13 +13,18 @@ namespace {
 
 constexpr int kMostTimes = 1'000'000'000;  // Session::check_frames() limits what is asked for in all
 
-// `end`: the numbers that the player may have are below it.
+enum class Player : bool { kA, kB };
+
+bool is_allowed(int action, const AllowedActions& actions, Player player) {
+  return (player == Player::kA ? actions.allowed : actions.allowed_b)[static_cast<std::size_t>(action)];
+}
+
 [[noreturn]] void refuse(std::string_view word, std::string_view why, const AllowedActions& actions,
-                         int end = kConsoleActions) {
+                         Player player = Player::kA) {
   std::string list;
   std::vector<std::string_view> names;
-  for (int action = 0; action < end; ++action) {
-    if ((actions.allowed >> action & 1) == 0) continue;
+  for (int action = 0; action < kActionNumbers; ++action) {
+    if (!is_allowed(action, actions, player)) continue;
     ((list += ' ') += std::to_string(action) + '=') += action_name(action);
     names.push_back(action_name(action));
   }
@@ -34,22 +39,35 @@ std::string upper_case(std::string_view word) {
   return upper;
 }
 
-// `end`: the player's numbers are below it.
-int number_of(std::string_view word, const AllowedActions& actions, int end) {
+std::string_view why_not(int action) {
+  if (is_of_console(action)) return " needs a game that was loaded with action_set=console";
+  if (is_key(action)) return " needs a game with a keyboard, loaded with action_set=console";
+  if (has_more_buttons(action)) return " needs a controller with that button, and action_set=console";
+  return " is not in the action set that was loaded";
+}
+
+int number_of(std::string_view word, const AllowedActions& actions, Player player) {
   const bool digits = !word.empty() && word[0] >= '0' && word[0] <= '9';
   auto number = digits ? parse_number<int>(word) : action_number(word);
   if (!number && !digits) number = action_number(upper_case(word));
-  if (!number || *number < 0 || *number >= kConsoleActions) refuse(word, " is not an action", actions);
-  if (*number >= end) refuse(word, " is an action of player A only", actions, end);
-  if ((actions.allowed >> *number & 1) == 0)
-    refuse(word,
-           is_of_console(*number) ? " needs a game that was loaded with action_set=console"
-                                  : " is not in the action set that was loaded",
-           actions);
+  if (!number || !is_action(*number)) refuse(word, " is not an action", actions);
+  if (player == Player::kB && is_of_console(*number))
+    refuse(word, " is an action of player A only", actions, player);
+  if (!is_allowed(*number, actions, player)) refuse(word, why_not(*number), actions, player);
   return *number;
 }
 
+// A place on the screen, "80,100", has the number x + 256 * y.
+constexpr float kPlaceStep = 256;
+constexpr int kMostPlace = 255;
+
 float strength_of(std::string_view text) {
+  const std::size_t whole = text.size();
+  std::string_view x = text;
+  const std::string_view y = cut_behind(x, ',');
+  if (x.size() < whole)
+    return static_cast<float>(number_within(x, "the x of a place", 0, kScreenWidth - 1)) +
+           kPlaceStep * static_cast<float>(number_within(y, "the y of a place", 1, kMostPlace));
   const auto strength = parse_number<float>(text);
   if (strength && std::isfinite(*strength)) return *strength;
   throw RequestError(ErrorCode::kBadValue,
@@ -66,14 +84,14 @@ Action parse_action(std::string_view word, const AllowedActions& actions) {
   const std::size_t players = a.size();
   std::string_view b = cut_behind(a, '/');
   const bool has_b = a.size() < players;
-  const auto player = [&actions](std::string_view text, float& strength, int end) {
+  const auto player = [&actions](std::string_view text, float& strength, Player who) {
     const std::size_t whole = text.size();
     const std::string_view part = cut_behind(text, '@');
     strength = text.size() < whole ? strength_of(part) : 1;
-    return number_of(text, actions, end);
+    return number_of(text, actions, who);
   };
-  action.act.a = player(a, action.act.strength_a, kConsoleActions);
-  if (has_b) action.act.b = kActions + player(b, action.act.strength_b, kActions);
+  action.act.a = player(a, action.act.strength_a, Player::kA);
+  if (has_b) action.act.b = kActions + player(b, action.act.strength_b, Player::kB);
   return action;
 }
 

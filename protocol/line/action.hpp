@@ -1,10 +1,11 @@
 // One word of `act`: A[@STRENGTH][/B[@STRENGTH]][*TIMES].
 #pragma once
 
-#include <cstdint>
+#include <bitset>
 #include <string_view>
 
 #include "environment/environment.hpp"
+#include "games/game/actions.hpp"
 
 namespace racebeam {
 
@@ -16,7 +17,7 @@ struct Action {
 // The actions that a client may ask for, for sentences: the numbers with bits set in `allowed`.
 struct AllowedActions {
   std::string_view game;
-  std::uint32_t allowed;  // bit n: action n
+  std::bitset<kActionNumbers> allowed, allowed_b;  // bit n: action n of player A's; of player B's, from 0 on
 };
 
 // Throws RequestError.

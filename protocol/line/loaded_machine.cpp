@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "environment/input/has_paddles.hpp"
+
 namespace racebeam {
 
 SlotSettings slot_settings(const PlaySettings& settings) {
@@ -29,8 +31,21 @@ void observe(Slot& slot, const std::vector<Field>& fields) {
 LoadedMachine::LoadedMachine(const Cartridge& cartridge, const PlaySettings& settings,
                              std::vector<Field> fields, Pacer& pacer)
     : pacer_(pacer), slot_(cartridge, slot_settings(settings), &pacer), view_({}), memory_(slot_) {
-  for (const int action : slot_.actions()) allowed_ |= 1U << action;
+  allow_actions();
   observe(std::move(fields));
+}
+
+// Player B has those of player A's that are a joystick's and, with the console's, those of the controller at
+// the right.
+void LoadedMachine::allow_actions() {
+  const auto index = [](int action) { return static_cast<std::size_t>(action); };
+  for (const int action : slot_.actions()) {
+    allowed_.set(index(action));
+    if (action < kActions) allowed_b_.set(index(action));
+  }
+  if (!allowed_[index(kResetAction)]) return;
+  for (const int action : actions_with(properties_of(slot_.environment()).right))
+    allowed_b_.set(index(action));
 }
 
 std::size_t LoadedMachine::most_held(const std::vector<Field>& fields) {

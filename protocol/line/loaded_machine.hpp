@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bitset>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -28,7 +29,7 @@ class LoadedMachine {
   Slot& slot() { return slot_; }
   Environment& machine() { return slot_.environment(); }
   const Environment& machine() const { return slot_.environment(); }
-  AllowedActions allowed() const { return {machine().game().name, allowed_}; }
+  AllowedActions allowed() const { return {machine().game().name, allowed_, allowed_b_}; }
 
   // Bytes of memory that a machine with these fields may come to hold.
   static std::size_t most_held(const std::vector<Field>& fields);
@@ -43,9 +44,11 @@ class LoadedMachine {
   void append_final(std::string& out, std::string& raw) { view_.append_final(out, raw, slot_); }
 
  private:
+  void allow_actions();
+
   Pacer& pacer_;
   Slot slot_;
-  std::uint32_t allowed_ = 0;  // bit n: action n
+  std::bitset<kActionNumbers> allowed_, allowed_b_;  // bit n: action n
   View view_;
   MachineMemory memory_;
 };

@@ -2,10 +2,11 @@
 """Finds games that end by a clock, of which the rule does not know.
 
 A machine has ended if no action changes its memory any more: after the same number of frames, memory is the same,
-whatever was pressed. The last second of each try presses nothing, since games remember the joystick. Three players
-play each game: one does nothing, one only fires, and one plays at random, and goes back before a lost life.
+whatever was pressed. The last second of each try presses nothing, since games remember the joystick. Four players
+play each game: one does nothing, one only fires, one plays at random, and goes back before a lost life, and one keeps
+its lives: it writes the byte of memory back that counts them.
 
-    find_clocks.py [--frames N] [--rules ale-0.12] [--processes N] [--players noop,fire,random] [GAME...]
+    find_clocks.py [--frames N] [--rules ale-0.12] [--processes N] [--players noop,fire,random,held] [GAME...]
 
 prints a line for each game and player: whether the rule said that the game was over, the machine has ended without it,
 or the player came to its last frame or no further. The Python package must be installed (scripts/wheel --venv).
@@ -18,7 +19,7 @@ import random
 import racebeam
 from racebeam._core import View
 
-PLAYERS = ("noop", "fire", "random")
+PLAYERS = ("noop", "fire", "random", "held")
 PRESSED = {"noop": 0, "fire": 1}
 LOOK = 1800  # frames from one check to the next
 TRY, REST = 840, 60  # frames of a try, and of the NOOP at its end
@@ -99,6 +100,39 @@ def play_on(machine, most, random_numbers):
             yield
 
 
+def life_byte(machine, before, after, memory, lives):
+    """The byte that brings a lost life back, and its value before; None if no single byte does."""
+    for place in range(len(memory)):
+        machine.restore(after)
+        if machine.ale.getRAM()[place] == memory[place]:
+            continue
+        machine.ale.setRAM(place, int(memory[place]))
+        machine.act(0, 1)
+        if not machine.over and machine.lives >= lives:
+            machine.restore(before)
+            return place, int(memory[place])
+    machine.restore(before)
+    return None
+
+
+def keep_lives(machine, most, random_numbers):
+    """Plays at random, and writes the byte of lives back where one is lost, until no byte helps."""
+    held = None
+    while machine.frame < most:
+        before, lives, memory = machine.save(), machine.lives, machine.ale.getRAM()
+        machine.act(random_numbers.randrange(ACTIONS), 1 if held is None else STEP // 2)
+        if machine.lives < lives and held is None:
+            held = life_byte(machine, before, machine.save(), memory, lives)
+        if machine.over:
+            machine.restore(before)
+            machine.act(0, 1)
+        if machine.over or (held is None and machine.lives < lives):
+            return
+        if machine.lives < lives:
+            machine.ale.setRAM(*held)
+        yield
+
+
 def press(machine, action, most):
     """Presses and releases a button until the game is over."""
     while machine.frame < most and not machine.over:
@@ -122,7 +156,9 @@ def first_dead(machine, states, most_differing):
 
 
 def steps_of(machine, player, most):
-    return play_on(machine, most, random.Random(7)) if player == "random" else press(machine, PRESSED[player], most)
+    if player in PRESSED:
+        return press(machine, PRESSED[player], most)
+    return (play_on if player == "random" else keep_lives)(machine, most, random.Random(7))
 
 
 def look_at(task):

@@ -27,7 +27,7 @@ constexpr Reset kResets[] = {
 int completed_frames(const Image& image, const Game& game, int soft_resets) {
   SystemGenerator random(4753849);
   Console console(image.bytes, game.properties_for(image.md5), random);
-  const ControllerInput hands(console.has_paddles(), {});
+  const ControllerInput hands(game.properties_for(image.md5), {});
   PaddleValues paddles = hands.middle();
   int completed = 0;
   const auto step = [&](int action) {

@@ -94,12 +94,19 @@ TEST_CASE("the console's properties belong to the image") {
 }
 
 TEST_CASE("action names and numbers belong together") {
-  for (int action = 0; action < kConsoleActions; ++action)
-    CHECK(action_number(action_name(action)) == action);
+  for (int action = 0; action < kActionNumbers; ++action)
+    if (is_action(action)) CHECK(action_number(action_name(action)) == action);
   CHECK(action_name(17) == "DOWNLEFTFIRE");
   CHECK(action_name(kResetAction) == "RESET");
   CHECK(action_name(kBlackAndWhiteAction) == "BW");
-  CHECK(action_name(kConsoleActions).empty());
+  CHECK(action_name(kFirstKey) == "KEY1");
+  CHECK(action_name(kFirstKey + kKeys - 1) == "KEYHASH");
+  CHECK(action_name(kFirstKey + kKeys).empty());
+  CHECK(action_name(kWithC + 1) == "FIRE+C");
+  CHECK(action_name(kWithBoth + 17) == "DOWNLEFTFIRE+TRIGGER+BOOSTER");
+  CHECK(action_name(kWithC + kActions).empty());
+  CHECK(action_name(kActionNumbers).empty());
+  CHECK_FALSE(action_number(""));
   CHECK(action_name(kReferenceReset).empty());
   CHECK(action_name(-1).empty());
   CHECK_FALSE(action_number("JUMP"));

@@ -12,7 +12,18 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr AllowedActions kAll{"pong", 0x3FFFF}, kSome{"pong", 0b1011}, kConsole{"pong", 0x3FFFFFF};
+const AllowedActions kAll{"pong", 0x3FFFF, 0x3FFFF}, kSome{"pong", 0b1011, 0b1011},
+    kConsole{"pong", 0x3FFFFFF, 0x3FFFF};
+
+// A keyboard, and a booster grip.
+AllowedActions with_controllers() {
+  AllowedActions actions = kConsole;
+  for (const int key : actions_with(Controller::kKeyboard))
+    actions.allowed.set(static_cast<std::size_t>(key));
+  for (const int action : actions_with(Controller::kBooster))
+    actions.allowed_b.set(static_cast<std::size_t>(action));
+  return actions;
+}
 
 std::string refusal(const std::string& word, const AllowedActions& actions = kAll) {
   try {
@@ -54,8 +65,31 @@ TEST_CASE("The switches of the console are actions of player A, where they were 
   CHECK_THAT(refusal("RESET"), Contains("'RESET' needs a game that was loaded with action_set=console"));
   CHECK_THAT(refusal("NOOP/RESET", kConsole),
              Contains("'RESET' is an action of player A only; pong takes 0=NOOP"));
-  CHECK_THAT(refusal("26", kConsole), Contains("'26' is not an action; pong takes 0=NOOP") &&
+  CHECK_THAT(refusal("38", kConsole), Contains("'38' is not an action; pong takes 0=NOOP") &&
                                           Contains("17=DOWNLEFTFIRE 18=RESET 19=SELECT 20=LEFT_A"));
+}
+
+TEST_CASE("Keys and more buttons are actions where their controller is connected, of its player") {
+  const AllowedActions actions = with_controllers();
+  CHECK(parse_action("KEY7", actions).act.a == 32);
+  CHECK(parse_action("keyhash*3", actions).act.a == 37);
+  CHECK(parse_action("KEY1/UPFIRE+TRIGGER+BOOSTER", actions).act.b == 18 + 160 + 10);
+  CHECK(parse_action("NOOP/96", actions).act.b == 18 + 96);
+  CHECK_THAT(refusal("KEY7"), Contains("'KEY7' needs a game with a keyboard"));
+  CHECK_THAT(refusal("NOOP/KEY7", actions), Contains("'KEY7' needs a game with a keyboard"));
+  CHECK_THAT(refusal("UP+C", actions), Contains("'UP+C' needs a controller with that button"));
+  CHECK_THAT(refusal("UP+TRIGGER", actions), Contains("'UP+TRIGGER' needs a controller with that button"));
+  CHECK_THAT(refusal("38", actions), Contains("'38' is not an action") && Contains("37=KEYHASH"));
+}
+
+TEST_CASE("A place on the screen is written X,Y") {
+  CHECK(parse_action("FIRE@80,100", kAll).act.strength_a == 80 + 256 * 100);
+  CHECK(parse_action("NOOP/FIRE@159,255*2", kAll).act.strength_b == 159 + 256 * 255);
+  for (const std::string word :
+       {"FIRE@160,1", "FIRE@0,0", "FIRE@0,256", "FIRE@,1", "FIRE@1,", "FIRE@1,2,3"}) {
+    INFO(word);
+    CHECK_THAT(refusal(word), Contains("bad-"));
+  }
 }
 
 TEST_CASE("Player B, strengths and repetition") {

@@ -16,17 +16,15 @@ struct Case {
 };
 
 constexpr Case kCases[] = {
-    {"2K", 2048},   {"4K", 4096},    {"4K", 4096},    {"4K", 4096},   {"F8", 8192},    {"F8", 8192},
-    {"F8SC", 8192}, {"F6", 16384},   {"F6SC", 16384}, {"F4", 32768},  {"F4SC", 32768}, {"FASC", 12288},
-    {"E0", 8192},   {"E7", 16384},   {"FE", 8192},    {"DPC", 10240}, {"3F", 8192},    {"3E", 8192},
-    {"UA", 8192},   {"CV", 2048},    {"CV 4K", 4096}, {"MB", 65536},  {"MC", 131072},  {"4KSC", 4096},
-    {"FA2", 28672}, {"JANE", 16384}, {"FC", 16384},   {"3E+", 16384}, {"3EX", 8192},   {"UA clone", 8192},
-    {"0FA0", 8192}, {"0840", 8192},  {"03E0", 8192},  {"EF", 65536},  {"SB", 131072}};
-constexpr Case kArmCases[] = {{"DPC+", 32768}};
+    {"2K", 2048},    {"4K", 4096},    {"4K", 4096},     {"4K", 4096},   {"F8", 8192},     {"F8", 8192},
+    {"F8SC", 8192},  {"F6", 16384},   {"F6SC", 16384},  {"F4", 32768},  {"F4SC", 32768},  {"FASC", 12288},
+    {"E0", 8192},    {"E7", 16384},   {"FE", 8192},     {"DPC", 10240}, {"3F", 8192},     {"3E", 8192},
+    {"UA", 8192},    {"CV", 2048},    {"CV 4K", 4096},  {"MB", 65536},  {"MC", 131072},   {"4KSC", 4096},
+    {"FA2", 28672},  {"JANE", 16384}, {"FC", 16384},    {"3E+", 16384}, {"3EX", 8192},    {"UA clone", 8192},
+    {"0FA0", 8192},  {"0840", 8192},  {"03E0", 8192},   {"EF", 65536},  {"SB", 131072},   {"UASW", 8192},
+    {"EFSC", 65536}, {"DF", 131072},  {"DFSC", 131072}, {"BF", 262144}, {"BFSC", 262144}, {"X07", 65536}};
 
 using Bytes = std::vector<std::uint8_t>;
-
-constexpr std::size_t kArmEntry = 3072 + 8;  // behind the driver, and two instructions of ARM code
 
 // Idioms of games that random code seldom contains.
 const std::vector<Bytes> kIdioms = {
@@ -49,7 +47,7 @@ const std::vector<Bytes> kIdioms = {
 };
 
 // And of those that an ARM helps: fast fetch on and off, reads of fetchers through it, and calls.
-const std::vector<Bytes> kArmIdioms = {
+const std::vector<Bytes> kDpcPlusIdioms = {
     {0xA9, 0x00, 0x8D, 0x58, 0x10},                                // STA $1058: fast fetch on
     {0xA9, 0x08, 0x85, 0x0D, 0xA9, 0x11, 0x85, 0x0E},              // two fetchers
     {0xA9, 0x01, 0x8D, 0x58, 0x10, 0xA9, 0x08, 0x85, 0x0D},        // off
@@ -59,12 +57,40 @@ const std::vector<Bytes> kArmIdioms = {
      0x10},  // a loop of 16 reads through fast fetch
 };
 
+// The same with streams, and jumps through two of them.
+const std::vector<Bytes> kCdfIdioms = {
+    {0xA9, 0x00, 0x8D, 0xF2, 0x1F},                                            // STA $1FF2: fast fetch on
+    {0xA9, 0x05, 0x85, 0x0D, 0xA9, 0x06, 0x85, 0x0E},                          // two streams
+    {0xA9, 0x23, 0x85, 0x19},                                                  // the amplitude
+    {0xA9, 0x0F, 0x8D, 0xF2, 0x1F, 0xA9, 0x05, 0x85, 0x0D},                    // off
+    {0xA9, 0xF0, 0x8D, 0xF2, 0x1F},                                            // on, with waves
+    {0xA2, 0xFF, 0x8E, 0xF3, 0x1F, 0xEA},                                      // STX $1FF3: call the ARM
+    {0xA2, 0x01, 0x8E, 0xF1, 0x1F, 0x8E, 0xF1, 0x1F, 0x8E, 0xF0, 0x1F},        // write to the display data
+    {0xA2, 0x10, 0x8E, 0xF1, 0x1F, 0x8E, 0xF1, 0x1F, 0xA9, 0x20, 0x85, 0x1B},  // and read there
+    {0x4C, 0x00, 0x00},
+    {0x4C, 0x01, 0x00},
+    {0xA2, 0x00, 0x8E, 0xF2, 0x1F, 0xA0, 0x10, 0xA9, 0x07, 0x85, 0x1B, 0x88, 0xD0, 0xF9, 0xCA, 0x8E, 0xF2,
+     0x1F},  // a loop of 16 reads through fast fetch
+};
+
+struct ArmCase {
+  Case image;
+  const std::vector<Bytes>& idioms;
+  std::size_t entry;         // of the ARM's code in the image
+  std::uint8_t display;      // upper byte of the display data's offset in RAM
+  bool has_streams = false;  // whose increments and pointers the driver has
+};
+const ArmCase kArmCases[] = {{{"DPC+", 32768}, kDpcPlusIdioms, 3072 + 8, 0x0C},
+                             {{"CDFJ", 32768}, kCdfIdioms, 2048 + 8, 0x08, true},
+                             {{"CDFJ+", 32768}, kCdfIdioms, 0x7800, 0x08, true}};
+
 class Writer {
  public:
   explicit Writer(std::uint32_t seed)
       : random_(seed), case_(kCases[pick(std::size(kCases))]), rom_(case_.size) {}
 
-  Writer(std::uint32_t seed, const Case& of) : random_(seed), case_(of), rom_(case_.size) {}
+  Writer(std::uint32_t seed, const ArmCase& of)
+      : random_(seed), case_(of.image), arm_(&of), rom_(case_.size) {}
 
   Program write() {
     const bool noise = chance(4);
@@ -76,7 +102,7 @@ class Writer {
         at = instruction(at);
     }
     if (!noise) scatter(kIdioms, pick(60));
-    if (&case_ == std::begin(kArmCases)) add_arm_code();
+    if (arm_ != nullptr) add_arm_code();
     vectors();
     return {case_.scheme, std::move(rom_)};
   }
@@ -90,15 +116,27 @@ class Writer {
     for (unsigned i = times; i > 0; --i) put(pick(rom_.size()), idioms[pick(idioms.size())]);
   }
 
-  // Most programs have code for the ARM that adds up the display data, and returns.
+  // Most programs have code for the ARM that adds up the display data, and returns. In some, it never ends.
   void add_arm_code() {
     using namespace thumb;
-    scatter(kArmIdioms, 40 + pick(200));
+    scatter(arm_->idioms, 40 + pick(200));
+    if (arm_->has_streams) add_streams();
     if (chance(10)) return;
-    thumb::put(rom_, kArmEntry,
-               {mov_number(1, 1), lsl(1, 1, 30), mov_number(2, 3), lsl(2, 2, 10), add(1, 1, 2),
+    if (chance(5)) return thumb::put(rom_, arm_->entry, {kForEver});
+    thumb::put(rom_, arm_->entry,
+               {mov_number(1, 1), lsl(1, 1, 30), mov_number(2, arm_->display), lsl(2, 2, 8), add(1, 1, 2),
                 mov_number(2, byte()), ldrb(3, 1, 0), add(4, 4, 3), add_number(1, 1), sub_number(2, 1),
                 branch_if(kNe, -8), strb(4, 1, 0), bx(kLr)});
+  }
+
+  // Pointers to the display data, steps of up to three bytes, and where the code of CDFJ+ begins.
+  void add_streams() {
+    constexpr std::size_t kPointers = 0x98, kIncrements = 0x124, kStreams = 35, kStackAndEntry = 0x17F4;
+    for (std::size_t i = 0; i < kStreams; ++i) {
+      put(kPointers + 4 * i, {byte(), byte(), byte(), static_cast<std::uint8_t>(pick(0x18))});
+      put(kIncrements + 4 * i, {byte(), static_cast<std::uint8_t>(pick(3)), 0, 0});
+    }
+    if (arm_->entry == 0x7800) put(kStackAndEntry, {0xDC, 0x1F, 0, 0x40, 0x01, 0x78, 0, 0});
   }
 
   // Seldom an opcode that halts the CPU.
@@ -167,6 +205,7 @@ class Writer {
 
   std::mt19937 random_;
   const Case& case_;
+  const ArmCase* arm_ = nullptr;
   Bytes rom_;
 };
 
@@ -174,6 +213,8 @@ class Writer {
 
 Program make_program(std::uint32_t seed) { return Writer(seed).write(); }
 
-Program make_arm_program(std::uint32_t seed) { return Writer(seed, kArmCases[0]).write(); }
+Program make_arm_program(std::uint32_t seed) {
+  return Writer(seed, kArmCases[seed % std::size(kArmCases)]).write();
+}
 
 }  // namespace racebeam::test

@@ -156,7 +156,30 @@ std::string_view scheme_by_size(const Rom& rom) {
   }
 }
 
+// Instructions with an absolute address; of those with an index, the address is often one too low.
+struct AbsoluteAccess {
+  bool is_one, is_indexed;
+};
+AbsoluteAccess absolute_access(std::uint8_t opcode) {
+  constexpr std::uint8_t kCall = 0x20;
+  const unsigned column = opcode & 0x1F;
+  const bool is_indexed = column == 0x19 || column >= 0x1B;
+  return {opcode == kCall || is_indexed || (column >= 0x0C && column <= 0x0F), is_indexed};
+}
+
 }  // namespace
+
+bool accesses_no_hot_spot(const Rom& rom, const Scheme& scheme) {
+  constexpr unsigned kCartridge = 0x1000, kDecoded = 0x1FFF;
+  if (scheme.hotspot == 0 || scheme.banks < 2) return false;
+  for (std::size_t i = 0; i + 2 < rom.size(); ++i) {
+    const AbsoluteAccess access = absolute_access(rom[i]);
+    const unsigned address = (rom[i + 1] | rom[i + 2] * 256U) & kDecoded, first = kCartridge + scheme.hotspot;
+    const bool is_near = address + (access.is_indexed ? 1U : 0U) >= first && address < first + scheme.banks;
+    if (access.is_one && is_near) return false;
+  }
+  return true;
+}
 
 std::string_view scheme_name(const Rom& rom) {
   if (const std::string_view text = scheme_by_text(rom); !text.empty()) return text;

@@ -14,4 +14,7 @@ std::string_view scheme_by_text(const Rom& rom);
 // The scheme whose hot spots the image's code accesses; empty if it accesses none.
 std::string_view scheme_by_accesses(const Rom& rom);
 
+// Whether the image has code of an ARM: many returns of Thumb functions.
+bool has_arm_code(const Rom& rom);
+
 }  // namespace racebeam

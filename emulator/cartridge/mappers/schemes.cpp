@@ -9,6 +9,7 @@
 #include "emulator/cartridge/mappers/activision.hpp"
 #include "emulator/cartridge/mappers/amiga.hpp"
 #include "emulator/cartridge/mappers/atari.hpp"
+#include "emulator/cartridge/mappers/atariage.hpp"
 #include "emulator/cartridge/mappers/cdf.hpp"
 #include "emulator/cartridge/mappers/coleco.hpp"
 #include "emulator/cartridge/mappers/commavid.hpp"
@@ -16,6 +17,7 @@
 #include "emulator/cartridge/mappers/dpcplus.hpp"
 #include "emulator/cartridge/mappers/dynacom.hpp"
 #include "emulator/cartridge/mappers/jentzsch.hpp"
+#include "emulator/cartridge/mappers/marks.hpp"
 #include "emulator/cartridge/mappers/megacart.hpp"
 #include "emulator/cartridge/mappers/mnetwork.hpp"
 #include "emulator/cartridge/mappers/parker.hpp"
@@ -56,6 +58,7 @@ constexpr MapperOps kFa2      = {starcastle::reset,      starcastle::map,     st
 constexpr MapperOps kFc       = {amiga::reset,           amiga::map,          amiga::read,    amiga::write,          amiga::admits};
 constexpr MapperOps kSb       = {superbank::reset,       ua::map,             superbank::read, superbank::write,     superbank::admits};
 constexpr MapperOps k03e0     = {parker::reset,          parker::map_03e0,    parker::read_03e0, parker::write_03e0, parker::admits};
+constexpr MapperOps kX07      = {atari::reset,           ua::map,             atariage::read, atariage::write,       atari::admits};
 constexpr MapperOps kUa       = ua::kOps<ua::kUa>;
 constexpr MapperOps kUaClone  = ua::kOps<ua::kClone>;
 constexpr MapperOps kUasw     = ua::kOps<ua::kSwapped>;
@@ -114,6 +117,7 @@ constexpr Scheme kSchemes[] = {
     {kAtari,    "BF",         262144, 0xF80,   64, 1,     0, false, false},
     {kAtari,    "BFSC",       262144, 0xF80,   64, 15,  128, true,  false},
     {kSb,       "SB",         131072, 0,        0, 0,     0, false, true},
+    {kX07,      "X07",         65536, 0,       16, 0,     0, false, true, true, 0, 0, true},
     {kMb,       "MB",          65536, 0xFF0,   16, 1,     0, false, false},
     {kMc,       "MC",         131072, 0,        0, 0, 32768, true,  true},
 };
@@ -137,6 +141,11 @@ const Scheme& scheme_named(std::string_view name) {
 const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {
   const std::string size = std::to_string(rom.size()) + " bytes";
   if (asked_for.empty()) {
+    if (scheme_by_text(rom).empty() && has_arm_code(rom))
+      throw InvalidInput(
+          "the image of " + size +
+          " has code for an ARM, and does not show its cartridge scheme; name it: DPC+, CDFJ or "
+          "CDFJ+");
     asked_for = scheme_name(rom);
     if (is_unsupported(asked_for))
       refuse_scheme("the image is for the cartridge scheme " + std::string(asked_for) +

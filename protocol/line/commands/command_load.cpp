@@ -141,7 +141,10 @@ void add_loaded(const Context& context, Reply& reply) {
   reply.add("game", machine.game().name);
   reply.add("md5", machine.image().md5);
   reply.add("rule", machine.game().has_rule());
-  if (!image_warning(machine.game(), machine.image()).empty()) reply.add("image", "other");
+  if (is_other_dump(machine.game(), machine.image()))
+    reply.add("image", "other");
+  else if (is_doubtful(machine.game(), machine.image()))
+    reply.add("image", "doubtful");
   reply.add("width", kScreenWidth);
   reply.add("height", machine.height());
   reply.add("format", name_of(machine.format()));
@@ -246,7 +249,7 @@ void run_actions(Context& context, Words, Reply& reply) {
   const Game& game = context.game.loaded->machine().game();
   reply.add("action_set", name_of(context.game.settings.action_set));
   std::vector<std::string> actions;
-  for (const int action : actions_of(context.game.settings.action_set, game))
+  for (const int action : context.game.loaded->slot().actions())
     actions.push_back(std::to_string(action).append(1, ':').append(action_name(action)));
   reply.add_list("actions", actions);
   reply.add("minimal", game.minimal_actions);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/emulator/bench.hpp"
+#include "tests/emulator/cartridge/modelled_schemes.hpp"
 #include "tests/emulator/reference/reference_cartridges.hpp"
 #include "tests/emulator/reference/reference_cdf.hpp"
 #include "tests/emulator/reference/reference_dpcplus.hpp"
@@ -92,6 +93,7 @@ const std::vector<Case> kCases = {
     {"03E0", 8192, make<Model03e0>, {{0x0380, 0x80}, {0x0280, 0x80}}},
     {"SB", 131072, make<ModelSb>, {{0x0800, 0x40}, {0x0840, 0x40}}},
     {"SB", 262144, make<ModelSb>, {{0x0800, 0x40}}},
+    {"X07", 65536, make<ModelX07>, {{0x0800, 0x400}, {0x080D, 1}, {0x08ED, 1}, {0x08FD, 1}, {0x0000, 0x80}}},
     {"FA2", 24576, make<ModelFa2>, {{0x1FF4, 8}, {0x1000, 0x200}}},
     {"FA2", 28672, make<ModelFa2>, {{0x1FF4, 8}, {0x1000, 0x200}}},
     {"FA2", 29696, make<ModelFa2>, {{0x1FF4, 8}, {0x1000, 0x200}}},
@@ -239,4 +241,11 @@ TEST_CASE("Random accesses find each cartridge as its model has it, through save
 }
 
 }  // namespace
+
+std::set<std::string> modelled_schemes() {
+  std::set<std::string> names;
+  for (const Case& one : kCases) names.insert(one.name);
+  return names;
+}
+
 }  // namespace racebeam::test

@@ -204,6 +204,23 @@ struct ModelSb : Copyable<ModelSb> {
   void write(unsigned a, unsigned) override { access(a); }
 };
 
+struct ModelX07 : Copyable<ModelX07> {
+  using Copyable::Copyable;
+  unsigned bank = 0;
+  void access(unsigned a) {
+    const bool below = a < 0x1000, upper = (a & 0x800) != 0, tia = (a & 0x880) == 0;
+    if (below && upper && a % 16 == 13)
+      bank = a / 16 % 16;
+    else if (below && tia && bank >= 14)
+      bank = (a & 0x40) != 0 ? 15 : 14;
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    return a < 0x1000 ? kNotOurs : image[bank * 4096 + (a & 0xFFF)];
+  }
+  void write(unsigned a, unsigned) override { access(a); }
+};
+
 struct ModelFa2 : Copyable<ModelFa2> {
   using Copyable::Copyable;
   unsigned bank = 0;

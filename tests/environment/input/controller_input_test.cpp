@@ -1,3 +1,4 @@
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "environment/input/controller_input.hpp"
@@ -24,8 +25,15 @@ struct Player {
   }
 };
 
-Player with_joysticks() { return {ControllerInput(false, {})}; }
-Player with_paddles() { return {ControllerInput(true, {})}; }
+Player with(Controller left, Controller right = Controller::kJoystick, PaddleLimits limits = {}) {
+  Properties properties;
+  properties.left = left;
+  properties.right = right;
+  return {ControllerInput(properties, limits)};
+}
+
+Player with_joysticks() { return with(Controller::kJoystick); }
+Player with_paddles() { return with(Controller::kPaddles); }
 
 constexpr int kRight = 3, kLeft = 4;
 
@@ -147,10 +155,96 @@ TEST_CASE("SELECT leaves the paddles where they are") {
 }
 
 TEST_CASE("A paddle never leaves its limits, however strong the turn") {
-  Player player{ControllerInput(true, {100, 1000})};
+  Player player = with(Controller::kPaddles, Controller::kJoystick, {100, 1000});
   CHECK(player.paddles[0] == 550);
   CHECK(player.paddle_after(kLeft, 3.0e38F) == 1000);
   CHECK(player.paddle_after(kRight, -3.0e38F) == 100);
+}
+
+TEST_CASE("A key is held on the keyboard of its player, and nothing else presses one") {
+  Player player = with(Controller::kKeyboard, Controller::kKeyboard);
+  for (int key = 0; key < kKeys; ++key) {
+    player.press(kFirstKey + key);
+    CHECK(player.inputs.paddle[0] == 1 << key);
+    CHECK(player.inputs.paddle[2] == 0);
+    player.press(0, 1.0F, 18 + kFirstKey + key);
+    CHECK(player.inputs.paddle[0] == 0);
+    CHECK(player.inputs.paddle[2] == 1 << key);
+  }
+  for (const int other : {0, 1, 17, 18, 25, 38, 64}) {
+    player.press(other);
+    CHECK(player.inputs.paddle[0] == 0);
+  }
+}
+
+TEST_CASE("More buttons are pressed on a pad or a grip only") {
+  for (const Controller controller : {Controller::kGenesis, Controller::kBooster}) {
+    Player player = with(controller, controller);
+    for (int stick = 0; stick < 18; ++stick) {
+      player.press(stick);
+      const std::uint8_t plain = player.inputs.joystick[0];
+      player.press(kWithC + stick, 1.0F, 18 + kWithTrigger + stick);
+      const auto second = static_cast<std::uint8_t>(plain | kStickSecond);
+      CHECK(player.inputs.joystick == std::array<std::uint8_t, 2>{second, second});
+      player.press(kWithBooster + stick, 1.0F, 18 + kWithBoth + stick);
+      CHECK(player.inputs.joystick[0] == (plain | kStickThird));
+      CHECK(player.inputs.joystick[1] == (plain | kStickSecond | kStickThird));
+    }
+  }
+  Player player = with_joysticks();
+  player.press(kWithC + 2, 1.0F, 18 + kWithC + 2);
+  CHECK(player.inputs.joystick == std::array<std::uint8_t, 2>{});
+}
+
+TEST_CASE("A wheel turns by one place in each frame, in both directions and without an end") {
+  Player player = with(Controller::kDriving, Controller::kDriving);
+  for (std::int32_t frame = 0; frame < 70000; ++frame) {
+    player.press(kRight, 5.0F, 18 + kLeft, 1.0F);
+    const Axis right = Axis::of(player.inputs.paddle[0]), left = Axis::of(player.inputs.paddle[2]);
+    REQUIRE(right.place == frame % Axis::kPlaces);
+    REQUIRE((left.place + frame) % Axis::kPlaces == 0);
+    REQUIRE(right.moved == 1);
+    REQUIRE(left.moved == -1);
+  }
+  const std::int32_t place = Axis::of(player.inputs.paddle[0]).place;
+  player.press(kRight, 0.0F);
+  CHECK(Axis::of(player.inputs.paddle[0]).moved == 0);
+  CHECK(Axis::of(player.inputs.paddle[0]).place == (place + 1) % Axis::kPlaces);
+}
+
+TEST_CASE("A ball and a mouse move by the strength of their direction, up to 127 places in each frame") {
+  for (const Controller controller :
+       {Controller::kTrackball, Controller::kAtariMouse, Controller::kAmigaMouse}) {
+    Player player = with(controller);
+    constexpr int kDownRightFire = 16, kUpLeft = 7;
+    player.press(kDownRightFire, 12.0F);
+    CHECK(Axis::of(player.inputs.paddle[0]).moved == 12);
+    CHECK(Axis::of(player.inputs.paddle[1]).moved == 12);
+    CHECK((player.inputs.joystick[0] & kStickFire) != 0);
+    player.press(kUpLeft, -1000.0F);
+    CHECK(Axis::of(player.inputs.paddle[0]).place == 12);
+    CHECK(Axis::of(player.inputs.paddle[0]).moved == -127);
+    CHECK(Axis::of(player.inputs.paddle[1]).place == 12);
+    CHECK(Axis::of(player.inputs.paddle[1]).moved == -127);
+  }
+}
+
+TEST_CASE("A gun is aimed at a place, or moved by two pixels in each frame, and stays on the picture") {
+  Player player = with(Controller::kJoystick, Controller::kLightGun);
+  const auto place = [&] {
+    return std::array{Axis::of(player.inputs.paddle[2]).place, Axis::of(player.inputs.paddle[3]).place};
+  };
+  player.press(0, 1.0F, 18, 0.0F);
+  CHECK(place() == std::array{80, 105});
+  player.press(0, 1.0F, 18 + 1, 33 + 256.0F * 44);
+  CHECK(place() == std::array{33, 44});
+  CHECK(player.inputs.joystick[1] == kStickFire);
+  player.press(0, 1.0F, 18 + 8, 1.0F);
+  CHECK(place() == std::array{35, 46});
+  for (int frame = 0; frame < 200; ++frame) player.press(0, 1.0F, 18 + 7, 1.0F);
+  CHECK(place() == std::array{0, 0});
+  player.press(0, 1.0F, 18, 255 + 256.0F * 255);
+  CHECK(place() == std::array{159, 255});
 }
 
 }  // namespace

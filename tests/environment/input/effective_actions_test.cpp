@@ -98,10 +98,12 @@ TEST_CASE("Each frame takes two draws, and B's is the second") {
   CHECK(random == reference);
 }
 
+constexpr Controller kStick = Controller::kJoystick;
+
 Presses pressing(int a, int b = 18) { return {{a, 1.0F}, {b, 0.0F}}; }
 
 TEST_CASE("Illegal actions and RESET act as NOOP, for both players") {
-  const LegalActions skiing({0, 2, 3, 4, 5, 6, 7, 8, 9}, false);
+  const LegalActions skiing({0, 2, 3, 4, 5, 6, 7, 8, 9}, kStick, kStick);
   for (const auto& [a, replaced] : {std::pair{1, 0}, {2, 2}, {9, 9}, {10, 0}, {17, 0}, {40, 0}, {-5, 0}}) {
     CHECK(skiing.replace(pressing(a)).a.action == replaced);
   }
@@ -112,7 +114,7 @@ TEST_CASE("Illegal actions and RESET act as NOOP, for both players") {
 }
 
 TEST_CASE("With joysticks, numbers that are not actions are refused") {
-  const LegalActions all(all_actions(), false);
+  const LegalActions all(all_actions(), kStick, kStick);
   for (const int a : {26, 35, 36, 41, 43, 50, 99}) {
     CHECK_THROWS_WITH(all.check(pressing(a)),
                       Catch::Contains("action " + std::to_string(a) + " of player A is out of range") &&
@@ -125,8 +127,24 @@ TEST_CASE("With joysticks, numbers that are not actions are refused") {
   CHECK_NOTHROW(all.check(pressing(40, 40)));
 }
 
+TEST_CASE("A controller's own actions are accepted where it is connected, from its player") {
+  const LegalActions keys(all_actions(), Controller::kKeyboard, kStick);
+  for (int a = kFirstKey; a < kFirstKey + kKeys; ++a) CHECK_NOTHROW(keys.check(pressing(a)));
+  for (const int a : {38, 64, 160})
+    CHECK_THROWS_WITH(keys.check(pressing(a)), Catch::Contains("its controller"));
+  CHECK_THROWS_WITH(keys.check(pressing(0, 18 + kFirstKey)), Catch::Contains("of player B is out of range"));
+
+  const LegalActions buttons(all_actions(), Controller::kGenesis, Controller::kBooster);
+  for (int stick = 0; stick < 18; ++stick) {
+    CHECK_NOTHROW(buttons.check(pressing(kWithC + stick, 18 + kWithBoth + stick)));
+    CHECK_THROWS_AS(buttons.check(pressing(kWithTrigger + stick)), std::invalid_argument);
+    CHECK_THROWS_AS(buttons.check(pressing(0, 18 + kWithC + stick)), std::invalid_argument);
+  }
+  CHECK_THROWS_AS(buttons.check(pressing(kWithC + 18)), std::invalid_argument);
+}
+
 TEST_CASE("With paddles, any number goes, but no strength that is not finite") {
-  const LegalActions all(all_actions(), true);
+  const LegalActions all(all_actions(), Controller::kPaddles, kStick);
   for (const int a : {18, 36, 41, 99, 1000000}) CHECK_NOTHROW(all.check(pressing(a, a)));
   CHECK_THROWS_WITH(all.check({{3, std::numeric_limits<float>::infinity()}, {18, 0.0F}}),
                     Catch::Contains("finite"));

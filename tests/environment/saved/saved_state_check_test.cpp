@@ -61,7 +61,7 @@ TEST_CASE("A state with a value that no machine has is refused by the field's na
       {"the flag of a greyed frame", [](Values& v) { v.machine.frame.greyed = 1, v.machine.frame.open = 0; }},
       {"a cartridge of scheme 4K has no such banks", [](Values& v) { v.machine.cartridge.bank[3] = 1; }},
       {"a paddle's resistance is -1", [](Values& v) { v.machine.inputs.paddle[2] = -1; }},
-      {"a joystick is 32", [](Values& v) { v.machine.inputs.joystick[1] = 32; }},
+      {"a joystick is 128", [](Values& v) { v.machine.inputs.joystick[1] = 128; }},
       {"strength", [](Values& v) { v.play.held.a.strength = std::numeric_limits<float>::quiet_NaN(); }},
       {"a turned paddle", [](Values& v) { v.play.paddles[0] = -5; }},
       {"the frame number is 4294967295", [](Values& v) { v.play.frames = 0xFFFFFFFF; }},
@@ -100,7 +100,7 @@ const std::vector<Most> kMost = {
     {"EFSC", 0, 15},  {"DF", 0, 31},        {"DFSC", 0, 31},  {"BF", 0, 63},      {"BFSC", 0, 63},
     {"MC", 0, kAny},  {"MC", 1, kAny},      {"MC", 2, kAny},  {"MC", 3, kAny},    {"MC", 4, 1},
     {"DPC+", 0, 5},   {"DPC+", 1, 1},       {"DPC+", 2, 1},   {"CDFJ", 0, 6},     {"CDFJ", 1, 1},
-    {"CDFJ", 2, 1},   {"CDFJ+", 0, 6},      {"CDFJ+", 1, 1},  {"CDFJ+", 2, 1}};
+    {"CDFJ", 2, 1},   {"CDFJ+", 0, 6},      {"CDFJ+", 1, 1},  {"CDFJ+", 2, 1},    {"X07", 0, 15}};
 
 std::uint8_t most_of(std::string_view scheme, std::size_t index) {
   for (const Most& one : kMost)

@@ -79,7 +79,7 @@ TEST_CASE("The console of an image can be told, is shown, and is refused where i
        {std::pair("scheme=F8", "the cartridge scheme F8 needs an image of at least 8192 bytes"),
         {"scheme=4A50", "unsupported cartridge scheme '4A50'"},
         {"scheme=F9", "unknown cartridge scheme 'F9'"},
-        {"left=keyboard", "left is 'keyboard'; it takes joystick, paddles"},
+        {"left=mindlink", "left is 'mindlink'; it takes joystick, paddles"},
         {"format=hd", "format is 'hd'; it takes auto, ntsc, pal, pal60, secam"},
         {"height=99", "height is '99'; it takes a whole number from 100 to 256"},
         {"ystart=51", "ystart is '51'; it takes a whole number from 0 to 50"},

@@ -203,8 +203,13 @@ class RemoteGame:
 
     @exclusive
     def image_warning(self) -> str:
-        """Returns a warning if the game's rule was written for another image, else an empty string."""
+        """Returns a warning if the game's rule was written for another image, or it is doubtful whether it runs."""
         values = self.ask(self.session.settings)
+        if values.get("image") == "doubtful":
+            return (
+                f"no code of this image selects a bank of the cartridge scheme {values['scheme']}, "
+                "which its size suggests; it may not run. The setting scheme names another one"
+            )
         if values.get("image") != "other":
             return ""
         return (
