@@ -13,8 +13,7 @@ int Environment::act(int a, int b, float strength_a, float strength_b) {
 }
 
 bool Environment::takes(const Act& act) const {
-  return is_action(act.a) && is_action_of_b(act.b) && impl_->legal.takes_a(act.a) &&
-         impl_->legal.takes_b(act.b);
+  return is_action(act.a) && is_action_of_b(act.b) && impl_->legal.has_a(act.a) && impl_->legal.has_b(act.b);
 }
 
 int Environment::act_for(int frames, int a, int b, float strength_a, float strength_b) {

@@ -46,12 +46,12 @@ class LegalActions {
   // The controllers are player A's and player B's.
   LegalActions(const std::vector<int>& legal, Controller a, Controller b);
 
-  // Whether the machine has an action of that number: those that would abort the reference's process are
-  // replaced, or belong to a controller that is connected. With paddles, any number is accepted.
-  bool takes_a(int a) const { return paddles_ || has(replace_a(a), kConsoleActions, more_a_); }
-  bool takes_b(int b) const { return paddles_ || has(replace_b(b) - kActions, kActions, more_b_); }
+  // Whether the machine has an action of that number. The numbers that it replaces count.
+  bool has_a(int a) const { return has(replace_a(a), kConsoleActions, more_a_); }
+  bool has_b(int b) const { return has(replace_b(b) - kActions, kActions, more_b_); }
 
-  // Throws std::invalid_argument for other actions, and for a strength that is not a finite number.
+  // Throws std::invalid_argument for other actions, which would abort the reference's process unless it has
+  // paddles, and for a strength that is not a finite number.
   void check(const Presses& presses) const;
 
   // Replaces illegal actions, and the reference's RESET, by NOOP.

@@ -132,7 +132,7 @@ class Options(Case):
         for command, *words in MACHINES:
             for option, value, reason in (
                 ("--scheme", "4A50", "unsupported cartridge scheme '4A50'"),
-                ("--left", "keyboard", "joystick, paddles"),
+                ("--left", "mindlink", "joystick, paddles"),
                 ("--right", "mouse", "joystick, paddles"),
                 ("--format", "hd", "auto, ntsc, pal, pal60, secam"),
                 ("--height", "99", "from 100 to 256"),

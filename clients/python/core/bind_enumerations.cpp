@@ -1,10 +1,28 @@
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+
 #include "clients/python/core/ale_interface.hpp"
 #include "clients/python/core/bindings.hpp"
 #include "clients/python/core/python_action.hpp"
+#include "games/game/given_properties.hpp"
 
 namespace racebeam::python {
 
 namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+std::vector<PythonControllerAction> controller_actions(std::string_view controller) {
+  std::vector<PythonControllerAction> actions;
+  for (const int number : actions_with(value_for(controller, "controller", kControllers)))
+    actions.push_back(static_cast<PythonControllerAction>(number));
+  return actions;
+}
+
+}  // namespace
 
 void bind_enumerations(nb::module_& module) {
   nb::enum_<PythonAction> actions(module, "Action", "An action of player A.");
@@ -18,6 +36,15 @@ void bind_enumerations(nb::module_& module) {
     const std::string name(action_name(number));
     console.value(name.c_str(), static_cast<PythonConsoleAction>(number));
   }
+  nb::enum_<PythonControllerAction> controller(
+      module, "ControllerAction", "An action that only some controllers have, as of player A; \"_\" is \"+\" in its name.");
+  for (int number = kFirstKey; number < kActionNumbers; ++number) {
+    std::string name(action_name(number));
+    std::ranges::replace(name, '+', '_');
+    if (!name.empty()) controller.value(name.c_str(), static_cast<PythonControllerAction>(number));
+  }
+  module.def("controller_actions", controller_actions, "controller"_a,
+             "Lists the actions that only such a controller has. The names of controllers are those of the setting left.");
   nb::enum_<LoggerMode>(module, "LoggerMode", "The logger modes of ALE. racebeam logs nothing.")
       .value("Info", LoggerMode::kInfo)
       .value("Warning", LoggerMode::kWarning)

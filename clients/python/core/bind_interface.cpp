@@ -14,6 +14,7 @@
 #include "clients/python/core/gil.hpp"
 #include "clients/python/core/image_argument.hpp"
 #include "clients/python/core/python_action.hpp"
+#include "environment/input/has_paddles.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam::python {
@@ -142,11 +143,14 @@ int number_of(Enumeration action) {
   return static_cast<int>(action);
 }
 
+[[noreturn]] void refuse(int action, const char* accepted) {
+  throw InvalidInput("action " + std::to_string(action) + " is out of range; accepted: " + accepted);
+}
+
 // The environment would take some of the others for NOOP, as the reference does.
-void check_action(int action, int first, int count = kActions) {
-  if (action >= first && action < first + count) return;
-  throw InvalidInput("action " + std::to_string(action) + " is out of range; accepted: " +
-                     std::to_string(first) + " to " + std::to_string(first + count - 1));
+void check_actions(const Environment& environment, int a, int b = kActions) {
+  if (!environment.takes({.a = a})) refuse(a, "0 to 25, and those of the left controller");
+  if (!environment.takes({.b = b})) refuse(b, "18 to 35, and those of the right controller");
 }
 
 void check_strength(float strength) {
@@ -154,12 +158,11 @@ void check_strength(float strength) {
     throw InvalidInput("a paddle's strength is " + std::to_string(strength) + "; it must be a finite number");
 }
 
-// `count`: ALE's numbers, or those of the console, too.
-int act(AleInterface& self, int action, float strength, int count = kActions) {
-  check_action(action, 0, count);
+int act(AleInterface& self, int action, float strength) {
   check_strength(strength);
   const Turn turn(self.lock());
   Environment& environment = self.environment();
+  check_actions(environment, action);
   environment.set_drawing(environment.settings().color_averaging ? Drawing::kLastTwo : Drawing::kLast);
   return environment.act(action, kActions, strength);
 }
@@ -169,8 +172,6 @@ int act(AleInterface& self, int action, float strength, int count = kActions) {
 nb::tuple step(AleInterface& self, int action, float strength, int times, View view, int action_b,
                float strength_b) {
   if (times < 1) throw InvalidInput("times is " + std::to_string(times) + "; it must be 1 or more");
-  check_action(action, 0, kConsoleActions);
-  check_action(action_b, kActions);
   check_strength(strength);
   check_strength(strength_b);
   FreshBytes bytes;
@@ -178,6 +179,7 @@ nb::tuple step(AleInterface& self, int action, float strength, int times, View v
   std::size_t height = 0;
   {
     const Turn turn(self.lock());
+    check_actions(self.environment(), action, action_b);
     result = self.step({action, action_b, strength, strength_b}, times, view);
     bytes = FreshBytes(self.size_of(view));
     height = static_cast<std::size_t>(self.environment().height());
@@ -211,13 +213,17 @@ std::vector<PythonAction> as_actions(const std::vector<int>& numbers) {
 void bind_play(nb::class_<AleInterface>& interface) {
   interface
       .def("act", [](AleInterface& self, unsigned action, float strength) {
-            return act(self, static_cast<int>(std::min(action, 1U << 30)), strength);
+            if (action >= kActions) refuse(static_cast<int>(std::min(action, 1U << 30)), "0 to 17");
+            return act(self, static_cast<int>(action), strength);
           }, "action"_a, "paddle_strength"_a = 1.0F)
       .def("act", [](AleInterface& self, PythonAction action, float strength) {
             return act(self, number_of(action), strength);
           }, "action"_a, "paddle_strength"_a = 1.0F)
       .def("act", [](AleInterface& self, PythonConsoleAction action, float strength) {
-            return act(self, number_of(action), strength, kConsoleActions);
+            return act(self, number_of(action), strength);
+          }, "action"_a, "paddle_strength"_a = 1.0F)
+      .def("act", [](AleInterface& self, PythonControllerAction action, float strength) {
+            return act(self, number_of(action), strength);
           }, "action"_a, "paddle_strength"_a = 1.0F)
       .def("step", step, "action"_a, "paddle_strength"_a, "times"_a, "view"_a, "action_b"_a = kActions,
            "paddle_strength_b"_a = 0.0F,
@@ -303,10 +309,16 @@ void bind_game(nb::class_<AleInterface>& interface) {
             const Turn turn(self.lock());
             return self.environment().game().name;
           }, "Returns the name of the game.")
+      .def("getControllers", [](AleInterface& self) {
+            const Turn turn(self.lock());
+            const Properties properties = properties_of(self.environment());
+            return std::tuple(std::string(word_for(kControllers, properties.left)),
+                              std::string(word_for(kControllers, properties.right)));
+          }, "Returns the names of the controllers of players A and B, such as \"joystick\".")
       .def("image_warning", [](AleInterface& self) {
             const Turn turn(self.lock());
             return image_warning(self.environment().game(), self.environment().image());
-          }, "Returns a warning if the game's rule was written for another image, else an empty string.");
+          }, "Returns a warning if the game's rule was written for another image, or it is doubtful whether it runs.");
 }
 
 // States

@@ -15,7 +15,7 @@ import importlib.metadata
 import importlib.util
 from typing import TYPE_CHECKING, Any
 
-from ._core import Action, ALEState, ConsoleAction, LoggerMode
+from ._core import Action, ALEState, ConsoleAction, ControllerAction, LoggerMode
 from .errors import InvalidInput, MissingImage, UnknownGame
 from .extras import install_hint
 from .images import find as find_image
@@ -44,6 +44,7 @@ __all__ = [
     "AtariEnv",
     "AtariVectorEnv",
     "ConsoleAction",
+    "ControllerAction",
     "InvalidInput",
     "LoggerMode",
     "MissingImage",

@@ -6,7 +6,7 @@ import os
 from typing import Any, Literal, TypeAlias, TypedDict
 
 from . import images
-from ._core import Action, ConsoleAction, View
+from ._core import Action, ConsoleAction, View, controller_actions
 from .arguments import (
     MOST,
     WrongType,
@@ -86,7 +86,8 @@ class AtariEnv(EnvWithView):
             frames, even past game over.
         repeat_action_probability: Probability that a frame repeats the previous action.
         full_action_space: Whether actions are all 18 legal ones, or only those that have an effect in the game.
-            "console" adds those of `ConsoleAction`, which press or move a switch of the console.
+            "console" adds those of `ConsoleAction`, which press or move a switch of the console, and those of
+            `ControllerAction` that the controllers have.
         continuous: Whether an action is a float32 array (radius, angle, fire) instead of an index. The radius is also
             the strength of a paddle. Selects all 18 actions.
         continuous_action_threshold: Deflection from which a direction or the button counts as pressed.
@@ -263,10 +264,13 @@ class AtariEnv(EnvWithView):
 
     def _set_spaces(self, actions: str) -> None:
         if actions == "console":
-            self._action_set = [*Action, *ConsoleAction]
+            left, right = self.ale.getControllers()
+            self._action_set = [*Action, *ConsoleAction, *controller_actions(left)]
+            self._actions_of_b = [*Action, *controller_actions(right)]
         else:
             is_full = actions == "legal" or self.continuous
             self._action_set = self.ale.getLegalActionSet() if is_full else self.ale.getMinimalActionSet()
+            self._actions_of_b = self._action_set
         self.action_space = self._space_of_actions()
         self.observation_space = self._space_of_observations()
 

@@ -85,8 +85,8 @@ class AtariVectorEnv(PlayedVector):
         repeat_action_probability: Probability that a frame repeats the previous action. Default: the preset's, 0 with
             "ale".
         full_action_space: Whether actions are all 18 legal ones, or only those that have an effect in the game.
-            "console" adds those of `ConsoleAction`, which press or move a switch of the console. Default: the
-            preset's, False with "ale".
+            "console" adds those of `ConsoleAction`, which press or move a switch of the console, and those of
+            `ControllerAction` that the left controller has. Default: the preset's, False with "ale".
         continuous: Whether actions are float32 (radius, angle, fire) instead of indices. Default: False.
         continuous_action_threshold: Deflection from which a direction or the button counts as pressed. Default: 0.5.
         autoreset_mode: NEXT_STEP, SAME_STEP or DISABLED of Gymnasium's AutoresetMode, or its name or value. Default:

@@ -64,8 +64,9 @@ TEST_CASE("Sealed contents that are not an episode are refused with a sentence")
   wrong.replace(wrong.find("trial=1"), 7, "trial=x");
   CHECK(refusal_of(seal(kSame, wrong)).find("trial is 'x'") != std::string::npos);
   wrong = good;
-  wrong.back() = 26;
-  CHECK(refusal_of(seal(kSame, wrong)) == "episode log 1.episode: it has action 26; accepted: 0 to 25");
+  wrong.back() = 38;
+  CHECK(refusal_of(seal(kSame, wrong)) ==
+        "episode log 1.episode: it has action 38; accepted: 0 to 37, and those with more buttons");
   CHECK(refusal_of(seal(kSame, good + '\0')).find("a hash or an action is missing") != std::string::npos);
   for (std::size_t size = 0; size < good.size(); ++size)
     REQUIRE(refusal_of(seal(kSame, good.substr(0, size))) != "");

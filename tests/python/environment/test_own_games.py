@@ -115,7 +115,7 @@ class Own(unittest.TestCase):
         for words, sentence in (
             ({"scheme": "F8"}, "8192"),
             ({"scheme": "4A50"}, "unsupported cartridge scheme '4A50'"),
-            ({"left": "keyboard"}, "joystick, paddles"),
+            ({"left": "mindlink"}, "joystick, paddles"),
             ({"height": 99}, "100 to 256"),
         ):
             for make in (racebeam.AtariEnv, racebeam.AtariVectorEnv):

@@ -53,6 +53,28 @@ class Playing(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "an action moves a joystick, not a switch"):
             racebeam.AtariEnv("beamfall", full_action_space="console", continuous=True)
 
+    def test_actions_of_other_controllers(self):
+        settings = {"full_action_space": "console", "repeat_action_probability": 0, "frameskip": 1}
+        for left, count, first, last in (("keyboard", 38, "KEY1", "KEYHASH"), ("genesis", 44, "NOOP+C", "DOWNLEFTFIRE+C"),
+                                         ("booster", 80, "NOOP+TRIGGER", "DOWNLEFTFIRE+TRIGGER+BOOSTER")):
+            with self.subTest(left=left):
+                env = racebeam.AtariEnv("beamfall", left=left, **settings)
+                self.assertEqual(env.action_space, gym.spaces.Discrete(count))
+                self.assertEqual(len(set(env.get_action_meanings())), count)
+                self.assertEqual(env.get_action_meanings()[26], first)
+                self.assertEqual(env.get_action_meanings()[-1], last)
+                self.assertEqual(len(env.get_keys_to_action()), 18)
+                self.assertEqual(env.ale.getControllers(), (left, "joystick"))
+                hashes = set()
+                for action in range(26, count):
+                    env.reset(seed=1)
+                    play(env, [action])
+                    hashes.add(env.state_hash)
+                self.assertEqual(len(hashes), count - 26)
+                self.assertEqual(env.ale.act(env._action_set[-1]), 0)
+                with self.assertRaisesRegex(racebeam.InvalidInput, "those of the left controller"):
+                    self.env.ale.act(env._action_set[-1])
+
     def test_the_switches_are_those_of_player_a(self):
         if "pong" not in package.roms():
             self.skipTest("no image of pong was found")
@@ -61,6 +83,15 @@ class Playing(unittest.TestCase):
         self.assertEqual(env.action_space, gym.spaces.MultiDiscrete([26, 18]))
         env.step((18, 17))
         self.assertRaisesRegex(IndexError, "accepted: 0 to 17", env.step, (0, 18))
+        env = racebeam.AtariEnv("pong", full_action_space="console", two_player=True, right="keyboard", left="genesis")
+        self.assertEqual(env.action_space, gym.spaces.MultiDiscrete([44, 30]))
+        env.reset(seed=1)
+        before = env.clone_state()
+        env.step((43, 29))
+        pressed = env.state_hash
+        env.restore_state(before)
+        env.step((43, 28))
+        self.assertNotEqual(env.state_hash, pressed)
 
     def test_all_the_sound_of_a_step(self):
         every = racebeam.AtariEnv("beamfall", frameskip=1, sound_obs=True)

@@ -30,6 +30,7 @@ SETTINGS = (
     {"sound_obs": True, "frameskip": 3},
     {"preset": "dqn2015"},
     {"full_action_space": "console"},
+    {"full_action_space": "console", "left": "keyboard"},
     {"sound_obs": "all", "frameskip": 3},
 )
 

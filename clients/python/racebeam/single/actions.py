@@ -10,12 +10,13 @@ import gymnasium
 import numpy as np
 from gymnasium import spaces
 
-from .._core import Action, ConsoleAction
+from .._core import Action, ConsoleAction, ControllerAction
 from ..arguments import flag
 from ..errors import InvalidInput
 
 __all__ = ["EnvWithActions", "PlayerAction"]
 
+AnyAction: TypeAlias = Action | ConsoleAction | ControllerAction
 PlayerAction: TypeAlias = Any  # an index, a pair of indices, or (radius, angle, fire)
 
 FIRST_OF_B = 18  # player B's actions have the numbers after A's
@@ -36,15 +37,16 @@ class EnvWithActions(gymnasium.Env[Any, Any]):
 
     continuous: bool
     continuous_action_threshold: float
-    _action_set: list[Action | ConsoleAction]
+    _action_set: list[AnyAction]
+    _actions_of_b: list[AnyAction]  # those of a joystick and of a controller; the switches are player A's
     _two_player: bool
 
     def _space_of_actions(self) -> spaces.Space[Any]:
         count = len(self._action_set)
-        count_of_b = len(self._actions_of_b())
         if self.continuous:
             low, high = np.array([0, -np.pi, 0], np.float32), np.array([1, np.pi, 1], np.float32)
             return spaces.Box(low, high, (3,), np.float32)
+        count_of_b = len(self._actions_of_b)
         return spaces.MultiDiscrete([count, count_of_b]) if self._two_player else spaces.Discrete(count)
 
     def _parse_action(self, action: PlayerAction) -> tuple[int, float, int, float]:
@@ -57,11 +59,7 @@ class EnvWithActions(gymnasium.Env[Any, Any]):
             a, b = action
         except (TypeError, ValueError):
             raise TypeError(f"action is {action!r}; it must be a pair of indices, for players A and B") from None
-        return _look_up(a, self._action_set), 1.0, FIRST_OF_B + _look_up(b, self._actions_of_b()), 1.0
-
-    def _actions_of_b(self) -> list[Action]:
-        """Returns the actions of a joystick; the switches are player A's."""
-        return [action for action in self._action_set if isinstance(action, Action)]
+        return _look_up(a, self._action_set), 1.0, FIRST_OF_B + _look_up(b, self._actions_of_b), 1.0
 
     def _parse_continuous(self, action: Any) -> tuple[int, float]:
         if not (isinstance(action, np.ndarray) and action.dtype == np.float32 and action.shape == (3,)):
@@ -103,7 +101,7 @@ class EnvWithActions(gymnasium.Env[Any, Any]):
 
     def get_action_meanings(self) -> list[str]:
         """Returns the names of the actions in the order of their indices, such as ["NOOP", "FIRE"]."""
-        return [action.name for action in self._action_set]
+        return [_meaning(action) for action in self._action_set]
 
     def get_keys_to_action(self) -> dict[tuple[str, ...], int]:
         """Maps the keys that a player holds to actions.
@@ -120,10 +118,11 @@ class EnvWithActions(gymnasium.Env[Any, Any]):
                 f"`get_keys_to_action` can't be provided for this Atari environment as `{setting}=True`: "
                 "keys move one joystick"
             )
-        return {_keys_of(action.name): index for index, action in enumerate(self._actions_of_b())}
+        joystick = [action.name for action in self._action_set if isinstance(action, Action)]
+        return {_keys_of(name): index for index, name in enumerate(joystick)}
 
 
-def _look_up(action: Any, actions: Sequence[Action | ConsoleAction]) -> int:
+def _look_up(action: Any, actions: Sequence[AnyAction]) -> int:
     try:
         index = operator.index(action)
     except TypeError:
@@ -131,6 +130,11 @@ def _look_up(action: Any, actions: Sequence[Action | ConsoleAction]) -> int:
     if not 0 <= index < len(actions):
         raise IndexError(f"action {index} is out of range; accepted: 0 to {len(actions) - 1}")
     return int(actions[index].value)
+
+
+def _meaning(action: AnyAction) -> str:
+    """Returns the action's name in the line protocol, such as "UP+C" for UP_C."""
+    return action.name.replace("_", "+") if isinstance(action, ControllerAction) else str(action.name)
 
 
 def _keys_of(action: str) -> tuple[str, ...]:

@@ -202,6 +202,12 @@ class RemoteGame:
         return str(self.ask(self.session.settings)["game"])
 
     @exclusive
+    def getControllers(self) -> tuple[str, str]:
+        """Returns the names of the controllers of players A and B, such as "joystick"."""
+        values = self.ask(self.session.settings)
+        return str(values["left"]), str(values["right"])
+
+    @exclusive
     def image_warning(self) -> str:
         """Returns a warning if the game's rule was written for another image, or it is doubtful whether it runs."""
         values = self.ask(self.session.settings)

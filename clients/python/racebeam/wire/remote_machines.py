@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .._core import Action, ActionSet, ConsoleAction, ResetOrder, SavedMachine, VectorSettings
+from .._core import Action, ActionSet, ConsoleAction, ResetOrder, SavedMachine, VectorSettings, controller_actions
 from ..errors import InvalidInput
 from ..vector.machines import Actions, Joysticks, Seeds
 from ..vector.results import Bools, Numbers, Pixels, Results
@@ -110,7 +110,8 @@ class RemoteMachines(Halves):
     def _read_actions(self, settings: VectorSettings) -> list[int]:
         machine = self._machine
         if settings.action_set is ActionSet.CONSOLE:
-            return [action.value for action in (*Action, *ConsoleAction)]
+            more = controller_actions(machine.getControllers()[0])
+            return [action.value for action in (*Action, *ConsoleAction, *more)]
         is_legal = settings.action_set is ActionSet.LEGAL
         return [action.value for action in (machine.getLegalActionSet() if is_legal else machine.getMinimalActionSet())]
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .._core import Action, ConsoleAction, View
+from .._core import Action, ConsoleAction, ControllerAction, View
 from ..errors import InvalidInput
 from ..interface import png
 from .remote_game import RemoteGame, check_types, exclusive
@@ -92,14 +92,14 @@ class RemotePlay(RemoteGame):
 
     @exclusive
     @check_types
-    def act(self, action: int | Action | ConsoleAction, paddle_strength: float = 1.0) -> int:
+    def act(self, action: int | Action | ConsoleAction | ControllerAction, paddle_strength: float = 1.0) -> int:
         """Plays an action, and returns its reward.
 
         Args:
             action: The action or its number.
-            paddle_strength: How far the paddle is turned, 0 to 1.
+            paddle_strength: How far the paddle is turned, 0 to 1; for a light gun, the place x + 256 * y.
         """
-        number = action.value if isinstance(action, (Action, ConsoleAction)) else action
+        number = action if isinstance(action, int) else action.value
         return int(self.step(number, paddle_strength, 1, View.NONE)[1])
 
     @exclusive
