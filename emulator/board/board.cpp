@@ -329,13 +329,14 @@ std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int
   } else {
     touch_tia(cycle);
     driven = static_cast<std::uint32_t>(cycle) >= pin_high_from_[reg - 8] ? 0x80 : 0;
-    if (reg >= kFirstButton && gun_sees_beam(reg - kFirstButton, cycle)) driven = 0;
+    if (has_gun_ && gun_sees_beam(reg - kFirstButton, cycle)) [[unlikely]]
+      driven = 0;
   }
   return static_cast<std::uint8_t>(driven | (latch & 0x3F));
 }
 
 bool Board::gun_sees_beam(unsigned side, std::int32_t cycle) const {
-  if (!ports_.has_light_gun() || side > 1) return false;
+  if (side > 1) return false;
   return ports_.sees_beam(side, state.inputs, cycle, state.tia.origin / 3 + kLineCycles * video.ystart);
 }
 

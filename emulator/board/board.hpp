@@ -120,7 +120,7 @@ class Board {
   void write_port(unsigned reg, std::uint8_t value);
   std::uint8_t read_watched(std::uint16_t address, std::int32_t cycle);
   void write_watched(std::uint16_t address, std::uint8_t value, std::int32_t cycle);
-  bool gun_sees_beam(unsigned side, std::int32_t cycle) const;
+  [[gnu::noinline]] bool gun_sees_beam(unsigned side, std::int32_t cycle) const;
   std::int32_t write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
   void close_frame();
   void write_vsync(std::uint8_t value, std::int32_t cycle);
@@ -147,6 +147,7 @@ class Board {
   std::shared_ptr<const Rom> rom_;
   std::array<KnownWindow, 64> known_windows_{};
   Ports ports_;
+  const bool has_gun_ = ports_.has_light_gun();
   const std::uint32_t unwatched_;  // the bit of addresses that only the RIOT sees; 0 if the cartridge watches
   // From which cycle on each of INPT0-5 reads high, and the two addresses after them, which never do.
   std::array<std::uint32_t, 8> pin_high_from_{};

@@ -93,14 +93,19 @@ std::uint8_t Ports::paddle_buttons(const Inputs& inputs, const Port& port) const
 // Pins 4 to 1: a stick's right, left, down and up; for paddles, only the two buttons.
 std::uint8_t Ports::nibble(unsigned side, const State& state, std::int32_t cycle) const {
   const Port& port = side_[side];
+  if (port.controller == Controller::kJoystick) return ~unsigned{stick(state.inputs, port.player)} & kDirections;
+  return port.controller == Controller::kPaddles ? paddle_buttons(state.inputs, port)
+                                                 : other_nibble(side, state, cycle);
+}
+
+std::uint8_t Ports::other_nibble(unsigned side, const State& state, std::int32_t cycle) const {
+  const Port& port = side_[side];
   const Inputs& inputs = state.inputs;
   const auto axis = [&](int which) { return place_at(inputs, port.player, which, cycle); };
   unsigned pins = kAllHigh;
   switch (port.controller) {
-    case Controller::kJoystick:
     case Controller::kBooster:
     case Controller::kGenesis: pins = ~unsigned{stick(inputs, port.player)} & kDirections; break;
-    case Controller::kPaddles: return paddle_buttons(inputs, port);
     case Controller::kKeyboard: return rows(side, state);
     case Controller::kDriving: pins = 0x0CU | kWheel[axis(0) % kWheel.size()]; break;
     case Controller::kLightGun:
@@ -109,7 +114,7 @@ std::uint8_t Ports::nibble(unsigned side, const State& state, std::int32_t cycle
     case Controller::kTrackball: pins = trackball(inputs, port.player, axis(0), axis(1)); break;
     case Controller::kAtariMouse: pins = atari_mouse(axis(0), axis(1)); break;
     case Controller::kAmigaMouse: pins = amiga_mouse(axis(0), axis(1)); break;
-    case Controller::kNone: break;
+    default: break;
   }
   return static_cast<std::uint8_t>(pins);
 }
@@ -148,9 +153,16 @@ std::uint32_t Ports::second_button(unsigned pin, const State& state) const {
 
 std::uint32_t Ports::high_from(unsigned pin, const State& state) const {
   if (pin >= kPots) return button_released(pin - kPots, state) ? kAlways : kNever;
+  switch (side_[pin / 2].controller) {
+    case Controller::kJoystick: return kNever;
+    case Controller::kPaddles: return charged_from(pin, state);
+    default: return other_pin(pin, state);
+  }
+}
+
+std::uint32_t Ports::other_pin(unsigned pin, const State& state) const {
   const unsigned side = pin / 2;
   switch (side_[side].controller) {
-    case Controller::kPaddles: return charged_from(pin, state);
     case Controller::kGenesis:
     case Controller::kBooster: return state.frame.dumping ? kNever : second_button(pin, state);
     case Controller::kKeyboard: {

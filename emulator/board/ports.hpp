@@ -42,10 +42,12 @@ class Ports {
     return side_[0].controller == controller || side_[1].controller == controller;
   }
   std::uint8_t nibble(unsigned side, const State& state, std::int32_t cycle) const;
+  [[gnu::noinline]] std::uint8_t other_nibble(unsigned side, const State& state, std::int32_t cycle) const;
   std::uint8_t paddle_buttons(const Inputs& inputs, const Port& port) const;
   bool button_released(unsigned side, const State& state) const;
   std::uint32_t charged_from(unsigned pin, const State& state) const;
   std::uint32_t second_button(unsigned pin, const State& state) const;
+  [[gnu::noinline]] std::uint32_t other_pin(unsigned pin, const State& state) const;
   int paddle(const Port& port, int which) const { return 2 * port.player + (which ^ swap_paddles_); }
 
   std::array<Port, 2> side_;  // left, right
