@@ -93,7 +93,8 @@ std::uint8_t Ports::paddle_buttons(const Inputs& inputs, const Port& port) const
 // Pins 4 to 1: a stick's right, left, down and up; for paddles, only the two buttons.
 std::uint8_t Ports::nibble(unsigned side, const State& state, std::int32_t cycle) const {
   const Port& port = side_[side];
-  if (port.controller == Controller::kJoystick) return ~unsigned{stick(state.inputs, port.player)} & kDirections;
+  if (port.controller == Controller::kJoystick)
+    return static_cast<std::uint8_t>(~unsigned{stick(state.inputs, port.player)} & kDirections);
   return port.controller == Controller::kPaddles ? paddle_buttons(state.inputs, port)
                                                  : other_nibble(side, state, cycle);
 }

@@ -51,6 +51,9 @@ int number_of(std::string_view word, const AllowedActions& actions, Player playe
   auto number = digits ? parse_number<int>(word) : action_number(word);
   if (!number && !digits) number = action_number(upper_case(word));
   if (!number || !is_action(*number)) refuse(word, " is not an action", actions);
+  const bool is_of_controller = *number >= kConsoleActions;
+  if (digits && is_of_controller && !is_allowed(*number, actions, player))
+    refuse(word, " is not an action", actions, player);
   if (player == Player::kB && is_of_console(*number))
     refuse(word, " is an action of player A only", actions, player);
   if (!is_allowed(*number, actions, player)) refuse(word, why_not(*number), actions, player);

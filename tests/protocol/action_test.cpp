@@ -76,6 +76,7 @@ TEST_CASE("Keys and more buttons are actions where their controller is connected
   CHECK(parse_action("KEY1/UPFIRE+TRIGGER+BOOSTER", actions).act.b == 18 + 160 + 10);
   CHECK(parse_action("NOOP/96", actions).act.b == 18 + 96);
   CHECK_THAT(refusal("KEY7"), Contains("'KEY7' needs a game with a keyboard"));
+  CHECK_THAT(refusal("99"), Contains("'99' is not an action; pong takes 0=NOOP"));
   CHECK_THAT(refusal("NOOP/KEY7", actions), Contains("'KEY7' needs a game with a keyboard"));
   CHECK_THAT(refusal("UP+C", actions), Contains("'UP+C' needs a controller with that button"));
   CHECK_THAT(refusal("UP+TRIGGER", actions), Contains("'UP+TRIGGER' needs a controller with that button"));

@@ -37,14 +37,16 @@ void bind_enumerations(nb::module_& module) {
     console.value(name.c_str(), static_cast<PythonConsoleAction>(number));
   }
   nb::enum_<PythonControllerAction> controller(
-      module, "ControllerAction", "An action that only some controllers have, as of player A; \"_\" is \"+\" in its name.");
+      module, "ControllerAction",
+      "An action that only some controllers have, as of player A; \"_\" is \"+\" in its name.");
   for (int number = kFirstKey; number < kActionNumbers; ++number) {
     std::string name(action_name(number));
     std::ranges::replace(name, '+', '_');
     if (!name.empty()) controller.value(name.c_str(), static_cast<PythonControllerAction>(number));
   }
   module.def("controller_actions", controller_actions, "controller"_a,
-             "Lists the actions that only such a controller has. The names of controllers are those of the setting left.");
+             "Lists the actions that only such a controller has. The names of controllers are those of the "
+             "setting left.");
   nb::enum_<LoggerMode>(module, "LoggerMode", "The logger modes of ALE. racebeam logs nothing.")
       .value("Info", LoggerMode::kInfo)
       .value("Warning", LoggerMode::kWarning)

@@ -55,8 +55,11 @@ class Playing(unittest.TestCase):
 
     def test_actions_of_other_controllers(self):
         settings = {"full_action_space": "console", "repeat_action_probability": 0, "frameskip": 1}
-        for left, count, first, last in (("keyboard", 38, "KEY1", "KEYHASH"), ("genesis", 44, "NOOP+C", "DOWNLEFTFIRE+C"),
-                                         ("booster", 80, "NOOP+TRIGGER", "DOWNLEFTFIRE+TRIGGER+BOOSTER")):
+        for left, count, first, last in (
+            ("keyboard", 38, "KEY1", "KEYHASH"),
+            ("genesis", 44, "NOOP+C", "DOWNLEFTFIRE+C"),
+            ("booster", 80, "NOOP+TRIGGER", "DOWNLEFTFIRE+TRIGGER+BOOSTER"),
+        ):
             with self.subTest(left=left):
                 env = racebeam.AtariEnv("beamfall", left=left, **settings)
                 self.assertEqual(env.action_space, gym.spaces.Discrete(count))
