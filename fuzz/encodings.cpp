@@ -135,7 +135,7 @@ void check_words(std::string_view text) {
   for (const std::string_view word : words) {
     require(!word.empty() && word.find(' ') == std::string_view::npos, "a word has no blanks");
     may_refuse([&] {
-      const Action action = parse_action(word, {"a game", 0x3FFFF});
+      const Action action = parse_action(word, {"a game", 0x3FFFF, 0x3FFFF});
       const Act& act = action.act;
       require(act.a >= 0 && act.a < 18 && act.b >= 18 && act.b < 36, "actions are those of the players");
       require(std::isfinite(act.strength_a) && std::isfinite(act.strength_b), "strengths are finite");
