@@ -51,7 +51,7 @@ const std::vector<Case> kCases = {
      {{"blob_distance", "210"}, {"most_features", "50"}}},
     {"full_tree", "frames = 400\n", {{"frames", "2000"}, {"reuse_tree", "1"}}},
     {"iw1",
-     "frames = 1500\n",
+     "frames = 1000\n",
      {{"frames", "300"}, {"gamma", "0.1"}, {"reuse_tree", "0"}, {"reward_aside", "0"}}},
     {"rollout_iw1", "frames = 1500\n", {{"frames", "300"}, {"gamma", "0.1"}, {"reuse_tree", "0"}}},
     {"uct",
