@@ -13,7 +13,7 @@ from racebeam_evaluation.games import DATA  # noqa: E402
 from racebeam_evaluation.plan import preset_of  # noqa: E402
 from racebeam_evaluation.published.beside import interval  # noqa: E402
 from racebeam_evaluation.published.paper import published_scores  # noqa: E402
-from racebeam_evaluation.published.protocols import cause, published_protocols  # noqa: E402
+from racebeam_evaluation.published.protocols import cause, not_comparable, published_protocols  # noqa: E402
 
 WORDS = "frame_skip=5 sticky={sticky} noop_max=0 life_loss_ends=0 action_set=full max_episode_frames=18000"
 PLAN = """name = "made"
@@ -48,6 +48,7 @@ SCORES = {
     ("uct", "asterix"): [[1], [3]],
     ("const_up", "asterix"): [[650, 650]],
     ("const_noop", "asterix"): [[0, 0]],
+    ("const_up", "freeway"): [[23, 23]],
     ("mine", "asterix"): [[7]],
     ("const_noop", "skiing"): [[-9013, -9013]],
 }
@@ -93,6 +94,7 @@ class Published(unittest.TestCase):
         self.assertEqual(found["asterix", "basic"]["agrees"], "yes")  # 862.3 lies within
         self.assertEqual(found["seaquest", "basic"]["agrees"], "no: the cause is not known")
         self.assertEqual(found["asterix", "const"]["agrees"], "yes")  # 650 without variance
+        self.assertTrue(found["freeway", "const"]["agrees"].startswith("no: 30 starts after 0 to 29 no-ops give 19 to"))
         self.assertTrue(found["skiing", "const"]["agrees"].startswith("not comparable: the reward was near 0 then"))
         self.assertNotIn(("asterix", "mine"), found)
 
@@ -149,13 +151,15 @@ class Data(unittest.TestCase):
 
     def test_causes_name_agents_and_games_that_are_published(self):
         scores = published_scores()
-        for line in (DATA / "not_comparable.csv").read_text().splitlines()[1:]:
-            game, agent, reason = line.split(",", 2)
-            self.assertIn(agent, [*scores, "*"])
-            self.assertIn(game, scores.index)
-            self.assertTrue(reason)
+        for name in ("not_comparable", "causes"):
+            for line in (DATA / f"{name}.csv").read_text().splitlines()[1:]:
+                game, agent, reason = line.split(",", 2)
+                self.assertIn(agent, [*scores, "*"])
+                self.assertIn(game, scores.index)
+                self.assertTrue(reason)
         self.assertIsNone(cause("basic", "asterix"))
-        self.assertEqual(cause("uct", "skiing"), cause("const", "skiing"))
+        self.assertIsNone(not_comparable("basic", "asterix"))
+        self.assertEqual(not_comparable("uct", "skiing"), not_comparable("const", "skiing"))
 
     def test_the_interval_of_a_mean(self):
         import numpy as np

@@ -11,10 +11,10 @@ from ..plan import Protocol
 from ..results import Results
 from ..scores import Scores
 from .paper import published_scores
-from .protocols import cause, published_protocols, sources
+from .protocols import cause, not_comparable, published_protocols, sources
 
 _CONFIDENCE = 0.95
-_UNEXPLAINED = "no: the cause is not known"
+_UNEXPLAINED = "the cause is not known"
 _NOT_COMPARABLE = "not comparable"
 
 
@@ -94,21 +94,24 @@ def _row(scores: Scores, agent: str, game: str, published: float, different: lis
         "low": low,
         "high": high,
         "published": published,
-        "agrees": _agrees((low, high), score, published, cause(agent, game), different),
+        "agrees": _agrees((low, high), agent, game, score, published, different),
     }
 
 
 def _agrees(
-    bounds: tuple[float, float], score: float, published: float, reason: str | None, different: list[str]
+    bounds: tuple[float, float], agent: str, game: str, score: float, published: float, different: list[str]
 ) -> str:
     """Whether the published mean is within our interval; if not, why."""
+    reason = not_comparable(agent, game)
     if reason is not None:
         return f"{_NOT_COMPARABLE}: {reason}"
     if score == published or bounds[0] <= published <= bounds[1]:
         return "yes"
     if np.isnan(bounds[0]):
         return "unknown: one sample has no interval"
-    return f"no: {' and '.join(different)} differ or are unknown" if different else _UNEXPLAINED
+    if different:
+        return f"no: {' and '.join(different)} differ or are unknown"
+    return f"no: {cause(agent, game) or _UNEXPLAINED}"
 
 
 def interval(sample: np.ndarray[tuple[int], np.dtype[np.float64]]) -> tuple[float, float]:

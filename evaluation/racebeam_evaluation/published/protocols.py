@@ -1,4 +1,4 @@
-"""How published scores were made, and what keeps ours from being compared with them."""
+"""How published scores were made, and why ours differ from them or cannot be compared."""
 
 import dataclasses
 
@@ -7,7 +7,7 @@ import pandas as pd
 from ..games import DATA
 from ..plan import Protocol
 
-EVERY_AGENT = "*"  # in not_comparable.csv
+EVERY_AGENT = "*"  # in not_comparable.csv and causes.csv
 
 
 def _table(name: str) -> pd.DataFrame:
@@ -26,8 +26,18 @@ def sources() -> dict[str, str]:
     return dict(_table("protocols").set_index("agent")["source"])
 
 
-def cause(agent: str, game: str) -> str | None:
+def not_comparable(agent: str, game: str) -> str | None:
     """Why the published score of an agent in a game cannot be compared with one of today; None if it can."""
-    rows = _table("not_comparable")
+    return _found("not_comparable", agent, game)
+
+
+def cause(agent: str, game: str) -> str | None:
+    """Why the score of an agent in a game differs from the published one; None if nobody knows."""
+    return _found("causes", agent, game)
+
+
+def _found(table: str, agent: str, game: str) -> str | None:
+    """The last column of the row of the agent and the game."""
+    rows = _table(table)
     found = rows[(rows["game"] == game) & rows["agent"].isin([agent, EVERY_AGENT])]
-    return str(found["reason"].iloc[0]) if len(found) else None
+    return str(found.iloc[0, -1]) if len(found) else None
