@@ -5,22 +5,24 @@
 
 FOLDER has PLAN.json for plans of PLANS, as scripts/measure/plan_figures.py gathers them; docs/results/figures unless it
 is named. A plan without figures is said to be not run yet. Where only some games of `baselines` were run again,
-baselines-partial.json has these: its plan is that of `baselines` with fewer games. perturb-again.json has other
-episodes of the Perturb policies that are far from the paper's. Published scores are those of evaluation/.
+baselines-partial.json has these: its plan is that of `baselines` with fewer games. random-again.json, const-again.json
+and perturb-again.json have other episodes of the policies that do not agree with the paper. Published scores are those
+of evaluation/.
 """
 
 import argparse
 import pathlib
 import sys
 
-from paper.agents import Agents
+from paper.baselines import Baselines
 from paper.conditions import Conditions
+from paper.learners import Learners
 from paper.logs import Logs
 from paper.searches import Searches
 from plan_figures import FIGURES, ROOT
 
 
-class Document(Conditions, Agents, Searches, Logs):
+class Document(Conditions, Baselines, Learners, Searches, Logs):
     """docs/results.md."""
 
     def text(self):

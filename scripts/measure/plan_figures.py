@@ -79,6 +79,14 @@ class Results:
                 episodes.setdefault(row["game"], []).append(float(row["score"]))
         return {game: statistics.stdev(each) / len(each) ** 0.5 for game, each in episodes.items() if len(each) > 1}
 
+    def distinct(self, agent):
+        """{game: the different scores of its episodes, in order}."""
+        scores = {}
+        for row in self.rows:
+            if row["agent"] == agent:
+                scores.setdefault(row["game"], set()).add(float(row["score"]))
+        return {game: sorted(each) for game, each in scores.items()}
+
     def curves(self):
         """{agent: {game: the scores of training by tenths of the episodes, means over trials}}."""
         path = self.folder / "curves.csv"
@@ -180,7 +188,8 @@ class Results:
             "diverged": self.diverged,
             "seconds": sum(times[part + "_seconds"] for times in self.times.values() for part in PARTS),
             "scores": {agent: self.scores(agent) for agent in self.agents},
-            "errors": {agent: self.errors(agent) for agent in self.agents if agent.startswith("perturb")},
+            "errors": {agent: self.errors(agent) for agent in self.agents if agent.startswith(("random", "perturb"))},
+            "distinct": {agent: self.distinct(agent) for agent in self.agents if agent.startswith("const")},
             "trials": {agent: self.trials(agent) for agent in curves},
             "curves": curves,
             "speeds": {agent: self.speeds(agent) for agent in self.agents},

@@ -54,7 +54,7 @@ class Conditions(Part):
             where it ended. By worth for their time, the plans to go on with are `learners`, `perturb`, `iw1`, `ram`,
             `searches` and `blob_prost`.""")
         rows = []
-        for name in (*PLANS, *(each for each in (PARTIAL, AGAIN) if each in self.figures)):
+        for name in (*PLANS, *(each for each in (PARTIAL, *AGAIN) if each in self.figures)):
             found = self.figures.get(name)
             rows.append(
                 [

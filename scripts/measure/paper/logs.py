@@ -1,6 +1,6 @@
 """The sections of docs/results.md about the logs of episodes."""
 
-from .agents import LEARNERS
+from .learners import LEARNERS
 from .parts import Part, number, rows_of, share_of_bench
 
 

@@ -2,6 +2,7 @@
 
 import json
 import re
+import statistics
 import textwrap
 
 from plan_figures import ROOT, table
@@ -13,7 +14,13 @@ PLANS = (
     *("uct", "uct10", "uct50", "uct150", "full_tree", "iw1", "searches"),
 )
 PARTIAL = "baselines-partial"
-AGAIN = "perturb-again"  # more episodes of the policies whose score is far from the paper's
+# The 97.5 % quantile of Student's t for 1, 2, ... degrees of freedom.
+STUDENT = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262)
+AGAIN = {  # other episodes of the policies whose score is not the paper's
+    "random-again": "Random, other episodes",
+    "const-again": "Const, other starts",
+    "perturb-again": "Perturb, other episodes",
+}
 
 
 def published(name):
@@ -29,6 +36,27 @@ def paper():
 
 def number(value, digits=1):
     return f"{round(value, digits) + 0:,.{digits}f}" if value is not None else "-"  # + 0: not -0.0
+
+
+def bounds(sample):
+    """The 95 % interval of a mean, by Student's t; None of a single score."""
+    if len(sample) < 2:
+        return None
+    half = STUDENT[min(len(sample), len(STUDENT) + 1) - 2] * statistics.stdev(sample) / len(sample) ** 0.5
+    mean = statistics.mean(sample)
+    return mean - half, mean + half
+
+
+def agreement(sample, theirs, unit):
+    """Whether a published score is within the interval of ours; "-" if nobody published one."""
+    if theirs is None:
+        return "-"
+    if statistics.mean(sample) == theirs:
+        return "yes"
+    within = bounds(sample)
+    if within is None:
+        return f"unknown: one {unit} has no interval"
+    return "yes" if within[0] <= theirs <= within[1] else "no"
 
 
 def rows_of(header, *rows):
@@ -53,13 +81,13 @@ def share_of_bench(verified):
 
 
 def best(found, kind):
-    """{game: (score, action)} of the best of the 18 agents of a kind, for games in which all of them have played."""
+    """{game: (score, agent)} of the best of the 18 agents of a kind, for games in which all of them have played."""
     scores = {}
     for agent, each in found["scores"].items():
         if agent.startswith(kind + "_"):
             for game, score in each.items():
-                scores.setdefault(game, []).append((score, agent.removeprefix(kind + "_")))
-    all_of_them = max(map(len, scores.values()))
+                scores.setdefault(game, []).append((score, agent))
+    all_of_them = max(map(len, scores.values()), default=1)
     return {
         game: max(scores[game], key=lambda pair: pair[0])
         for game in found["games"]
@@ -73,7 +101,7 @@ class Part:
     def __init__(self, folder):
         self.figures = {
             name: json.loads((folder / f"{name}.json").read_text())
-            for name in (*PLANS, PARTIAL, AGAIN)
+            for name in (*PLANS, PARTIAL, *AGAIN)
             if (folder / f"{name}.json").exists()
         }
         self.paper = paper()
@@ -96,7 +124,7 @@ class Part:
         """What a table calls a plan."""
         if name == PARTIAL:
             return f"`baselines`, {len(self.figures[name]['games'])} games again"
-        return "`perturb`, other episodes" if name == AGAIN else f"`{name}`"
+        return AGAIN.get(name, f"`{name}`")
 
     def figures_of(self, plan):
         """The figures whose changed agents the document shows."""

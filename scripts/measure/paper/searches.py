@@ -2,7 +2,7 @@
 
 import statistics
 
-from .parts import Part, number, rows_of
+from .parts import Part, agreement, number, rows_of
 
 SEARCH_GOALS = {("uct", "boxing"): 95, ("uct", "asterix"): 100000, ("uct", "seaquest"): 2500}
 SIMULATIONS = {10: "uct10", 50: "uct50", 150: "uct150", 500: "uct"}
@@ -32,7 +32,8 @@ class Searches(Part):
                         name,
                         game,
                         number(score),
-                        number(self.paper[game].get(name)),
+                        number(self.paper.get(game, {}).get(name)),
+                        agreement([score], self.paper.get(game, {}).get(name), "episode"),
                         number(SEARCH_GOALS.get((name, game)), 0),
                         f"{episode['decisions']:,}",
                         number(seconds, 2),
@@ -50,6 +51,7 @@ class Searches(Part):
                         "game",
                         "score",
                         "published",
+                        "agrees",
                         "goal",
                         "decisions",
                         "seconds a decision",

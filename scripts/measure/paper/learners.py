@@ -1,0 +1,115 @@
+"""The sections of docs/results.md about learners."""
+
+import statistics
+
+from plan_figures import ROOT
+
+from .parts import Part, agreement, bounds, number, rows_of
+
+LEARNERS = {"basic": 8000, "lsh": 4000, "disco": 3000, "bass": 1000, "ram": 500}  # decisions a second: the goals
+
+
+class Learners(Part):
+    """Scores of learners."""
+
+    def learners(self):
+        self.add("## Learners, in an hour")
+        if self.lacks("hour"):
+            return
+        found = self.figures["hour"]
+        scores = found["scores"]
+        agents = [agent for agent in scores if agent in LEARNERS]
+        random, trial = scores["random"], found["settings"][agents[0]]
+        self.say(f"""{trial["trials"]} trials of {trial["training_frames"] // trial["frame_skip"]:,} decisions and
+            {trial["evaluation_episodes"]} evaluation episodes each. All took {number(found["seconds"] / 7200, 2)}
+            hours of processor time on
+            each of two cores (goal: 1, at most 1.5), the discovery of backgrounds and classes not included. In
+            brackets: the paper's scores, after 5,000 episodes. So much shorter training is not meant to agree with
+            them.""")
+        self.add(
+            rows_of(
+                ["game", "Random", *agents],
+                *(
+                    [
+                        game,
+                        f"{number(random[game])} ({number(self.paper[game]['random'])})",
+                        *(f"{number(scores[agent].get(game))} ({number(self.paper[game][agent])})" for agent in agents),
+                    ]
+                    for game in found["games"]
+                ),
+            )
+        )
+        self.say(f"""Games in which the mean of each learner is above that of Random (goal: at least three), and its
+            speed, emulation included. {trial["trials"]} trials are too few to tell such a difference from chance:
+            `racebeam-evaluate` gives the number of games its interval, and tests each game.""")
+        speeds = found["speeds"]
+        self.add(
+            rows_of(
+                ["learner", "games above Random", "decisions a second, mean of the games", "lowest", "highest", "goal"],
+                *(
+                    [
+                        agent,
+                        str(sum(scores[agent].get(game, random[game]) > random[game] for game in random)),
+                        number(statistics.mean(speeds[agent].values()), 0),
+                        number(min(speeds[agent].values()), 0),
+                        number(max(speeds[agent].values()), 0),
+                        number(LEARNERS[agent], 0),
+                    ]
+                    for agent in agents
+                ),
+            )
+        )
+        if (ROOT / "docs/pictures/learning-curves.svg").exists():
+            self.add("![Scores of training episodes by frames, a panel for each game](pictures/learning-curves.svg)")
+
+    def long_training(self):
+        self.add("## Basic, for 2,000,000 decisions")
+        if self.lacks("basic"):
+            return
+        found = self.figures["basic"]
+        scores, random = found["scores"]["basic"], found["scores"]["random"]
+        self.add(
+            rows_of(
+                ["game", "Basic", "paper's Basic", "Random"],
+                *(
+                    [game, number(scores.get(game)), number(self.paper[game]["basic"]), number(random[game])]
+                    for game in found["games"]
+                ),
+            )
+        )
+
+    def whole_training(self):
+        self.add("## Learners, whole training")
+        plans = [name for name in ("learners", "ram", "blob_prost") if name in self.figures]
+        self.lacks(*(name for name in ("learners", "ram", "blob_prost") if name not in plans))
+        if not plans:
+            return
+        self.say("""Training and evaluation are as long as in the paper: 5,000 and 500 episodes. Blob-PROST trains for
+            2,000. A score is the mean over trials of the mean over their episodes. The interval is at 95 %, by
+            Student's t over trials; a single trial lacks it. A score agrees with the published one if the interval has
+            it.""")
+        rows, curves = [], []
+        for game, agent, found in self.trained(plans):
+            theirs, score = self.paper[game].get(agent), found["scores"][agent][game]
+            trials = found["trials"][agent][game]
+            row = [game, agent, str(len(trials)), f"{found['episodes'][agent][game]:,}", number(score)]
+            row += [" to ".join(map(number, bounds(trials) or ())) or "-", number(theirs)]
+            rows.append([*row, number(score / theirs, 2) if theirs else "-", agreement(trials, theirs, "trial")])
+            curves.append([game, agent, *(number(part, 0) for part in found["curves"][agent][game])])
+        header = ["game", "agent", "trials", "episodes", "score", "95 % interval", "published", "score / published"]
+        self.add(rows_of([*header, "agrees"], *rows))
+        self.say("""Mean scores of training episodes, by tenths of the training. Training explores as evaluation
+            does.""")
+        width = max(len(row) for row in curves)
+        tenths = [f"{place}" for place in range(1, width - 1)]
+        self.add(rows_of(["game", "agent", *tenths], *(row + ["-"] * (width - len(row)) for row in curves)))
+
+    def trained(self, plans):
+        """(game, agent, figures) of each learner that was trained in a game, by game."""
+        every = [
+            (game, agent, self.figures[plan])
+            for plan in plans
+            for agent, games in self.figures[plan]["trials"].items()
+            for game in games
+        ]
+        return sorted(every, key=lambda each: each[0])
