@@ -18,7 +18,7 @@ std::vector<std::string_view> names_of(const Rows& rows) {
   return names;
 }
 
-// The same as a constant.
+// Like names_of, for a constant.
 template <typename Row, std::size_t kRows>
 constexpr std::array<std::string_view, kRows> name_array(const std::array<Row, kRows>& rows) {
   std::array<std::string_view, kRows> names;

@@ -17,7 +17,7 @@ namespace racebeam {
 
 enum class Encoding { kHex, kRunLength, kDelta, kBase64, kZlib, kRaw };
 
-// As protocol/protocol.toml names them.
+// The names in protocol/protocol.toml.
 inline constexpr std::array<WordFor<Encoding>, 6> kEncodingNames = {{{"hex", Encoding::kHex},
                                                                      {"rle", Encoding::kRunLength},
                                                                      {"delta", Encoding::kDelta},

@@ -42,11 +42,11 @@ class Picture {
     int drawn = 0;
     for (std::size_t row = 0; row < kRows; ++row) {
       LineRecord& record = cache_.row(row);
-      const std::uint32_t wanted = content(frames_, row);
-      if (record.number != kNoLine && record.event[0] == wanted) continue;
+      const std::uint32_t value = content(frames_, row);
+      if (record.number != kNoLine && record.event[0] == value) continue;
       record.open({});
       record.count = 1;
-      record.event[0] = wanted;
+      record.event[0] = value;
       cache_.add(record);
       ++drawn;
     }
