@@ -7,6 +7,8 @@
 #include <array>
 #include <cstdint>
 
+#include "emulator/tuning.hpp"
+
 namespace racebeam {
 
 class DeferredRenderPolicy {
@@ -24,28 +26,24 @@ class DeferredRenderPolicy {
   // given to record(). Observed frames between others are measured, too: they take less time after frames
   // that were drawn.
   bool measures() {
-    return number_ < 2 * kProbe && number_ % kProbe >= kSettling && observed_++ <= kMostObserved;
+    return number_ < 2 * kProbe && number_ % kProbe >= tuning::kSettlingFrames &&
+           observed_++ <= tuning::kMostObserved;
   }
   void record(std::int64_t nanoseconds) { times_[draws_] += nanoseconds; }
 
  private:
   void decide() {
     const bool choice = times_[true] < times_[false];
-    period_ = choice == choice_ ? std::min(2 * period_, kLongestPeriod) : kShortestPeriod;
+    period_ = choice == choice_ ? std::min(2 * period_, tuning::kLongestPeriod) : tuning::kShortestPeriod;
     choice_ = choice;
   }
 
-  // A probe has some frames until the rows that are recalled are those of the frames before, then the
-  // measured ones. Their number is a multiple of the common patterns: frame skip 2 to 5 with one or two
-  // frames observed, and games that do different work in each of two or four frames.
-  static constexpr unsigned kSettling = 4, kProbe = kSettling + 12;
-  static constexpr unsigned kShortestPeriod = 512, kLongestPeriod = 4096;
-  static constexpr unsigned kMostObserved = 2;  // in turn; more belong to another use of the machine
+  static inline const unsigned kProbe = tuning::kSettlingFrames + tuning::kMeasuredFrames;
 
   // Frames are followed at first. Drawing takes memory, which a machine that has only been switched on may
   // never need.
   unsigned number_ = 2 * kProbe;  // of the frame that is not observed, in its period
-  unsigned period_ = kShortestPeriod;
+  unsigned period_ = tuning::kShortestPeriod;
   unsigned observed_ = 0;  // frames that were observed since
   bool choice_ = false, draws_ = false;
   std::array<std::int64_t, 2> times_{};  // followed, drawn

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "system/tuning.hpp"
+
 namespace racebeam {
 
 class BusyPoll {
@@ -33,13 +35,11 @@ class BusyPoll {
   bool again() {
     if (until_ == Clock::time_point{} || Clock::now() < until_) return until_ != Clock::time_point{};
     until_ = {};
-    to_skip_ = vain_ = std::min(4 * vain_ + 4, kMostSkipped);
+    to_skip_ = vain_ = std::min(4 * vain_ + 4, tuning::kMostSkippedPolls);
     return false;
   }
 
  private:
-  static constexpr int kMostSkipped = 1024;
-
   const std::chrono::microseconds longest_;
   Clock::time_point until_{};   // none: asleep
   int vain_ = 0, to_skip_ = 0;  // how often not to try after the last time, and from now on

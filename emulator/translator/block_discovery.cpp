@@ -4,7 +4,7 @@
 #include <map>
 
 #include "emulator/tia/registers/registers.hpp"
-#include "emulator/translator/tuning.hpp"
+#include "emulator/tuning.hpp"
 
 namespace racebeam::translator {
 namespace {

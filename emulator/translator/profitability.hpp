@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "emulator/translator/tuning.hpp"
+#include "emulator/tuning.hpp"
 
 namespace racebeam::translator {
 

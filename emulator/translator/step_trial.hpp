@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "emulator/translator/tuning.hpp"
+#include "emulator/tuning.hpp"
 
 namespace racebeam::translator {
 
@@ -47,14 +47,15 @@ class StepTrial {
     const int longest = interprets_ ? tuning::kLongestTried : tuning::kLongestPause;
     pause_ = other_wins ? tuning::kShortestPause : std::min(2 * pause_, longest);
     if (lost_ == tuning::kRoundsToLose) interprets_ = !interprets_, lost_ = 0;
-    trials_ = tuning::kTrialsOfRound;
+    trials_ = kTrialsOfRound;
     if (lost_ == 0) least_ = kUnknown;
   }
 
   static constexpr int kSteps = 3, kOther = 1;  // the usual way, the other, the usual
+  static constexpr int kTrialsOfRound = 4;      // one of each of four successive steps
 
   using Trial = std::array<std::int64_t, kSteps>;  // by the steps that are left after it
-  using Round = std::array<Trial, tuning::kTrialsOfRound>;
+  using Round = std::array<Trial, kTrialsOfRound>;
   static constexpr Round kUnknown = [] {
     Round round{};
     for (Trial& trial : round) trial.fill(std::numeric_limits<std::int64_t>::max());
@@ -64,7 +65,7 @@ class StepTrial {
   bool interprets_ = false;
   int left_ = tuning::kFirstPause + kSteps;  // steps until this trial has ended
   int pause_ = tuning::kShortestPause;       // steps between trials
-  int trials_ = tuning::kTrialsOfRound;      // of this round, not ended
+  int trials_ = kTrialsOfRound;              // of this round, not ended
   int lost_ = 0;                             // rounds in turn
   Round least_ = kUnknown;                   // costs in the rounds in turn
 };

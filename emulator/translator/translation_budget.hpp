@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "emulator/base/stopwatch.hpp"
+#include "emulator/tuning.hpp"
 
 namespace racebeam::translator {
 
@@ -16,7 +17,9 @@ class TranslationBudget {
  public:
   // unlimited: the budget covers every batch, whatever it costs.
   explicit TranslationBudget(bool unlimited, const Clocks& clocks = host_clocks())
-      : clocks_(clocks), balance_(unlimited ? kCapacity : kCredit - kStartCost), unlimited_(unlimited) {}
+      : clocks_(clocks),
+        balance_(unlimited ? tuning::kCapacity : tuning::kCredit - tuning::kStartCost),
+        unlimited_(unlimited) {}
 
   // Called around each step of the machine. While the budget is full, no clock is read.
   void begin_step() {
@@ -26,8 +29,8 @@ class TranslationBudget {
   }
   void end_step() {
     if (!earns_) return;
-    const std::int64_t ran = std::min(clocks_.wall() - began_ - spent_, kLongestStep);
-    balance_ = std::min(balance_ + ran * percent() / 100, kCapacity);
+    const std::int64_t ran = std::min(clocks_.wall() - began_ - spent_, tuning::kLongestStep);
+    balance_ = std::min(balance_ + ran * percent() / 100, tuning::kCapacity);
   }
 
   // Charges the time from its construction to its destruction.
@@ -43,7 +46,7 @@ class TranslationBudget {
     const Stopwatch watch_;
   };
 
-  bool covers_batch() const { return balance_ >= kBatchCost; }
+  bool covers_batch() const { return balance_ >= tuning::kBatchCost; }
   bool is_unlimited() const { return unlimited_; }
   // What translation took in this step.
   std::int64_t spent() const { return spent_; }
@@ -53,25 +56,15 @@ class TranslationBudget {
     spent_ += cost;
     if (unlimited_) return;
     ++batches_;
-    balance_ -= std::min(cost, kLongestBatch);
+    balance_ -= std::min(cost, tuning::kLongestBatch);
   }
 
-  // The part of the machine's time that is added. It is small beyond what the largest games need: such a
-  // program is hardly worth the work.
-  std::int64_t percent() const { return batches_ < kUsualBatches ? 20 : 5; }
+  // The part of the machine's time that is added.
+  std::int64_t percent() const {
+    return batches_ < tuning::kUsualBatches ? tuning::kUsualPercent : tuning::kLatePercent;
+  }
 
-  static constexpr int kUsualBatches = 256;  // Solaris has 200
-  static constexpr std::int64_t kLongestStep = 400'000, kLongestBatch = 400'000;
-  static constexpr std::int64_t kCapacity = 4'000'000;
-  // What a machine has when it starts. Most games have then translated the code that they begin with before
-  // they have run for a few frames.
-  static constexpr std::int64_t kCredit = 800'000;
-  // The part of the credit that pays for what the system does for the memory of the code, which is not
-  // charged: pages of short-lived machines.
-  static constexpr std::int64_t kStartCost = 200'000;
-  static constexpr std::int64_t kBatchCost = 25'000;  // usual; a batch that costs more leaves a debt
-
-  bool is_full() const { return balance_ == kCapacity; }
+  bool is_full() const { return balance_ == tuning::kCapacity; }
 
   const Clocks& clocks_;
   std::int64_t balance_, began_ = 0, spent_ = 0;  // spent in this step

@@ -13,17 +13,15 @@
 #include "emulator/translator/image_code.hpp"
 #include "emulator/translator/step_trial.hpp"
 #include "emulator/translator/translation_budget.hpp"
-#include "emulator/translator/tuning.hpp"
+#include "emulator/tuning.hpp"
 
 namespace racebeam {
-
-namespace tuning = translator::tuning;
 
 namespace {
 
 // No block takes more cycles. A block that starts this long before the line limit makes its TIA writes before
 // the limit.
-constexpr std::int32_t kMargin = 400;
+const std::int32_t kMargin = tuning::kMostBlockCycles + 100;
 
 constexpr std::int32_t kFewestCycles = 2;  // of an instruction
 

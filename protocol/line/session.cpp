@@ -4,17 +4,11 @@
 #include <utility>
 
 #include "protocol/line/command.hpp"
+#include "protocol/tuning.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
-
-// Replies to requests that were sent ahead are sent together. These limit how many wait.
-constexpr int kFramesOfReplies = 64;              // take some hundred microseconds
-constexpr std::size_t kBytesOfReplies = 1 << 16;  // about twenty screens
-// They go out once more when so many requests are left. The client reads them meanwhile, and sends the next.
-constexpr std::size_t kLastRequests = 3;
-constexpr std::int64_t kFewReplies = 4;  // fewer are not worth waking the client twice
 
 constexpr std::size_t kShortLine = 4096;
 // Memory that a word of a request may take, as an action and as its reward.
@@ -76,16 +70,16 @@ bool Session::run(std::chrono::microseconds slice) {
 
 // Whether enough output waits to be sent. A client that reads slowly thus delays only its own requests.
 bool Session::has_enough() const {
-  return context_.pacer.frames() - sent_frames_ >= kFramesOfReplies ||
-         reply_.text().size() >= std::min(kBytesOfReplies, context_.service.limits.output);
+  return context_.pacer.frames() - sent_frames_ >= tuning::kFramesOfReplies ||
+         reply_.text().size() >= std::min(tuning::kBytesOfReplies, context_.service.limits.output);
 }
 
 // Whether replies are sent before the next request. The server delays tokens one by one.
 bool Session::pauses() const {
   if (context_.pacer.in_progress() || reply_.text().empty() || input_.empty()) return false;
   return !context_.peer.admitted || has_enough() ||
-         (context_.statistics.requests - sent_requests_ >= kFewReplies &&
-          input_.lines(kLastRequests + 1) == kLastRequests);
+         (context_.statistics.requests - sent_requests_ >= tuning::kFewReplies &&
+          input_.lines(tuning::kLastRequests + 1) == tuning::kLastRequests);
 }
 
 bool Session::waits() const { return context_.pacer.in_progress() && context_.waits_for_disk(); }

@@ -8,6 +8,7 @@
 
 #include "emulator/pace.hpp"
 #include "protocol/running/fiber.hpp"
+#include "protocol/tuning.hpp"
 
 namespace racebeam {
 
@@ -63,13 +64,10 @@ class Pacer final : public Pace {
 
  private:
   static constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
-  // A look at the clock takes 25 ns, a frame from 2 us to some milliseconds.
-  static constexpr int kFramesBetweenLooks = 4;
-  static constexpr std::chrono::microseconds kLong{400};  // for so many
 
   void look() {
     const auto now = Clock::now();
-    frames_before_look_ = now - looked_ < kLong ? kFramesBetweenLooks : 1;
+    frames_before_look_ = now - looked_ < tuning::kLongBetweenLooks ? tuning::kFramesBetweenLooks : 1;
     looked_ = now;
     if (now >= end_) pause();
   }
@@ -77,7 +75,7 @@ class Pacer final : public Pace {
 
   Fiber fiber_;
   Clock::time_point end_{}, looked_{};
-  int frames_before_look_ = kFramesBetweenLooks;
+  int frames_before_look_ = tuning::kFramesBetweenLooks;
   std::int64_t frames_ = 0, most_frames_ = kNoLimit, allowed_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include "server/connections/memory_relief.hpp"
 #include "server/operation/log.hpp"
 #include "server/scheduling/keep_running.hpp"
+#include "server/tuning.hpp"
 
 namespace racebeam {
 namespace {
@@ -13,9 +14,6 @@ namespace {
 namespace net = boost::asio;
 using std::chrono::seconds;
 using namespace std::chrono_literals;
-
-constexpr auto kBetweenLooks = 250ms;
-constexpr auto kPause = 2s;  // of a client, after which its session releases its caches
 
 std::string why_not_admitted(const Client& client, int handshake_seconds) {
   const std::string time = std::to_string(handshake_seconds) + " seconds";
@@ -46,7 +44,7 @@ Task<> IdleMonitor::look_after(Loop& loop) {
   net::steady_timer timer(loop.context);
   MemoryRelief relief(loops_.all().size());
   for (;;) {
-    timer.expires_after(kBetweenLooks);
+    timer.expires_after(tuning::kBetweenIdleLooks);
     co_await timer.async_wait(use_task);
     for (Client* client : loop.clients) look_at(*client);
     metrics_.ended_busy += relief.look_at(loop.clients);
@@ -69,7 +67,7 @@ void IdleMonitor::look_at(Client& client) {
     ++metrics_.ended_idle;
     client.end(ErrorCode::kIdle,
                "nothing came or went for " + std::to_string(settings_.idle_seconds) + " seconds");
-  } else if (now - client.active() > kPause) {
+  } else if (now - client.active() > tuning::kIdlePause) {
     client.rest();
   }
 }

@@ -7,6 +7,7 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "protocol/running/fiber_stack.hpp"
+#include "server/tuning.hpp"
 
 namespace racebeam {
 
@@ -19,9 +20,8 @@ Loop::Loop(Meter& counting, std::chrono::microseconds busy_poll) : meter(countin
 // for the end of that. The work of sessions does not count: few events would be handled while it is long.
 void Loop::handle_events() {
   using Clock = std::chrono::steady_clock;
-  constexpr std::chrono::milliseconds kLongest{2};
   const auto begin = Clock::now();
-  while (context.poll_one() > 0 && Clock::now() - begin < kLongest + turns.worked()) {
+  while (context.poll_one() > 0 && Clock::now() - begin < tuning::kLongestEvents + turns.worked()) {
   }
 }
 

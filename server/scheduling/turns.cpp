@@ -32,8 +32,8 @@ Task<> Turns::wait(net::io_context& loop, const Usage& usage) {
 }
 
 std::chrono::microseconds Turns::slice() const {
-  constexpr std::chrono::microseconds kRound{16'000};  // of slices, one for each session that waits
-  return std::clamp(kRound / static_cast<int>(waiting_.size() + 1), kShortestSlice, kLongestSlice);
+  const auto equal_share = tuning::kRoundOfSlices / static_cast<int>(waiting_.size() + 1);
+  return std::clamp(equal_share, tuning::kShortestSlice, tuning::kLongestSlice);
 }
 
 void Turns::wake_next() {

@@ -15,6 +15,7 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "server/scheduling/task.hpp"
+#include "server/tuning.hpp"
 
 namespace racebeam {
 
@@ -27,8 +28,8 @@ class Turns {
 
   // Whether a session that wants to work may do so at once. Otherwise it waits for its turn.
   bool may_work(Usage& usage) const {
-    usage = std::max(usage, now_ - kCredit);
-    return worked_ < kLongestSlice &&
+    usage = std::max(usage, now_ - tuning::kCreditOfPause);
+    return worked_ < tuning::kLongestSlice &&
            std::ranges::all_of(waiting_, [usage](const Waiting& other) { return usage <= *other.usage; });
   }
 
@@ -40,7 +41,7 @@ class Turns {
 
   void worked(Usage& usage, Duration time) {
     now_ = std::max(now_, usage);
-    usage += time + kOverhead;
+    usage += time + tuning::kCostOfSlice;
     worked_ += time;
   }
 
@@ -50,9 +51,6 @@ class Turns {
   void wake_next();  // there must be a session that waits
 
  private:
-  static constexpr std::chrono::microseconds kCredit{250}, kShortestSlice{250}, kLongestSlice{2000};
-  static constexpr std::chrono::microseconds kOverhead{20};  // of a slice: to receive and to send
-
   struct Waiting {
     const Usage* usage;
     boost::asio::steady_timer* timer;

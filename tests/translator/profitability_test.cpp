@@ -2,13 +2,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "emulator/translator/tuning.hpp"
+#include "emulator/tuning.hpp"
 
 using racebeam::translator::Profitability;
 
 namespace {
 
-constexpr std::int32_t kEven = racebeam::translator::tuning::kBreakEvenCycles;
+constexpr std::int32_t kEven = racebeam::tuning::kBreakEvenCycles;
 
 int entered(Profitability& block, int times) {
   int count = 0;

@@ -15,8 +15,9 @@ void FlickerDetector::begin_frame() {
 }
 
 void FlickerDetector::judge() {
-  const bool found = found_ ? drawn_with_two_ < drawn_with_one_ : alike_ >= kMany;
-  period_ = found == found_ ? std::min(2 * period_, kLongPeriod) : kShortPeriod;
+  const bool found = found_ ? drawn_with_two_ < drawn_with_one_ : alike_ >= tuning::kFlickeringRows;
+  period_ =
+      found == found_ ? std::min(2 * period_, tuning::kLongestFlickerPeriod) : tuning::kShortestFlickerPeriod;
   found_ = found;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "emulator/tia/line_cache/line_record.hpp"
+#include "emulator/tuning.hpp"
 
 namespace racebeam {
 
@@ -24,12 +25,11 @@ class FlickerDetector {
  private:
   // of the frames with one set: the last two are compared
   static constexpr int kFirst = 2, kAgain = 4, kLast = 5;
-  static constexpr int kShortPeriod = 64, kLongPeriod = 512;
-  static constexpr int kMany = 16;  // rows, in two frames
 
   void judge();
 
-  int frame_ = 0, period_ = kShortPeriod / 4;    // frames since the last try, and between two tries
+  // frames since the last try, and between two tries
+  int frame_ = 0, period_ = tuning::kShortestFlickerPeriod / 4;
   int alike_ = 0;                                // rows that were drawn again with the same content
   int drawn_with_one_ = 0, drawn_with_two_ = 0;  // rows, in two frames
   bool odd_ = false, found_ = false, counts_ = false;

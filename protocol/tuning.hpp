@@ -1,0 +1,32 @@
+// The ledger of a session: the numbers that decide when it looks at the clock, and when replies go out
+// (system/tuning.hpp, docs/performance/tuning.md).
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "system/tuning.hpp"
+
+namespace racebeam::tuning {
+
+// Slices of a request (running/pacer.hpp). A look at the clock takes 25 ns, a frame from 2 us to some
+// milliseconds.
+
+// Frames between two looks.
+RACEBEAM_TUNED(int, kFramesBetweenLooks, 4, "frames", "replies");
+// If so many frames take longer, the session looks after each.
+RACEBEAM_TUNED(std::chrono::microseconds, kLongBetweenLooks, 400, "us", "replies");
+
+// Replies to requests that were sent ahead are sent together (line/session.cpp).
+
+// Frames that the replies that wait may have taken: some hundred microseconds.
+RACEBEAM_TUNED(std::int64_t, kFramesOfReplies, 64, "frames", "replies");
+// Bytes of the replies that wait: about twenty screens.
+RACEBEAM_TUNED(std::size_t, kBytesOfReplies, 65536, "bytes", "replies");
+// They go out once more when so many requests are left. The client reads them meanwhile, and sends the next.
+RACEBEAM_TUNED(std::size_t, kLastRequests, 3, "requests", "replies");
+// Fewer replies are not worth waking the client twice.
+RACEBEAM_TUNED(std::int64_t, kFewReplies, 4, "replies", "replies");
+
+}  // namespace racebeam::tuning
