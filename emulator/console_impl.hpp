@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "emulator/base/stopwatch.hpp"
 #include "emulator/board/board.hpp"
 #include "emulator/console.hpp"
 #include "emulator/deferred_render_policy.hpp"
@@ -43,7 +44,7 @@ struct Console::Impl {
     Collisions unknown = 0;  // latches of the state that have not been computed
   } latches;
 
-  DeferredRenderPolicy render_policy;
+  DeferredRenderPolicy render_policy{policies_are_fixed()};
 
   const std::unique_ptr<Translator> translator;  // null: the interpreter executes everything
 

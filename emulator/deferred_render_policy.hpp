@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "emulator/tuning.hpp"
 
@@ -13,6 +14,9 @@ namespace racebeam {
 
 class DeferredRenderPolicy {
  public:
+  // fixed: frames are always followed.
+  explicit DeferredRenderPolicy(bool fixed = false) : period_(fixed ? kEndless : tuning::kShortestPeriod) {}
+
   // Whether the next frame, which is not observed, is to be drawn. Advances to it.
   bool next_is_drawn() {
     observed_ = 0;
@@ -38,12 +42,13 @@ class DeferredRenderPolicy {
     choice_ = choice;
   }
 
+  static constexpr unsigned kEndless = std::numeric_limits<unsigned>::max();
   static inline const unsigned kProbe = tuning::kSettlingFrames + tuning::kMeasuredFrames;
 
   // Frames are followed at first. Drawing takes memory, which a machine that has only been switched on may
   // never need.
   unsigned number_ = 2 * kProbe;  // of the frame that is not observed, in its period
-  unsigned period_ = tuning::kShortestPeriod;
+  unsigned period_;
   unsigned observed_ = 0;  // frames that were observed since
   bool choice_ = false, draws_ = false;
   std::array<std::int64_t, 2> times_{};  // followed, drawn

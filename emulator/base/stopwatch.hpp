@@ -14,6 +14,11 @@ struct Clocks {
 
 const Clocks& host_clocks();
 
+// Whether no policy may measure, so that a run does the same work each time: everything is translated, and
+// frames that are not observed are followed. The environment variable RACEBEAM_POLICY says so: `fixed`, or
+// `measured`, as without it. Throws InvalidInput for another value.
+bool policies_are_fixed();
+
 // Measures processor time, since a thread that waits for a busy processor waits longer than many frames take.
 // Begin and end on one thread.
 class Stopwatch {

@@ -7,6 +7,7 @@
 #include <string>
 #include <system_error>
 
+#include "emulator/base/stopwatch.hpp"
 #include "emulator/board/board.hpp"
 #include "emulator/cpu/cpu.hpp"
 #include "emulator/translator/block_discovery.hpp"
@@ -228,7 +229,7 @@ std::unique_ptr<Translator> Translator::make(Board& board, CpuKind kind) {
     throw std::system_error(std::make_error_code(std::errc::permission_denied), executable_memory_error());
   }
   return std::unique_ptr<Translator>(
-      new Translator(std::make_unique<Impl>(board, kind == CpuKind::kTranslator)));
+      new Translator(std::make_unique<Impl>(board, kind == CpuKind::kTranslator || policies_are_fixed())));
 }
 
 // Whether the interpreter runs the whole step that begins.

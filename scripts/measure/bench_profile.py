@@ -1,7 +1,8 @@
 """Counts the instructions of a frame under valgrind, by part of the machine.
 
 Instructions are not time, but they are the same in every run. All 18 actions are played randomly. The frames
-before the counted ones fill caches and translate code. The program is built with the preset `profile`
+before the counted ones fill caches and translate code. Policies that read clocks are fixed (RACEBEAM_POLICY=fixed): all
+code is translated, and frames that are not observed are followed. The program is built with the preset `profile`
 (build/profile), which is `release` with line numbers.
 """
 
@@ -78,7 +79,7 @@ def main():
     if not callgrind.available():
         sys.exit("bench: valgrind is missing; scripts/setup installs it")
     try:
-        # With all the SIMD that this processor has, as in measurements.
+        # With all the SIMD that this processor has, as in measurements, but without policies that read clocks.
         counts = callgrind.count(
             cartridges.ROOT / "build/profile/racebeam",
             options.game,
@@ -86,7 +87,7 @@ def main():
             options.before,
             options.frames,
             options.cpu,
-            environment={},
+            environment={"RACEBEAM_POLICY": "fixed"},
         )
     except (LookupError, RuntimeError) as error:
         sys.exit(f"bench: {error}")

@@ -49,6 +49,13 @@ TEST_CASE("Frames are drawn where that takes less time, however little") {
   CHECK(counts.drawn > 9300);
 }
 
+TEST_CASE("A fixed policy follows all frames without a measurement, whatever they would take") {
+  DeferredRenderPolicy policy(true);
+  const Run counts = run(policy, 100000, 2, 1, [](const Frame& frame) { return frame.drawn ? 1 : 7900; });
+  CHECK(counts.drawn == 0);
+  CHECK(counts.measured == 0);
+}
+
 TEST_CASE("Frames are followed where that takes less time, with few exceptions") {
   DeferredRenderPolicy policy;
   const Run counts =

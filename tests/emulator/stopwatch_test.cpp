@@ -1,5 +1,7 @@
 #include "emulator/base/stopwatch.hpp"
 
+#include <stdlib.h>
+
 #include <catch2/catch.hpp>
 
 using racebeam::Clocks;
@@ -38,6 +40,18 @@ TEST_CASE("The host's clocks count nanoseconds, and never go back") {
       before = now;
     }
   }
+}
+
+TEST_CASE("The environment decides whether policies measure") {
+  const auto fixed = [](const char* value) {
+    ::setenv("RACEBEAM_POLICY", value, 1);
+    return racebeam::policies_are_fixed();
+  };
+  CHECK(fixed("fixed"));
+  CHECK_FALSE(fixed("measured"));
+  CHECK_THROWS_WITH(fixed("Fixed"), "RACEBEAM_POLICY is 'Fixed'; accepted: fixed and measured");
+  ::unsetenv("RACEBEAM_POLICY");
+  CHECK_FALSE(racebeam::policies_are_fixed());
 }
 
 }  // namespace
