@@ -19,10 +19,15 @@ def one_processor():
 
 
 class Side:
-    def __init__(self, name, command):
+    def __init__(self, name, command, environment=None):
         self.name = name
         self.process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=one_processor
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            preexec_fn=one_processor,
+            env=os.environ | (environment or {}),
         )
 
     def __enter__(self):
@@ -56,7 +61,7 @@ class Reference(Side):
 
 
 class Racebeam(Side):
-    def __init__(self, game, skip, look, cpu=None):
+    def __init__(self, game, skip, look, cpu=None, environment=None):
         super().__init__(
             "racebeam",
             [
@@ -75,4 +80,5 @@ class Racebeam(Side):
                 "last" if look else "none",
                 *(["--cpu", cpu] if cpu else []),
             ],
+            environment,
         )

@@ -1,7 +1,7 @@
 """scripts/load --hostile: sessions that request as much as they can, and their effect on others.
 
 A server with two threads and 512 MiB is attacked twice, each time a new one. The first attack is of 64 sessions. Each
-repeats one of the ATTACKS of attacks.py: it connects, attacks and disconnects. The second one is that of hoarders.py,
+repeats one of the ATTACKS of attacks.py: it connects, attacks and disconnects. The second one is of its HOARDERS,
 on the memory. A bystander with its own game acts every few milliseconds, and requests /healthz. During the second
 attack, newcomers connect, load a game and act; the time counts until they have managed. At the end, the server is told
 to stop during the attack. If one of the goals is missed, the exit status is 1.
@@ -19,9 +19,8 @@ import tempfile
 import threading
 import time
 
-import hoarders
 import processor
-from attacks import ATTACKS, STRANGERS, TOKEN, Session
+from attacks import ATTACKS, HOARDERS, STRANGERS, TOKEN, Session
 
 SESSIONS, THREADS, GRACE, MEMORY = 64, 2, 2, 512
 GOALS = {
@@ -229,7 +228,7 @@ def time_to_end(server):
 def measure(attack, server, port, http, records, seconds):
     watchers = {"bystander": Helper(watch, Bystander(port), 0.003), "/healthz": Helper(watch, Health(http), 0.05)}
     attackers = Helper(attack_all, attack, port, records)
-    if attack is hoarders.ALL:
+    if attack is HOARDERS:
         watchers["newcomer"] = Helper(watch, Newcomers(port), 0.2)
     time.sleep(seconds)
     print(f"{'':14}{'asked':>8}" + "".join(f"{key:>10}" for key in ("p50 ms", "p99 ms", "max ms")))
@@ -283,5 +282,5 @@ def run(build, seconds):
         f"{THREADS} threads, {os.cpu_count()} processors ({processor.name()}), load {os.getloadavg()[0]:.1f}, "
         f"{seconds:g} seconds each"
     )
-    withstood = [attack_one(*attack, build, seconds) for attack in (("requests", REQUESTS), ("memory", hoarders.ALL))]
+    withstood = [attack_one(*attack, build, seconds) for attack in (("requests", REQUESTS), ("memory", HOARDERS))]
     return int(not all(withstood))

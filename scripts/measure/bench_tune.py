@@ -1,0 +1,251 @@
+"""Measures what the numbers of the ledgers are worth: each at half and at double, and each policy switched off.
+
+The ledgers are emulator/tuning.hpp, protocol/tuning.hpp, server/tuning.hpp and system/tuning.hpp. The program is built
+with the preset `tunable`, in which a row of a ledger is a variable. A row says what it is measured by:
+
+  frames   games in the middle of play: the screen of every frame, and rewards only
+  start    the first frames of games from power-on, in a new process each
+  replies  a server on a Unix socket whose client sends requests ahead
+  none     not measured: it needs many sessions, or a quiet machine
+
+All figures are processor times, as parts of those with the usual number. The variants of a number take turns on the
+same work, and the median of the turns counts: of a game, of both kinds of frames. The first row of a table compares the
+usual numbers with themselves. Whatever differs by no more than that row is not known to differ.
+"""
+
+import argparse
+import contextlib
+import datetime
+import json
+import math
+import os
+import re
+import shlex
+import statistics
+import subprocess
+import sys
+import textwrap
+
+import bench_sides
+import cartridges
+import processor
+from bench_settings import SETTINGS, draw_actions
+
+BUILD = cartridges.ROOT / "build/tunable"
+LEDGERS = ("emulator/tuning.hpp", "protocol/tuning.hpp", "server/tuning.hpp", "system/tuning.hpp")
+PAGE = cartridges.ROOT / "docs/performance/tuning.md"
+GAMES = ("asteroids", "beam_rider", "breakout", "elevator_action", "pitfall2", "pong", "seaquest", "video_pinball")
+CHUNK, WARM_UP = 500, 4  # frames; chunks that are not measured
+AHEAD, STEPS = 64, 300  # of a client: requests under way, and requests
+NEVER = 1 << 30
+# A policy, and the numbers that switch it off.
+POLICIES = {
+    "drawing frames that are not observed": {"kShortestPeriod": NEVER},
+    "a second set of records for games that flicker": {"kFlickeringRows": NEVER},
+    "a budget for translation": {"kCredit": NEVER, "kCapacity": NEVER},
+    "interpreting where entries are short": {"kBreakEvenCycles": 0},
+    "longer runs of the interpreter": {"kLongestRun": 1, "kOutsideImage": 1},
+    "interpreting after steps that were too long": {"kLongestBackoff": 0},
+    "trials of steps": {"kFirstPause": NEVER},
+}
+ROW = re.compile(
+    r"((?: *// .*\n)+)RACEBEAM_TUNED\((?P<type>[\w:]+), (?P<name>k\w+), (?P<value>[\d']+), "
+    r'"(?P<unit>[^"]+)", "(?P<measure>\w+)"\);'
+)
+
+
+def read_ledger(file):
+    """The rows of a ledger as dictionaries, in their order."""
+    found = []
+    for match in ROW.finditer((cartridges.ROOT / file).read_text()):
+        meaning = " ".join(line.strip().removeprefix("// ") for line in match[1].splitlines())
+        value = int(match["value"].replace("'", ""))
+        found.append({**match.groupdict(), "file": file, "value": value, "meaning": meaning})
+    return found
+
+
+def parse_arguments(rows):
+    parser = argparse.ArgumentParser(
+        prog="scripts/bench tune", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="rows of the ledgers (default: all)")
+    parser.add_argument("--games", nargs="+", default=GAMES, metavar="GAME", help=f"default: {' '.join(GAMES)}")
+    parser.add_argument(
+        "--chunks", type=int, default=12, metavar="N", help=f"measured chunks, of {CHUNK} frames each (default 12)"
+    )
+    parser.add_argument("--first", type=int, default=300, metavar="N", help="first frames, for `start` (default 300)")
+    parser.add_argument(
+        "--rounds", type=int, default=7, metavar="N", help="repetitions of `start` and `replies` (default 7)"
+    )
+    parser.add_argument("--by", nargs="+", choices=MEASURES, default=[*MEASURES], help="measure only these rows")
+    parser.add_argument("--write", action="store_true", help=f"write {PAGE.relative_to(cartridges.ROOT)}")
+    options = parser.parse_args()
+    unknown = set(options.names) - {row["name"] for row in rows}
+    if unknown:
+        parser.error(f"no ledger has a row {', '.join(sorted(unknown))}; rows are {', '.join(r['name'] for r in rows)}")
+    if options.write and options.names:
+        parser.error("--write needs all rows, so that NAME cannot be given")
+    return options
+
+
+def variable(values):
+    """The environment of a program with other numbers."""
+    return {"RACEBEAM_TUNING": " ".join(f"{name}={value}" for name, value in values.items())}
+
+
+def ratios(times):
+    """The time of each variant as a part of the first one's: the median of the turns. times: a row a turn."""
+    return [statistics.median(turn[i] / turn[0] for turn in times) for i in range(len(times[0]))]
+
+
+def time_frames(game, variants, options):
+    """What the frames of each variant take, as parts of the first one's: of both settings the geometric mean."""
+    found = []
+    for setting in (SETTINGS["every"], SETTINGS["none"]):
+        actions = draw_actions(game, range(18), (WARM_UP + options.chunks) * CHUNK)
+        times = []
+        with contextlib.ExitStack() as stack:
+            sides = [
+                stack.enter_context(
+                    bench_sides.Racebeam(game, setting.skip, setting.look, environment=variable(values))
+                )
+                for values in variants
+            ]
+            for first in range(0, len(actions), CHUNK):
+                chunk = "play " + " ".join(map(str, actions[first : first + CHUNK]))
+                times.append([side.ask(chunk)["seconds"] for side in sides])
+        found.append(ratios(times[WARM_UP:]))
+    return [math.sqrt(math.prod(both)) for both in zip(*found)]
+
+
+def time_start(game, variants, options):
+    chunk = "play " + " ".join(map(str, draw_actions(game, range(18), options.first)))
+    times = []
+    for _ in range(options.rounds):
+        turn = []
+        for values in variants:
+            with bench_sides.Racebeam(game, 1, True, environment=variable(values)) as side:
+                turn.append(side.ask(chunk)["seconds"])
+        times.append(turn)
+    return ratios(times)
+
+
+def time_replies(game, variants, options):
+    times = []
+    for _ in range(options.rounds):
+        turn = []
+        for values in variants:
+            command = [BUILD / "tests/server/wire_bench", BUILD / "racebeam", cartridges.image(game)]
+            done = subprocess.run(
+                [*command, str(STEPS), str(AHEAD)], capture_output=True, check=True, env=os.environ | variable(values)
+            )
+            turn.append(json.loads(done.stdout)["unix"]["microseconds"])
+        times.append(turn)
+    return ratios(times)
+
+
+MEASURES = {"frames": time_frames, "start": time_start, "replies": time_replies}
+
+
+def measure(by, variants, options):
+    """(geometric mean, greatest, its game) of each variant but the first."""
+    games = options.games[:1] if by == "replies" else options.games
+    of_games = [MEASURES[by](game, variants, options) for game in games]
+    found = []
+    for i in range(1, len(variants)):
+        figures = [ratios_of_game[i] for ratios_of_game in of_games]
+        greatest = max(figures)
+        found.append((math.exp(sum(map(math.log, figures)) / len(figures)), greatest, games[figures.index(greatest)]))
+    return found
+
+
+def cells(figures):
+    return [part for mean, most, game in figures for part in (f"{mean:.3f}", f"{most:.3f} ({game})")]
+
+
+def line(words):
+    return "| " + " | ".join(words) + " |\n"
+
+
+def table(headings, rows):
+    words = (headings[0], "unit", "measured by", "meaning")
+    return line(headings) + line(["---" if name in words else "---:" for name in headings]) + "".join(map(line, rows))
+
+
+def measured_rows(by, rows, options):
+    """Yields the lines of a table: the usual numbers, then each row."""
+    yield ["the usual numbers", "", "", *cells(measure(by, [{}, {}, {}], options))]
+    for row in rows:
+        variants = [{}, {row["name"]: row["value"] // 2}, {row["name"]: 2 * row["value"]}]
+        yield [f"`{row['name']}`", f"{row['value']:,}", row["unit"], *cells(measure(by, variants, options))]
+
+
+def policy_rows(options):
+    for name, values in POLICIES.items():
+        yield [name, *(cell for by in ("frames", "start") for cell in cells(measure(by, [{}, values], options)))]
+
+
+def ledger_part(file, rows):
+    words = [[f"`{row['name']}`", f"{row['value']:,}", row["unit"], row["measure"], row["meaning"]] for row in rows]
+    return f"\n### {file}\n\n" + table(["number", "value", "unit", "measured by", "meaning"], words)
+
+
+def page(tables, policies, rows, options):
+    facts = [
+        ("command", f"`{shlex.join(['scripts/bench', 'tune', *sys.argv[1:]])}`"),
+        ("date", datetime.date.today().isoformat()),
+        ("processor", f"{processor.name()}, {os.cpu_count()} processors"),
+        ("games", ", ".join(options.games)),
+        ("frames", f"{options.chunks * CHUNK:,} of a game in each setting; the first {options.first} for `start`"),
+    ]
+    text = "# What the numbers of the policies are worth\n\n"
+    text += "Written by `scripts/bench tune --write`, not by hand. "
+    text += "`scripts/bench tune --help` says how they are\nmeasured.\n\n"
+    text += table(["run", "value"], facts).replace("---:", "---")
+    text += (
+        "\nFigures are processor times as parts of those with the usual number: 1.010 takes 1 % longer. Others\n"
+        "used the machine meanwhile. A difference within that of the row `the usual numbers` is noise.\n"
+        "\n## A policy switched off\n\n"
+    )
+    text += table(["policy", "frames: mean", "most", "start: mean", "most"], policies)
+    for by, lines in tables.items():
+        if not lines:
+            continue
+        text += f"\n## Half and double, by `{by}`\n\n"
+        text += table(["number", "value", "unit", "half: mean", "most", "double: mean", "most"], lines)
+    text += "\n## The ledgers\n"
+    measured = {line[0] for lines in tables.values() for line in lines}
+    missing = [f"`{row['name']}`" for row in rows if row["measure"] in MEASURES and f"`{row['name']}`" not in measured]
+    if missing:
+        text += "\n" + textwrap.fill(f"This run did not measure {', '.join(missing)}.", 100) + "\n"
+    for file in LEDGERS:
+        text += ledger_part(file, [row for row in rows if row["file"] == file])
+    return text
+
+
+def main():
+    rows = [row for file in LEDGERS for row in read_ledger(file)]
+    options = parse_arguments(rows)
+    bench_sides.RACEBEAM = os.environ.get("RACEBEAM_BINARY", str(BUILD / "racebeam"))
+    chosen = [row for row in rows if row["name"] in options.names or not options.names]
+    policies, tables = [], {by: [] for by in options.by}
+
+    def add(lines, line):
+        lines.append(line)
+        print(" ".join(line), flush=True)
+        if options.write:  # now, so that a run that is stopped leaves what it has measured
+            PAGE.write_text(page(tables, policies, rows, options))
+
+    try:
+        for line in [] if options.names else policy_rows(options):
+            add(policies, line)
+        for by in options.by:
+            of_measure = [row for row in chosen if row["measure"] == by]
+            for line in measured_rows(by, of_measure, options) if of_measure else []:
+                add(tables[by], line)
+    except LookupError as error:
+        sys.exit(f"bench: {error}")
+
+
+if __name__ == "__main__":
+    main()
