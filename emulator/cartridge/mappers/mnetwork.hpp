@@ -1,18 +1,22 @@
 // M Network's E7. $1000-$17FF shows one of eight slices of 2K: $1FE0-$1FE6 select slices 0 to 6. $1FE7
 // selects 1K of RAM instead, written at $1000-$13FF and read at $1400-$17FF. Above are 256 more bytes of RAM,
 // one of four banks selected by $1FE8-$1FEB, written at $1800 and read at $1900. The rest is slice 7. Write
-// ports read as slice 7.
+// ports read as slice 7. Smaller images, of four or six slices, are those up to slice 7.
 #pragma once
+
+#include <algorithm>
 
 #include "emulator/cartridge/cartridge.hpp"
 
 namespace racebeam::mnetwork {
 
-constexpr unsigned kSlice = 2048, kLastSlice = 7;
+constexpr unsigned kSlice = 2048, kLastSlice = 7, kSlices = kLastSlice + 1;
 constexpr unsigned kLowRam = 1024, kHighRam = 256, kHighRamBanks = 4;
 
+// Where a slice is missing, the image's first ones show.
 inline const std::uint8_t* slice(const CartridgeSlot& slot, unsigned number) {
-  return slot.rom.data() + kSlice * number;
+  const unsigned missing = kSlices - std::min(kSlices, static_cast<unsigned>(slot.rom.size()) / kSlice);
+  return slot.rom.data() + kSlice * (number < missing ? number : number - missing);
 }
 
 inline bool low_ram_shows(const CartridgeSlot& slot) { return slot.state.bank[0] == kLastSlice; }

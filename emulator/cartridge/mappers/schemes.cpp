@@ -91,7 +91,7 @@ constexpr Scheme kSchemes[] = {
     {kJane,     "JANE",        16384, 0xFF0,    4, 0,     0, false, false},
     {kFc,       "FC",           8192, 0,        0, 0,     0, false, false},
     {kE0,       "E0",           8192, 0,        0, 0,     0, false, false},
-    {kE7,       "E7",          16384, 0,        0, 0,  2048, true,  false},
+    {kE7,       "E7",           8192, 0,        0, 0,  2048, true,  false},
     {kFe,       "FE",           8192, 0,        0, 0,     0, false, false},
     {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false, false},
     {kDpcPlus,  "DPC+", kDpcPlusLeast, 0xFF6,   6, 5, dpcplus::kRam, false, false, false, kDpcPlusChip, kDpcPlusMost},

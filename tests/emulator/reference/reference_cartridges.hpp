@@ -64,16 +64,20 @@ struct ModelE7 : Copyable<ModelE7> {
   using Copyable::Copyable;
   unsigned s = 0, b = 0;
   std::array<unsigned, 2048> ram{};
+  unsigned byte(unsigned slice, unsigned a) const {
+    const unsigned slices = static_cast<unsigned>(image.size() / 2048), missing = 8 - slices;
+    return image[(slice < missing ? slice : slice - missing) * 2048 + (a & 0x7FF)];
+  }
   void access(unsigned a) {
     if (a >= 0x1FE0 && a <= 0x1FE7) s = a - 0x1FE0;
     if (a >= 0x1FE8 && a <= 0x1FEB) b = a - 0x1FE8;
   }
   unsigned read(unsigned a, int) override {
     access(a);
-    if (a <= 0x17FF && s < 7) return image[s * 2048 + (a & 0x7FF)];
+    if (a <= 0x17FF && s < 7) return byte(s, a);
     if (a >= 0x1400 && a <= 0x17FF) return ram[a - 0x1400];
     if (a >= 0x1900 && a <= 0x19FF) return ram[1024 + 256 * b + (a - 0x1900)];
-    return image[7 * 2048 + (a & 0x7FF)];
+    return byte(7, a);
   }
   void write(unsigned a, unsigned v) override {
     access(a);
