@@ -27,6 +27,7 @@
 #include "emulator/cartridge/mappers/tigervision.hpp"
 #include "emulator/cartridge/mappers/ua.hpp"
 #include "emulator/cartridge/mappers/unsupported.hpp"
+#include "emulator/cartridge/mappers/wickstead.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
@@ -59,6 +60,7 @@ constexpr MapperOps kFc       = {amiga::reset,           amiga::map,          am
 constexpr MapperOps kSb       = {superbank::reset,       ua::map,             superbank::read, superbank::write,     superbank::admits};
 constexpr MapperOps k03e0     = {parker::reset,          parker::map_03e0,    parker::read_03e0, parker::write_03e0, parker::admits};
 constexpr MapperOps kX07      = {atari::reset,           ua::map,             atariage::read, atariage::write,       atari::admits};
+constexpr MapperOps kWd       = {wickstead::reset,       wickstead::map,      wickstead::read, wickstead::write,     wickstead::admits};
 constexpr MapperOps kUa       = ua::kOps<ua::kUa>;
 constexpr MapperOps kUaClone  = ua::kOps<ua::kClone>;
 constexpr MapperOps kUasw     = ua::kOps<ua::kSwapped>;
@@ -107,6 +109,7 @@ constexpr Scheme kSchemes[] = {
     {k0fa0,     "0FA0",         8192, 0,        2, 0,     0, false, true, true},
     {k0840,     "0840",         8192, 0,        2, 0,     0, false, true},
     {k03e0,     "03E0",         8192, 0,        0, 0,     0, false, true, true},
+    {kWd,       "WD",           8192, 0,        0, 0,    64, true,  true},
     {kCv,       "CV",           2048, 0,        0, 0,  1024, true,  false},
     {kCvFilled, "CV 4K",        4096, 0,        0, 0,  1024, false, false},
     {kAr,       "AR",           8448, 0,        0, 0,  6144, true,  false},

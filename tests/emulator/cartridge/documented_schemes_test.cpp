@@ -80,7 +80,6 @@ std::map<std::string, Sign> signs() {
           {"CDF", {"text", with(32768, "CDF", {700, 900})}},
           {"CTY", {"text", with(32768, "LENIN", {700})}},
           {"MDM", {"text", with(32768, "MDMC", {700})}},
-          {"WD", {"code", with(8192, "\xA5\x39\x4C", {700, 800, 900})}},
           {"WDSW", {"size", filled(8195)}},
           {"4A50", {"vector", with(65536, "\x50\x4A", {65530})}},
           {"ELF",

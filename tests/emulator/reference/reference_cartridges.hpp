@@ -195,6 +195,35 @@ struct Model03e0 : Copyable<Model03e0> {
   void write(unsigned a, unsigned) override { access(a); }
 };
 
+struct ModelWd : Copyable<ModelWd> {
+  using Copyable::Copyable;
+  unsigned arrangement = 0, next = 0, left = 0;
+  std::array<unsigned, 64> ram{};
+  void access(unsigned a) {
+    if (a < 0x30 || a > 0x3F) return;
+    next = a % 8;
+    left = 3;
+  }
+  void pass() {
+    if (left != 0 && --left == 0) arrangement = next;
+  }
+  unsigned read(unsigned a, int) override {
+    static constexpr unsigned kSlices[8] = {0x0013, 0x0123, 0x4567, 0x7423, 0x0067, 0x0176, 0x2345, 0x6051};
+    access(a);
+    if (a < 0x1000) return kNotOurs;
+    const unsigned slice = kSlices[arrangement] >> (12 - 4 * (a >> 10 & 3)) & 0xF;
+    const unsigned value = a <= 0x103F ? ram[a - 0x1000] : image[slice * 1024 + (a & 0x3FF)];
+    pass();
+    return value;
+  }
+  void write(unsigned a, unsigned v) override {
+    access(a);
+    if (a < 0x1000) return;
+    if (a >= 0x1040 && a <= 0x107F) ram[a - 0x1040] = v;
+    pass();
+  }
+};
+
 struct ModelSb : Copyable<ModelSb> {
   using Copyable::Copyable;
   unsigned bank = static_cast<unsigned>(image.size() / 4096 - 1);
