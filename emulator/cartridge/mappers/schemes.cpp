@@ -58,6 +58,7 @@ constexpr MapperOps k3ePlus   = {jentzsch::reset,        jentzsch::map,       no
 constexpr MapperOps kFa2      = {starcastle::reset,      starcastle::map,     starcastle::read, starcastle::write,   starcastle::admits};
 constexpr MapperOps kFc       = {amiga::reset,           amiga::map,          amiga::read,    amiga::write,          amiga::admits};
 constexpr MapperOps kSb       = {superbank::reset,       ua::map,             superbank::read, superbank::write,     superbank::admits};
+constexpr MapperOps kMdm      = {superbank::reset_mdm,   ua::map,             superbank::read_mdm, superbank::write_mdm, superbank::admits_mdm};
 constexpr MapperOps k03e0     = {parker::reset,          parker::map_03e0,    parker::read_03e0, parker::write_03e0, parker::admits};
 constexpr MapperOps kX07      = {atari::reset,           ua::map,             atariage::read, atariage::write,       atari::admits};
 constexpr MapperOps kWd       = {wickstead::reset,       wickstead::map,      wickstead::read, wickstead::write,     wickstead::admits};
@@ -120,6 +121,7 @@ constexpr Scheme kSchemes[] = {
     {kAtari,    "BF",         262144, 0xF80,   64, 1,     0, false, false},
     {kAtari,    "BFSC",       262144, 0xF80,   64, 15,  128, true,  false},
     {kSb,       "SB",         131072, 0,        0, 0,     0, false, true},
+    {kMdm,      "MDM",          8192, 0,        0, 0,     0, false, true, true, 0, 0, true},
     {kX07,      "X07",         65536, 0,       16, 0,     0, false, true, true, 0, 0, true},
     {kMb,       "MB",          65536, 0xFF0,   16, 1,     0, false, false},
     {kMc,       "MC",         131072, 0,        0, 0, 32768, true,  true},

@@ -1,5 +1,8 @@
 // SB, "SuperBank": up to 64 banks of 4K. An access to $0800-$083F, which are the TIA's addresses, too,
 // selects one. It starts with the last.
+//
+// MDM, of menus for many games: an access to $0800-$0FFF selects one of up to 128 banks, by the lower 7 bits
+// of the address. If bit 7 is set, that one stays until a reset. It starts with the first.
 #pragma once
 
 #include "emulator/cartridge/mappers/ua.hpp"
@@ -29,6 +32,31 @@ inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_
 
 inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
   touch(slot, address);
+  return address & 0x1000 ? Delivery::kTaken : Delivery::kToTia;
+}
+
+constexpr unsigned kLocked = 1;  // index among the state's banks: whether the bank stays
+
+inline void reset_mdm(CartridgeSlot& slot) { slot.state.bank = {}; }
+
+inline bool admits_mdm(const CartridgeSlot& slot, const CartridgeState& state) {
+  return state.bank[0] < image_banks(slot) && state.bank[kLocked] <= 1 && banks_unused(state, 2);
+}
+
+inline void touch_mdm(CartridgeSlot& slot, std::uint16_t address) {
+  if ((address & 0x1800) != 0x0800 || slot.state.bank[kLocked] != 0) return;
+  slot.state.bank[0] = static_cast<std::uint8_t>((address & 0x7FU) % image_banks(slot));
+  slot.state.bank[kLocked] = address >> 7 & 1;
+  ua::map(slot);
+}
+
+inline std::uint8_t read_mdm(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
+  touch_mdm(slot, address);
+  return 0;
+}
+
+inline Delivery write_mdm(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
+  touch_mdm(slot, address);
   return address & 0x1000 ? Delivery::kTaken : Delivery::kToTia;
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::string_view kNames[] = {
     "2IN1", "4IN1", "8IN1", "16IN1", "32IN1", "64IN1", "128IN1", "4A50",  "BUS", "CDF",  "CM",
-    "CTY",  "DEVC", "EFF",  "ELF",   "GL",    "MDM",   "MVC",    "TVBOY", "WDSW", "WF8",
+    "CTY",  "DEVC", "EFF",  "ELF",   "GL",    "MVC",    "TVBOY", "WDSW", "WF8",
 };
 
 }  // namespace

@@ -237,6 +237,22 @@ struct ModelSb : Copyable<ModelSb> {
   void write(unsigned a, unsigned) override { access(a); }
 };
 
+struct ModelMdm : Copyable<ModelMdm> {
+  using Copyable::Copyable;
+  unsigned bank = 0;
+  bool stays = false;
+  void access(unsigned a) {
+    if (stays || a < 0x800 || a > 0xFFF) return;
+    bank = a % 128 % static_cast<unsigned>(image.size() / 4096);
+    stays = a / 128 % 2 == 1;
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    return a < 0x1000 ? kNotOurs : image[bank * 4096 + (a & 0xFFF)];
+  }
+  void write(unsigned a, unsigned) override { access(a); }
+};
+
 struct ModelX07 : Copyable<ModelX07> {
   using Copyable::Copyable;
   unsigned bank = 0;
