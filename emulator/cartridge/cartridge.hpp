@@ -93,7 +93,11 @@ std::string_view scheme_name(const Rom& rom);
 // spots at the end of the cartridge. The image is then hardly one of that scheme. False for other schemes.
 bool accesses_no_hot_spot(const Rom& rom, const Scheme& scheme);
 
-// All names that can be asked for.
+// The names that can be asked for, but for the games after the first of cartridges with many.
 std::span<const std::string_view> scheme_names();
+
+// Names of schemes that are not implemented (docs/spec/cartridges.md, 11).
+std::span<const std::string_view> unsupported_schemes();
+bool is_unsupported(std::string_view name);
 
 }  // namespace racebeam

@@ -46,9 +46,9 @@ int number(std::string_view key, std::string_view value, int least, int most) {
 
 std::string_view scheme(std::string_view value) {
   if (value == kDetected) return {};
-  const auto names = scheme_names();
-  const auto found = std::ranges::find(names, value, scheme_word);
-  return found != names.end() ? *found : scheme_named(value).name;
+  std::string name(value);
+  std::ranges::replace(name, '_', ' ');
+  return scheme_named(name).name;
 }
 
 }  // namespace

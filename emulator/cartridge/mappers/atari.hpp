@@ -3,6 +3,9 @@
 // RAM, written at $1000-$107F and read at $1080-$10FF; the write port reads as ROM. CBS's FA is similar, with
 // three banks and 256 bytes of RAM at $1000-$10FF and $1100-$11FF. The homebrew schemes EF, DF and BF have
 // 16, 32 or 64 banks, selected from $1FE0, $1FC0 or $1F80 on.
+//
+// 2IN1 to 128IN1 are cartridges with so many games of 2K or 4K. The power switch of a console selects the
+// next one. Here, the scheme's name says which one it is: "32IN1" the first, "32IN1 2" the second.
 #pragma once
 
 #include <algorithm>
@@ -29,6 +32,8 @@ inline bool has_vectors(const CartridgeSlot& slot, unsigned number) {
   return !filled(0) && !filled(0xFF);
 }
 
+inline void reset_game(CartridgeSlot& slot) { slot.state.bank = {}; }
+
 // The scheme's initial bank, unless only others have vectors.
 inline unsigned start_bank(const CartridgeSlot& slot) {
   const unsigned banks = slot.scheme.banks, initial = slot.scheme.initial;
@@ -45,6 +50,15 @@ inline void map_plain(CartridgeSlot& slot) {
   const unsigned size = slot.scheme.image;  // 2K shows twice
   for (unsigned offset = 0; offset < kBankSize; offset += size) slot.map.show(offset, slot.rom.data(), size);
   slot.map.show(slot.scheme.ram, slot.ram.data(), slot.scheme.ram);
+}
+
+// One of many games. One of 2K shows twice.
+constexpr unsigned kLeastGame = 2048, kMostGame = 4096;
+
+inline void map_game(CartridgeSlot& slot) {
+  const unsigned size = slot.rom.size() < kMostGame * slot.scheme.banks ? kLeastGame : kMostGame;
+  const std::uint8_t* const game = slot.rom.data() + size * slot.scheme.initial;
+  for (unsigned offset = 0; offset < kBankSize; offset += size) slot.map.show(offset, game, size);
 }
 
 // The hot spots are in one page. Where that is not the last page, they begin with it.

@@ -1,6 +1,7 @@
 // The table of schemes (docs/spec/cartridges.md, 5 to 11).
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <span>
 #include <string>
 #include <utility>
@@ -26,7 +27,6 @@
 #include "emulator/cartridge/mappers/superbank.hpp"
 #include "emulator/cartridge/mappers/tigervision.hpp"
 #include "emulator/cartridge/mappers/ua.hpp"
-#include "emulator/cartridge/mappers/unsupported.hpp"
 #include "emulator/cartridge/mappers/wickstead.hpp"
 #include "system/invalid_input.hpp"
 
@@ -67,11 +67,16 @@ constexpr MapperOps kUaClone  = ua::kOps<ua::kClone>;
 constexpr MapperOps kUasw     = ua::kOps<ua::kSwapped>;
 constexpr MapperOps k0fa0     = ua::kOps<ua::k0fa0>;
 constexpr MapperOps k0840     = ua::kOps<ua::k0840>;
+constexpr MapperOps kMany     = {atari::reset_game,      atari::map_game,     no_hidden_page, kIgnore,               no_banks};
 constexpr MapperOps kCv       = {commavid::reset_empty,  commavid::map,       no_hidden_page, commavid::write,       no_banks};
 constexpr MapperOps kCvFilled = {commavid::reset_filled, commavid::map,       no_hidden_page, commavid::write,       no_banks};
 constexpr MapperOps kAr       = {starpath::reset,        starpath::map,       starpath::read, starpath::write,       starpath::admits};
 constexpr MapperOps kMb       = {atari::reset,           atari::map,          dynacom::read,  dynacom::write,        atari::admits};
 constexpr MapperOps kMc       = {megacart::reset,        megacart::map,       megacart::read, megacart::write,       megacart::admits};
+
+constexpr Scheme many(std::string_view name, std::uint8_t games) {
+  return {kMany, name, games * atari::kLeastGame, 0, games, 0, 0, false, false, false, 0, games * atari::kMostGame};
+}
 
 constexpr unsigned kChip = sizeof(dpc::Chip), kDpcPlusChip = sizeof(dpcplus::Chip);
 constexpr unsigned kCdfChip = sizeof(cdf::Chip);
@@ -123,10 +128,35 @@ constexpr Scheme kSchemes[] = {
     {kSb,       "SB",         131072, 0,        0, 0,     0, false, true},
     {kMdm,      "MDM",          8192, 0,        0, 0,     0, false, true, true, 0, 0, true},
     {kX07,      "X07",         65536, 0,       16, 0,     0, false, true, true, 0, 0, true},
+    many("2IN1", 2), many("4IN1", 4), many("8IN1", 8), many("16IN1", 16), many("32IN1", 32), many("64IN1", 64), many("128IN1", 128),
     {kMb,       "MB",          65536, 0xFF0,   16, 1,     0, false, false},
     {kMc,       "MC",         131072, 0,        0, 0, 32768, true,  true},
 };
 // clang-format on
+
+// The games after the first of cartridges with many: "2IN1 2" to "128IN1 128".
+struct GameOfMany {
+  std::string name;
+  Scheme scheme;
+};
+
+const std::deque<GameOfMany>& games_of_many() {
+  static const std::deque<GameOfMany> all = [] {
+    std::deque<GameOfMany> games;
+    for (const Scheme& first : kSchemes)
+      for (std::uint8_t game = 1; first.map == atari::map_game && game < first.banks; ++game) {
+        games.push_back({std::string(first.name) + ' ' + std::to_string(game + 1), first});
+        GameOfMany& one = games.back();
+        one.scheme.name = one.name;
+        one.scheme.initial = game;
+      }
+    return games;
+  }();
+  return all;
+}
+
+constexpr std::string_view kUnsupported[] = {"4A50", "BUS", "CDF", "CM",    "CTY",  "DEVC", "EFF",
+                                             "ELF",  "GL",  "MVC", "TVBOY", "WDSW", "WF8"};
 
 [[noreturn]] void refuse_scheme(std::string sentence) {
   std::string_view separator = "; accepted: ";
@@ -139,6 +169,8 @@ constexpr Scheme kSchemes[] = {
 const Scheme& scheme_named(std::string_view name) {
   const auto scheme = std::ranges::find(kSchemes, name, &Scheme::name);
   if (scheme != std::end(kSchemes)) return *scheme;
+  const auto game = std::ranges::find(games_of_many(), name, &GameOfMany::name);
+  if (game != games_of_many().end()) return game->scheme;
   refuse_scheme((is_unsupported(name) ? "unsupported cartridge scheme '" : "unknown cartridge scheme '") +
                 std::string(name) + "'");
 }
@@ -168,6 +200,12 @@ const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {
   if (rom.size() < scheme.image) refuse_size("at least", scheme.image);
   if (scheme.most_image != 0 && rom.size() > scheme.most_image) refuse_size("at most", scheme.most_image);
   return scheme;
+}
+
+std::span<const std::string_view> unsupported_schemes() { return kUnsupported; }
+
+bool is_unsupported(std::string_view name) {
+  return std::ranges::find(kUnsupported, name) != std::end(kUnsupported);
 }
 
 std::span<const std::string_view> scheme_names() {

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "emulator/cartridge/cartridge.hpp"
-#include "emulator/cartridge/mappers/unsupported.hpp"
 #include "tests/emulator/cartridge/modelled_schemes.hpp"
 
 namespace racebeam::test {

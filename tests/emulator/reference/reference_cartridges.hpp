@@ -327,6 +327,17 @@ struct ModelFc : Copyable<ModelFc> {
   }
 };
 
+// A cartridge with `kGames` games, of which the console shows one, counted from 0.
+template <unsigned kGames, unsigned kGame>
+struct ModelMany : Copyable<ModelMany<kGames, kGame>> {
+  using Copyable<ModelMany>::Copyable;
+  unsigned read(unsigned a, int) override {
+    const unsigned size = this->image.size() / 4096 >= kGames ? 4096 : 2048;
+    return this->image[kGame * size + a % size];
+  }
+  void write(unsigned, unsigned) override {}
+};
+
 struct ModelMb : Copyable<ModelMb> {
   using Copyable::Copyable;
   unsigned bank = 1;
