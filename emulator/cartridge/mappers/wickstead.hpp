@@ -1,7 +1,7 @@
 // Wickstead Design's WD. Four segments of 1K show four of eight slices. An access to $30-$3F, which are the
-// TIA's addresses, too, selects one of eight arrangements. Programs access one by LDA, and leave by JMP. So the
-// next three accesses of the cartridge still find the old one. 64 bytes of RAM are read at $1000-$103F, and
-// written at $1040-$107F, where ROM is read.
+// TIA's addresses, too, selects one of eight arrangements. Programs access one by LDA, and leave by JMP. So
+// the next three accesses of the cartridge still find the old one. 64 bytes of RAM are read at $1000-$103F,
+// and written at $1040-$107F, where ROM is read.
 #pragma once
 
 #include <array>

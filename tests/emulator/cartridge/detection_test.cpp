@@ -218,7 +218,10 @@ TEST_CASE("An image with the text of a scheme that is not implemented is refused
     std::size_t size;
     const char *text, *scheme;
   } const kTexts[] = {
-      {32768, "CDF", "CDF"}, {65536, "CDF", "CDF"}, {32768, "LENIN", "CTY"}, {32768, "BUS", "BUS"},
+      {32768, "CDF", "CDF"},
+      {65536, "CDF", "CDF"},
+      {32768, "LENIN", "CTY"},
+      {32768, "BUS", "BUS"},
   };
   for (const auto& [size, text, scheme] : kTexts) {
     INFO(text << " in " << size << " bytes");
@@ -340,15 +343,16 @@ TEST_CASE("Schemes with many hot spots are found by code that accesses most of t
 }
 
 TEST_CASE("FA2 shows by its size, FC and WD by their code") {
-  check({{"24K", mixed(24576), "FA2"},
-         {"28K", mixed(28672), "FA2"},
-         {"29K", mixed(29696), "FA2"},
-         {"FC, 1", mixed(16384, {{700, {0x8D, 0xF8, 0x1F, 0x4A, 0x4A, 0x8D}}}), "FC"},
-         {"FC, 2", mixed(32768, {{700, {0x8D, 0xF8, 0xFF, 0x8D, 0xFC, 0xFF}}}), "FC"},
-         {"FC, 3", mixed(8192, {{700, {0x8C, 0xF9, 0xFF, 0xAD, 0xFC, 0xFF}}}), "FC"},
-         {"WD", mixed(8192, {{700, {0xA5, 0x39, 0x4C}}, {800, {0xA5, 0x3A, 0x4C}}, {900, {0xA5, 0x30, 0x4C}}}),
-          "WD"},
-         {"WD, twice", mixed(8192, {{700, {0xA5, 0x39, 0x4C}}, {800, {0xA5, 0x3A, 0x4C}}}), "F8"}});
+  check(
+      {{"24K", mixed(24576), "FA2"},
+       {"28K", mixed(28672), "FA2"},
+       {"29K", mixed(29696), "FA2"},
+       {"FC, 1", mixed(16384, {{700, {0x8D, 0xF8, 0x1F, 0x4A, 0x4A, 0x8D}}}), "FC"},
+       {"FC, 2", mixed(32768, {{700, {0x8D, 0xF8, 0xFF, 0x8D, 0xFC, 0xFF}}}), "FC"},
+       {"FC, 3", mixed(8192, {{700, {0x8C, 0xF9, 0xFF, 0xAD, 0xFC, 0xFF}}}), "FC"},
+       {"WD", mixed(8192, {{700, {0xA5, 0x39, 0x4C}}, {800, {0xA5, 0x3A, 0x4C}}, {900, {0xA5, 0x30, 0x4C}}}),
+        "WD"},
+       {"WD, twice", mixed(8192, {{700, {0xA5, 0x39, 0x4C}}, {800, {0xA5, 0x3A, 0x4C}}}), "F8"}});
 }
 
 TEST_CASE("EF, DF and BF have RAM where each bank leaves room for its ports") {
