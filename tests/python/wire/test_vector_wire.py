@@ -52,7 +52,6 @@ SETTINGS = (
     },
     {"preset": "dqn2015", "autoreset_mode": "Disabled", "maxpool": False, "frameskip": 60, "rules": "fixed"},
     {"full_action_space": "console", "repeat_action_probability": 0.25},
-    {"full_action_space": "console", "left": "booster"},
     {"use_fire_reset": False, "start": "fire-noops", "life_loss": "reported", "frameskip": 60, "seed": 0},
 )
 

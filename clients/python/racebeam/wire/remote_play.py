@@ -99,7 +99,7 @@ class RemotePlay(RemoteGame):
             action: The action or its number.
             paddle_strength: How far the paddle is turned, 0 to 1; for a light gun, the place x + 256 * y.
         """
-        number = action if isinstance(action, int) else action.value
+        number = action.value if isinstance(action, (Action, ConsoleAction, ControllerAction)) else action
         return int(self.step(number, paddle_strength, 1, View.NONE)[1])
 
     @exclusive
