@@ -152,7 +152,7 @@ class Roms(unittest.TestCase):
                     archive.writestr(file, data)
         self.put("seven.7z", b"7z\xbc\xaf\x27\x1c" + image)
         self.put("odd.bin", image[:3000])
-        self.put("modern.bin", image[:700] + b"MDMC" + bytes(32768 - 704))
+        self.put("modern.bin", image[:700] + b"LENIN" + bytes(32768 - 705))
         self.put("small.bin", image[:1024])
         found, _ = self.findings()
         self.assertEqual(
@@ -171,7 +171,7 @@ class Roms(unittest.TestCase):
             ("two.zip", "a.bin, b.bin"),
             ("seven.7z", "7z archives are not read"),
             ("odd.bin", "3000 bytes"),
-            ("modern.bin", "scheme MDM, which is not implemented"),
+            ("modern.bin", "scheme CTY, which is not implemented"),
         ):
             self.assertIn(sentence, found[file]["note"])
         output = run("serve", "--stdio", "--roms", self.folder, data=b"games\n")[1]

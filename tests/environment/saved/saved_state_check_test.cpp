@@ -100,7 +100,8 @@ const std::vector<Most> kMost = {
     {"EFSC", 0, 15},  {"DF", 0, 31},        {"DFSC", 0, 31},  {"BF", 0, 63},      {"BFSC", 0, 63},
     {"MC", 0, kAny},  {"MC", 1, kAny},      {"MC", 2, kAny},  {"MC", 3, kAny},    {"MC", 4, 1},
     {"DPC+", 0, 5},   {"DPC+", 1, 1},       {"DPC+", 2, 1},   {"CDFJ", 0, 6},     {"CDFJ", 1, 1},
-    {"CDFJ", 2, 1},   {"CDFJ+", 0, 6},      {"CDFJ+", 1, 1},  {"CDFJ+", 2, 1},    {"X07", 0, 15}};
+    {"CDFJ", 2, 1},   {"CDFJ+", 0, 6},      {"CDFJ+", 1, 1},  {"CDFJ+", 2, 1},    {"X07", 0, 15},
+    {"WD", 0, 7},     {"WD", 1, 7},         {"WD", 2, 3},     {"MDM", 0, 7},      {"MDM", 1, 1}};
 
 std::uint8_t most_of(std::string_view scheme, std::size_t index) {
   for (const Most& one : kMost)
