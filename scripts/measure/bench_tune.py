@@ -99,7 +99,7 @@ def ratios(times):
 
 
 def time_frames(game, variants, options):
-    """What the frames of each variant take, as parts of the first one's: of both settings the geometric mean."""
+    """Returns the time of each variant as a part of the first one's, in the geometric mean of both settings."""
     found = []
     for setting in (SETTINGS["every"], SETTINGS["none"]):
         actions = draw_actions(game, range(18), (WARM_UP + options.chunks) * CHUNK)

@@ -48,7 +48,7 @@ def whole_results(place, plan=PLAN):
 
 
 def fault_of_results(folder, expected, *options, **environment):
-    """Continues the experiment in a folder. Returns a fault unless it ends as one that was left alone."""
+    """Continues the experiment in a folder. Returns a fault unless it ends with the results of an undisturbed one."""
     plan = folder.parent / "plan.toml"
     status, _, errors = run("experiment", plan, "--into", folder, *(options or OPTIONS), **environment)
     if status != 0:
@@ -141,7 +141,7 @@ def kills_at_each_change(chance, times):
 @attack(times=0)
 def failures_of_each_change(chance, times):
     """One call fails, then each of its name from there on: the disk is full, or broken. The experiment ends with a
-    sentence. When the disk is as before, it goes on, and ends as one that was left alone."""
+    sentence. When the disk is as before, it goes on, and ends with the results of an undisturbed one."""
     with tempfile.TemporaryDirectory() as name:
         place = pathlib.Path(name)
         expected = whole_results(place, ONE_GAME)
@@ -311,7 +311,7 @@ def fill(disk, pages):
 @attack(times=40)
 def full_disk_of_an_experiment(chance, times):
     """The disk is full after a number of pages, one more in each run, so that each write fails in some run. When there
-    is room again, the experiment goes on, and ends as one that was left alone."""
+    is room again, the experiment goes on, and ends with the results of an undisturbed one."""
     with tempfile.TemporaryDirectory() as name:
         expected = whole_results(pathlib.Path(name))
     for pages in range(times):

@@ -18,7 +18,7 @@ from terminal import Terminal
 os.environ.pop("RACEBEAM_ROMS", None)
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LONGEST = 30 * PATIENCE  # seconds of an experiment that takes ten alone, on a machine that many share
+LONGEST = 30 * PATIENCE  # seconds; an experiment of ten seconds may take this long on a busy machine
 
 PLAN = """games = ["beamfall"]
 agents = ["random", "const", "basic", "disco", "lsh", "uct"]

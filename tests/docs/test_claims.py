@@ -217,7 +217,7 @@ class Lists(unittest.TestCase):
 
     def test_the_service_of_systemd_is_sandboxed_as_its_page_says(self):
         lines = page("packages/systemd/racebeam.service.in").splitlines()
-        claim = "writes only to `/var/lib/racebeam` and to a `/tmp` of its own, and has no capabilities"
+        claim = "writes only to `/var/lib/racebeam` and to a private `/tmp`, and has no capabilities"
         self.assertIn(claim, " ".join(page("packages/README.md").split()))
         fences = {"ProtectHome=yes", "ProtectSystem=strict", "StateDirectory=racebeam", "PrivateTmp=yes"}
         self.assertEqual((fences | {"CapabilityBoundingSet="}) - set(lines), set())

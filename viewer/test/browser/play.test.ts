@@ -33,6 +33,17 @@ describe("the view Play", () => {
     await until(async () => (await page.keyboard.press("KeyN"), await frame() < before), "a new game");
   }
 
+  /** Pauses, and replays the episode to the score that the page shows. */
+  async function pauseAndReplay(): Promise<void> {
+    await page.keyboard.press("KeyP");
+    await paused(page);
+    const score = await numberIn(page, "#score");
+    await page.locator("#replay-this").click();
+    await page.locator("#decks").getByText(`score 0 of ${score} `).waitFor();
+    await page.getByRole("link", { name: "Play", exact: true }).click();
+    await page.locator("#stage").focus();
+  }
+
   test("nothing looks pressed or running before the game begins", async () => {
     await page.getByRole("button", { name: "Play beamfall" }).waitFor();
     assert.equal(await page.locator('#play-view [aria-pressed="true"]').count(), 0);
@@ -145,13 +156,7 @@ describe("the view Play", () => {
   });
 
   test("an episode with RESET replays to the score that was seen", async () => {
-    await page.keyboard.press("KeyP");
-    await paused(page);
-    const score = await numberIn(page, "#score");
-    await page.locator("#replay-this").click();
-    await page.locator("#decks").getByText(`score 0 of ${score} `).waitFor();
-    await page.getByRole("link", { name: "Play", exact: true }).click();
-    await page.locator("#stage").focus();
+    await pauseAndReplay();
   });
 
   test("a difficulty switch moves in play, is rewound, and stays where it is in a new game", async () => {
@@ -184,13 +189,7 @@ describe("the view Play", () => {
     await page.keyboard.up("Space");
     await page.keyboard.press("Digit1");
     await frames(30);
-    await page.keyboard.press("KeyP");
-    await paused(page);
-    const score = await numberIn(page, "#score");
-    await page.locator("#replay-this").click();
-    await page.locator("#decks").getByText(`score 0 of ${score} `).waitFor();
-    await page.getByRole("link", { name: "Play", exact: true }).click();
-    await page.locator("#stage").focus();
+    await pauseAndReplay();
   });
 
   test("another game", async () => {
