@@ -23,14 +23,4 @@ inline void touch(CartridgeSlot& slot, std::uint16_t address) {
     select(slot, kFirstOfPair | (address >> 6 & 1U));
 }
 
-inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
-  touch(slot, address);
-  return 0;
-}
-
-inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
-  touch(slot, address);
-  return address & 0x1000 ? Delivery::kTaken : Delivery::kToTia;
-}
-
 }  // namespace racebeam::atariage

@@ -60,14 +60,4 @@ inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) 
   return Delivery::kTaken;
 }
 
-inline std::uint8_t read_03e0(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
-  touch_03e0(slot, address);
-  return 0;
-}
-
-inline Delivery write_03e0(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
-  touch_03e0(slot, address);
-  return address & 0x1000 ? Delivery::kTaken : Delivery::kToTia;
-}
-
 }  // namespace racebeam::parker

@@ -25,16 +25,6 @@ inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   ua::map(slot);
 }
 
-inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
-  touch(slot, address);
-  return 0;
-}
-
-inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
-  touch(slot, address);
-  return address & 0x1000 ? Delivery::kTaken : Delivery::kToTia;
-}
-
 constexpr unsigned kLocked = 1;  // index among the state's banks: whether the bank stays
 
 inline void reset_mdm(CartridgeSlot& slot) { slot.state.bank = {}; }
@@ -48,16 +38,6 @@ inline void touch_mdm(CartridgeSlot& slot, std::uint16_t address) {
   slot.state.bank[0] = static_cast<std::uint8_t>((address & 0x7FU) % image_banks(slot));
   slot.state.bank[kLocked] = address >> 7 & 1;
   ua::map(slot);
-}
-
-inline std::uint8_t read_mdm(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
-  touch_mdm(slot, address);
-  return 0;
-}
-
-inline Delivery write_mdm(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
-  touch_mdm(slot, address);
-  return address & 0x1000 ? Delivery::kTaken : Delivery::kToTia;
 }
 
 }  // namespace racebeam::superbank

@@ -25,19 +25,23 @@ void touch(CartridgeSlot& slot, std::uint16_t address) {
   map(slot);
 }
 
-template <Decoder kDecoder>
+// Accesses of a cartridge whose banks `kTouch` selects by their addresses.
+using Touch = void (*)(CartridgeSlot&, std::uint16_t);
+
+template <Touch kTouch>
 std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
-  touch<kDecoder>(slot, address);
+  kTouch(slot, address);
   return 0;
 }
 
-template <Decoder kDecoder>
+template <Touch kTouch>
 Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
-  touch<kDecoder>(slot, address);
+  kTouch(slot, address);
   return address & 0x1000 ? Delivery::kTaken : Delivery::kToTia;
 }
 
 template <Decoder kDecoder>
-inline constexpr MapperOps kOps = {atari::reset, map, read<kDecoder>, write<kDecoder>, atari::admits};
+inline constexpr MapperOps kOps = {atari::reset, map, read<touch<kDecoder>>, write<touch<kDecoder>>,
+                                   atari::admits};
 
 }  // namespace racebeam::ua
