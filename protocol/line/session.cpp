@@ -87,7 +87,7 @@ bool Session::waits() const { return context_.pacer.in_progress() && context_.wa
 // Works on a request until `end`. Returns false if it can only wait for more input.
 bool Session::go_on(Clock::time_point end) {
   if (context_.pacer.in_progress()) {
-    context_.pacer.go_on(end);
+    guarded([&] { context_.pacer.go_on(end); });
   } else {
     const auto line = next_line();
     if (!line) {

@@ -1,5 +1,8 @@
 #include "protocol/running/fiber.hpp"
 
+#include <exception>
+#include <utility>
+
 #include <boost/context/fiber.hpp>
 
 #include "protocol/running/fiber_stack.hpp"
@@ -31,8 +34,9 @@ struct Fiber::Run {
 
   FiberStack stack;
   SanitizerFiber sanitizer{stack.bottom(), FiberStack::kBytes};
-  context::fiber body;    // suspended, or empty
-  context::fiber caller;  // the context that runs the body
+  context::fiber body;         // suspended, or empty
+  context::fiber caller;       // the context that runs the body
+  std::exception_ptr failure;  // of the body
   bool cancelled = false;
 };
 
@@ -44,6 +48,8 @@ void Fiber::Run::run(void (*call)(void*), void* with) {
                           try {
                             call(with);
                           } catch (const Cancelled&) {
+                          } catch (const std::exception&) {
+                            failure = std::current_exception();
                           }
                           sanitizer.leaves_body_for_good();
                           return std::move(caller);
@@ -68,7 +74,8 @@ bool Fiber::start(void (*body)(void*), void* context) {
 
 bool Fiber::resume() {
   if (!run_->go_on()) return false;
-  run_.reset();
+  const std::exception_ptr failure = std::exchange(run_, nullptr)->failure;
+  if (failure) std::rethrow_exception(failure);
   return true;
 }
 
@@ -83,7 +90,8 @@ void Fiber::suspend() {
 void Fiber::cancel() {
   if (!run_) return;
   run_->cancelled = true;
-  while (!resume()) continue;
+  while (!run_->go_on()) continue;
+  run_.reset();
 }
 
 }  // namespace racebeam

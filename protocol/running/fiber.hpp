@@ -15,8 +15,8 @@ class Fiber {
   Fiber(const Fiber&) = delete;
   Fiber& operator=(const Fiber&) = delete;
 
-  // Calls `body` until it returns or is suspended. Returns whether it has returned. `body` must not throw,
-  // and no other body may be in progress. Throws std::bad_alloc without memory for a stack.
+  // Calls `body` until it returns or is suspended. Returns whether it has returned. No other body may be in
+  // progress. Throws what `body` throws, and std::bad_alloc without memory for a stack.
   template <typename Body>
   bool start(Body body) {
     const auto call = [](void* context) {
@@ -26,12 +26,12 @@ class Fiber {
     return start(call, &body);
   }
 
-  // Continues a suspended body, on any thread. Returns whether the body has returned. A function that
-  // suspends must not use thread_local variables both before and after, because compilers keep their
-  // addresses.
+  // Continues a suspended body, on any thread. Returns whether the body has returned. Throws what the body
+  // throws, which ends it. A function that suspends must not use thread_local variables both before and
+  // after, because compilers keep their addresses.
   bool resume();
 
-  // Unwinds a suspended body: its suspend() throws.
+  // Unwinds a suspended body: its suspend() throws. Ignores other exceptions of the body.
   void cancel();
 
   bool in_progress() const { return run_ != nullptr; }

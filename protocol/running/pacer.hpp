@@ -17,8 +17,8 @@ class Pacer final : public Pace {
   using Clock = std::chrono::steady_clock;
 
   // Works until `end`, or a few frames longer: calls `body`, or continues the one in progress. Returns true
-  // when the body has returned. A body must not throw. Throws std::bad_alloc if memory does not suffice to
-  // begin.
+  // when the body has returned. Throws what the body throws, and std::bad_alloc if memory does not suffice
+  // to begin.
   template <typename Body>
   bool work(Clock::time_point end, Body body) {
     end_ = end;

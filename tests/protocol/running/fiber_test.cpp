@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -57,6 +58,32 @@ TEST_CASE("What a fiber throws and catches is its own affair") {
   CHECK_FALSE(fiber.resume());
   CHECK(fiber.resume());
   CHECK(caught == 3);
+}
+
+TEST_CASE("What a body throws ends it, and reaches the caller of start or resume") {
+  Fiber fiber;
+  CHECK_THROWS_AS(fiber.start([] { throw std::bad_alloc(); }), std::bad_alloc);
+  CHECK_FALSE(fiber.in_progress());
+  CHECK_FALSE(fiber.start([&] {
+    fiber.suspend();
+    throw std::runtime_error("no more");
+  }));
+  CHECK_THROWS_WITH(fiber.resume(), "no more");
+  CHECK_FALSE(fiber.in_progress());
+  CHECK(fiber.start([] {}));
+}
+
+TEST_CASE("What a cancelled body throws is ignored") {
+  Fiber fiber;
+  CHECK_FALSE(fiber.start([&] {
+    try {
+      fiber.suspend();
+    } catch (...) {
+      throw std::runtime_error("while it unwinds");
+    }
+  }));
+  fiber.cancel();
+  CHECK_FALSE(fiber.in_progress());
 }
 
 TEST_CASE("A fiber that is cancelled unwinds its stack") {
