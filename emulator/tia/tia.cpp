@@ -35,7 +35,7 @@ enum class Likeness { kOther, kBegins, kLooks, kIsSame };
 // How far a line that starts with `registers` and has the writes from `entry` on equals a recorded one.
 RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::uint32_t* entry,
                                  std::uint32_t origin, const LineRecord& record) {
-  const bool same = record.mask != nullptr && record.starts_with(registers);
+  const bool same = record.is_summarized() && record.starts_with(registers);
   if (!same && !record.looks_like(registers)) return Likeness::kOther;
   const LineWrite next(entry[record.count], origin);
   if (next.is_of_line() && !(same && next.is_late())) return Likeness::kBegins;
@@ -241,7 +241,7 @@ bool Tia::take_lines(Collisions latches) {
 // line. The record's line begins with the same registers.
 bool Tia::keeps_latches(const LineRecord& record, std::uint32_t origin, Collisions latches) const {
   const Collisions met = record.meetings | record.cleared;
-  if (record.number == kNoLine || (met & latches & ~tia_.collisions) != 0) return false;
+  if (record.is_open() || (met & latches & ~tia_.collisions) != 0) return false;
   if ((record.view.seen & kClears) != 0 && has_clear(played_, log_->next)) return false;
   return begins_the_same(played_, log_->next, origin, record);
 }
@@ -293,7 +293,7 @@ void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
   tia_.enabled = enabled_objects(tia_);
   tia_.comb_armed = record.end.comb_armed;
   beam_.end_line();
-  if (record.mask == nullptr) record.summarize(video_.pal);
+  if (!record.is_summarized()) record.summarize(video_.pal);
 }
 
 // Draws the cursor's line up to the last write, or to its end if the next write lies after it. Returns true

@@ -68,6 +68,7 @@ void LineRecord::open(const TiaRegisters& registers) {
 }
 
 const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t origin) {
+  assert(state() == LineState::kOpen);
   unsigned dependencies = 0, control = 0, events = count;
   for (; events < kMostEvents; ++entry) {
     const LineWrite write(*entry, origin);
@@ -85,6 +86,7 @@ const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t o
 }
 
 std::uint8_t LineRecord::hash() const {
+  assert(state() != LineState::kSummarized);
   constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
   RegisterVectors bytes(start);
   bytes &= seen_bytes();
@@ -98,6 +100,7 @@ std::uint8_t LineRecord::hash() const {
 // Computes which bytes count, and which are known at the end. A register's value at the end depends on the
 // writes, on the bytes that count for what is shown (line_dependencies.hpp), and on the following.
 void LineRecord::summarize(bool pal) {
+  assert(state() == LineState::kDrawn);
   ByteSet counts = kAlways, sets = kUsedUp;
   std::array<std::uint8_t, 5> motion = motions_of(start);
   bool foreseen = (start.cosmic | end.cosmic) == 0;
@@ -132,7 +135,7 @@ void LineRecord::summarize(bool pal) {
   if (mask == nullptr) return;
   clear_but(start, mask->counts);
   clear_but(end, mask->sets);
-  start.spare[0] = foreseen ? 0 : 1;  // a value that it never has: the writes must be played
+  start.spare[0] = foreseen ? 0 : kNever;
 }
 
 }  // namespace racebeam

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 
 #include "emulator/base/inlining.hpp"
@@ -45,6 +46,13 @@ class LineWrite {
 using LineNumber = std::uint64_t;
 constexpr LineNumber kNoLine = 0, kAnyLine = 1;  // of a record without a line; of a row whose line is unknown
 
+// What is known of a record's line. Each state adds to the one before it.
+enum class LineState : std::uint8_t {
+  kOpen,        // nothing that is complete: the line is being drawn, or none has been
+  kDrawn,       // its pixels: a line that looks like it is not drawn, but its writes are played
+  kSummarized,  // its end: the writes of a line that starts with it are not played either
+};
+
 struct alignas(64) LineRecord {
   static constexpr std::size_t kMostEvents = 16;
 
@@ -62,19 +70,30 @@ struct alignas(64) LineRecord {
       hashes{};  // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp)
   alignas(16) std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
 
+  // Derived from what each state brings, so that nothing more is stored.
+  LineState state() const {
+    assert(mask == nullptr || number != kNoLine);
+    if (is_open()) return LineState::kOpen;
+    return is_summarized() ? LineState::kSummarized : LineState::kDrawn;
+  }
+  bool is_open() const { return number == kNoLine; }
+  bool is_summarized() const { return mask != nullptr; }
+
   void open(const TiaRegisters& registers);
 
   // Takes the writes from `entry` on that affect only this line, up to the capacity. Returns the next one.
   const std::uint32_t* add(const std::uint32_t* entry, std::uint32_t origin);
 
-  // A hash of what the line's pixels are made from. Only before summarize().
+  // A hash of what the line's pixels are made from. Only while it is not summarized.
   std::uint8_t hash() const;
 
   // Computes the masks, so that the writes need not be played next time. Worthwhile only if the line recurs.
+  // If there are too many masks, the line stays drawn.
   void summarize(bool pal);
 
-  // Whether the registers equal the start in all bytes that count. Only after summarize().
+  // Whether the registers equal the start in all bytes that count. Only if it is summarized.
   RACEBEAM_INLINE bool starts_with(const RegisterVectors& registers) const {
+    assert(state() == LineState::kSummarized);
     TwoWords difference{};
     for (std::size_t i = 0; i < 3; ++i)
       difference |=
@@ -92,12 +111,18 @@ struct alignas(64) LineRecord {
 
   // Replaces the registers at the line's start by those at its end.
   RACEBEAM_INLINE void pass(RegisterVectors& registers) const {
+    assert(state() == LineState::kSummarized && !must_be_played());
     for (std::size_t i = 0; i < 3; ++i)
       registers.part[i] =
           (registers.part[i] & ~RegisterVectors::of(mask->sets, i)) | RegisterVectors::of(end, i);
   }
 
  private:
+  // The registers at the end depend on more than those at the start. No line starts with this record then,
+  // because `start` has a byte that no machine has.
+  static constexpr std::uint8_t kNever = 1;
+  bool must_be_played() const { return start.spare[0] == kNever; }
+
   RACEBEAM_INLINE RegisterVectors seen_bytes() const {
     RegisterVectors bytes(kSeenBytes[view.seen & 0x1FF]);
     return bytes |= RegisterVectors(kControlBytes[view.control]);

@@ -62,6 +62,35 @@ TEST_CASE("No two lines have the same number, on different machines either") {
   }
 }
 
+// A summarized record of a line with one write, HMM0 with this value.
+LineRecord summarized(const TiaRegisters& registers, std::uint8_t motion) {
+  LineCache memory;
+  memory.aim(1);
+  LineRecord& record = memory.row(0);
+  CHECK(record.state() == LineState::kOpen);
+  record.open(registers);
+  const std::uint32_t log[] = {TiaWrite(10, HMM0, motion).packed(), TiaWrite(200, 0, 0).packed()};
+  CHECK(record.add(log, 0) == log + 1);
+  CHECK(record.state() == LineState::kOpen);
+  memory.add(record);
+  CHECK(record.state() == LineState::kDrawn);
+  record.end = registers;
+  record.summarize(false);
+  CHECK(record.state() == LineState::kSummarized);
+  LineRecord copy = record;
+  record.open(registers);
+  CHECK(record.state() == LineState::kOpen);
+  return copy;
+}
+
+TEST_CASE("A record is open until its line is drawn, and no line starts with one that must be played") {
+  TiaRegisters plain, moving;
+  moving.cosmic = 1;
+  CHECK(summarized(plain, 0x50).starts_with(RegisterVectors(plain)));
+  CHECK_FALSE(summarized(plain, 0x60).starts_with(RegisterVectors(plain)));  // may start Cosmic Ark's mode
+  CHECK_FALSE(summarized(moving, 0x50).starts_with(RegisterVectors(moving)));
+}
+
 TEST_CASE("A row is copied from the other picture if that shows the line, and not else") {
   FrameBuffer picture, other;
   for (FrameBuffer* one : {&picture, &other}) one->make_room(2);
