@@ -21,6 +21,8 @@ TEST_CASE("A block that is left at once is interpreted, and tried one of 64 time
   int entries = 0;
   for (; !block.is_unprofitable(); ++entries) block.record(0);
   CHECK(entries == 4);
+  CHECK(entered(block, 62) == 0);  // the last question of the loop is one of 63
+  CHECK(entered(block, 1) == 1);
   CHECK(entered(block, 640) == 10);
 }
 

@@ -86,6 +86,34 @@ TEST_CASE("The winner of a round is faster by more than a quarter") {
   CHECK(interpreted_steps(1000, 126, 100).size() > 500);
 }
 
+// Whether steps are interpreted after rounds in which the four trials' interpreted steps cost one each,
+// counted twice, and the eight translated steps `present` together.
+bool changes_at(int present) {
+  StepTrial trial;
+  int measured = 0;  // translated steps
+  return run(trial, 1000, [&](int, bool interpreted) {
+           const int place = interpreted ? 0 : measured++ % 8;
+           return interpreted ? 1 : present / 8 + (place < present % 8 ? 1 : 0);
+         }) > 500;
+}
+
+TEST_CASE("Eight steps of the usual way lose against four of the other from eleven on") {
+  CHECK_FALSE(changes_at(10));
+  CHECK(changes_at(11));
+}
+
+TEST_CASE("Three steps are measured after the first pause, and then three after each pause of four") {
+  StepTrial trial;
+  std::vector<int> measured;
+  for (int step = 0; step < 140; ++step) {
+    trial.begin_step();
+    if (!trial.measures()) continue;
+    measured.push_back(step);
+    trial.end_step(100);
+  }
+  CHECK(measured == std::vector{128, 129, 130, 135, 136, 137});
+}
+
 TEST_CASE("A round that is won in between begins the count of lost ones anew") {
   StepTrial trial;
   int trials = 0;
