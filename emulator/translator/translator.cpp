@@ -12,6 +12,8 @@
 #include "emulator/cpu/cpu.hpp"
 #include "emulator/translator/block_discovery.hpp"
 #include "emulator/translator/image_code.hpp"
+#include "emulator/translator/interpreted_run.hpp"
+#include "emulator/translator/step_backoff.hpp"
 #include "emulator/translator/step_trial.hpp"
 #include "emulator/translator/translation_budget.hpp"
 #include "emulator/tuning.hpp"
@@ -25,42 +27,6 @@ namespace {
 const std::int32_t kMargin = tuning::kMostBlockCycles + 100;
 
 constexpr std::int32_t kFewestCycles = 2;  // of an instruction
-
-// Back-off after steps that were too long for translated code, and were interpreted again. After one, the
-// next steps are interpreted at once: one, then three, up to kLongestBackoff. The count halves after
-// kCalmSteps steps that translated code completed, so that a game that thinks for some frames is translated
-// again soon.
-class StepBackoff {
- public:
-  bool skips_step() { return left_ > 0 && left_-- > 0; }
-  void record(bool whole) {
-    if (whole) {
-      if (++calm_ % tuning::kCalmSteps == 0) length_ /= 2;
-      return;
-    }
-    calm_ = 0;
-    left_ = length_ = std::min(2 * length_ + 1, tuning::kLongestBackoff);
-  }
-
- private:
-  int length_ = 0, left_ = 0, calm_ = 0;  // steps
-};
-
-// How many instructions the interpreter runs before the next search for translated code. The count doubles
-// each time that no profitable code is found, because a search costs as much as interpreting a few
-// instructions.
-class InterpretedRun {
- public:
-  std::int32_t next(std::int32_t minimum) {
-    const std::int32_t length = std::max(length_, minimum);
-    length_ = std::min(2 * length_, tuning::kLongestRun);
-    return length;
-  }
-  void reset() { length_ = 1; }
-
- private:
-  std::int32_t length_ = 1;
-};
 
 // Code elsewhere, mostly in RAM, may change, and is not translated.
 bool is_in_image(const CodeWindow& window, const Rom& rom) {
@@ -132,8 +98,8 @@ struct Translator::Impl {
   const translator::Layout layout;
   std::array<CachedView, 32> views{};
   translator::TranslationBudget budget;
-  InterpretedRun interpreted_run;
-  StepBackoff step_backoff;
+  translator::InterpretedRun interpreted_run;
+  translator::StepBackoff step_backoff;
   translator::StepTrial trial;
   std::optional<Stopwatch> trial_watch;  // in steps of a trial
   std::int64_t interpreted_cycles = 0;
