@@ -9,7 +9,7 @@ import { SearchPanel } from "./search_panel.js";
 import { TiaView } from "./tia_view.js";
 
 const KEPT = 1800; // moments of the plots
-const PLOT_EVERY = 4; // pictures
+const PLOT_EVERY = 66; // milliseconds
 
 /** What the panels below the game show of the session. */
 export class Inspector {
@@ -24,7 +24,8 @@ export class Inspector {
     reward: byId("reward-plot", HTMLCanvasElement),
     lives: byId("lives-plot", HTMLCanvasElement),
   };
-  #draws = 0;
+  #last: Shown | undefined;
+  #plotting = false;
   #moments: Pick<Shown, "moment" | "score" | "reward" | "lives">[] = [];
 
   constructor() {
@@ -73,12 +74,17 @@ export class Inspector {
     this.#agent.draw();
     this.#palette.show(shown.screen);
     tell(byId("action", HTMLElement), spoken(shown.act));
-    if (++this.#draws % PLOT_EVERY === 0) {
-      this.#plot(shown);
+    this.#last = shown;
+    if (!this.#plotting) {
+      this.#plotting = true;
+      setTimeout(() => this.#plot(), PLOT_EVERY);
     }
   }
 
-  #plot(shown: Shown): void {
+  /** Plots the newest moment: of several in a short time, only the last. */
+  #plot(): void {
+    this.#plotting = false;
+    const shown = this.#last!;
     plot(byId("wave", HTMLCanvasElement), Array.from(shown.audio), [0, 255]);
     for (const kind of ["score", "reward", "lives"] as const) {
       plot(this.#plots[kind], this.#moments.map((each) => each[kind]), [0, 1]);

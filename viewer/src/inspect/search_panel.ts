@@ -3,8 +3,8 @@ import { gameFile, outcome, type Findings } from "./draft.js";
 import { addressOf, byteOf, MemorySearch, type Comparison } from "./search.js";
 
 const MOST_LISTED = 12;
-const ROLES = [["", "-"], ["score0", "score, lowest digits"], ["score1", "score, next"], ["score2", "score, highest"], ["lives", "lives"],
-  ["over", "game over at this value"]] as const;
+const ROLES = [["", "-"], ["score0", "score, low digits"], ["score1", "score, next digits"], ["score2", "score, high digits"],
+  ["lives", "lives"], ["over", "over at this value"]] as const;
 const NOTHING = "No byte has a part in the rule yet. Say in the list which byte is which.";
 
 /** A byte's part in the rule, and its value when the user said so. */

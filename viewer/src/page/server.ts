@@ -78,6 +78,14 @@ export class Server {
   }
 }
 
+/** What failed, for people: a refusal without its code, and without the advice for authors of clients after the semicolon. */
+export function reasonOf(error: unknown): string {
+  if (error instanceof RefusedError) {
+    return error.message.slice(`${error.code}: `.length).split(";")[0]!;
+  }
+  return error instanceof Error ? error.message : String(error);
+}
+
 /** Whether the server shares all sessions: it then refuses to unshare one. */
 async function sharesAll(session: Session): Promise<boolean> {
   try {

@@ -6,7 +6,7 @@ import { Switches } from "../input/switches.js";
 import { Touch } from "../input/touch.js";
 import { Inspector } from "../inspect/inspector.js";
 import { byId, tell } from "../page/elements.js";
-import type { Server } from "../page/server.js";
+import { reasonOf, type Server } from "../page/server.js";
 import { titleOf } from "../page/titles.js";
 import { Screen } from "../picture/screen.js";
 import { soundRate } from "../picture/shape.js";
@@ -103,7 +103,7 @@ export class PlayView {
   /** The session has ended: opens another one, which plays the same acts to the same moment. */
   async #lose(error: unknown): Promise<void> {
     if (error instanceof RefusedError) {
-      this.told(error.message);
+      this.told(`The server refuses: ${reasonOf(error)}.`);
       return;
     }
     if (this.#lost) {

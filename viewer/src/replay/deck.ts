@@ -1,7 +1,6 @@
-import { LostError } from "racebeam";
 import { spoken } from "../input/actions.js";
 import { copyOf, part, tell } from "../page/elements.js";
-import type { Server } from "../page/server.js";
+import { reasonOf, type Server } from "../page/server.js";
 import { Screen } from "../picture/screen.js";
 import { frameRate, soundRate } from "../picture/shape.js";
 import type { Episode } from "./log.js";
@@ -23,6 +22,7 @@ export class Deck {
   #track: Track | undefined;
   #outcome: Outcome | undefined;
   #end: (() => Promise<void>) | undefined;
+  #lost = false; // the session has ended, and this is told
   #shown = -1; // step
   #wanted = 0; // frame
   #showing = false;
@@ -58,13 +58,16 @@ export class Deck {
     const progress = part(this.element, "progress", HTMLProgressElement);
     progress.hidden = false;
     const { session, limits } = await this.#server.open();
+    this.#lost = false;
     this.#end = () => session.disconnect();
+    void session.ended.then(() => this.#lose());
     this.records = limits.recording === 1;
     this.#track = new Track(session, this.episode, limits.max_states);
     this.#outcome = await this.#track.prepare((done) => (progress.value = done));
     await this.#server.claim(session, "replay");
     this.#screen.become(await session.palette(), String(this.#track.loaded.format), this.#track.loaded.height);
     progress.hidden = true;
+    part(this.element, "facts", HTMLElement).classList.toggle("problem", !!this.#outcome.differences?.length);
     this.#shown = -1;
     this.show(this.#wanted);
   }
@@ -113,7 +116,9 @@ export class Deck {
         tell(part(this.element, "facts", HTMLElement), this.#facts(step, group.lives));
       }
     } catch (error) {
-      await this.#lose(error);
+      if (!this.#lost) {
+        this.#fail(reasonOf(error));
+      }
     } finally {
       this.#busy(false);
     }
@@ -130,12 +135,23 @@ export class Deck {
     return Math.max(0, Math.min(track.length, Math.floor(this.#wanted / track.framesAStep)));
   }
 
-  async #lose(error: unknown): Promise<void> {
-    tell(part(this.element, "facts", HTMLElement), error instanceof Error ? error.message : String(error));
-    if (error instanceof LostError && this.element.isConnected) {
-      await this.#server.reopen(() => {}).then(({ session }) => session.disconnect());
-      await this.open();
+  /** The session has ended: unless the deck was closed, plays the episode again as soon as the server answers. */
+  async #lose(): Promise<void> {
+    if (this.element.isConnected) {
+      this.#lost = true;
+      this.#fail("The connection is lost. Trying again.");
+      const { session } = await this.#server.reopen(() => {});
+      await session.disconnect();
     }
+    if (this.element.isConnected) {
+      await this.open().catch((error) => this.#fail(reasonOf(error)));
+    }
+  }
+
+  #fail(sentence: string): void {
+    const facts = part(this.element, "facts", HTMLElement);
+    tell(facts, sentence);
+    facts.classList.add("problem");
   }
 
   #facts(step: number, lives: number): string {

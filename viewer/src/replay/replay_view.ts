@@ -1,5 +1,5 @@
 import { byId, tell } from "../page/elements.js";
-import type { Server } from "../page/server.js";
+import { reasonOf, type Server } from "../page/server.js";
 import { Pacer } from "../play/pacer.js";
 import { Speaker } from "../sound/speaker.js";
 import { Deck } from "./deck.js";
@@ -39,17 +39,21 @@ export class ReplayView {
 
   /** Shows the episode of a link, if the address has one. */
   async follow(hash: string): Promise<void> {
-    await this.#attempt(async () => {
+    await this.#attempt("log-problem", async () => {
       const linked = await readLink(hash);
       if (linked) {
         this.#frame = linked.frame;
-        await this.open(linked.episode);
+        await this.#add(linked.episode);
       }
     });
   }
 
   /** Shows an episode, beside the one before if there is one. */
   async open(episode: Episode): Promise<void> {
+    await this.#attempt("log-problem", () => this.#add(episode));
+  }
+
+  async #add(episode: Episode): Promise<void> {
     if (this.#decks.length === MOST_DECKS) {
       throw new Error(`${MOST_DECKS} episodes are open; close one first`);
     }
@@ -95,27 +99,27 @@ export class ReplayView {
     click("run-step", () => this.#goTo(this.#frame + 1));
     click("reward-before", () => this.#goTo(this.#rewards().findLast((frame) => frame < this.#frame) ?? 0));
     click("reward-after", () => this.#goTo(this.#rewards().find((frame) => frame > this.#frame) ?? this.#frames));
-    click("film", () => void this.#attempt(() => this.#film()));
-    click("link", () => void this.#attempt(() => this.#link()));
+    click("film", () => void this.#attempt("transport-problem", () => this.#film()));
+    click("link", () => void this.#attempt("transport-problem", () => this.#link()));
     this.#speed.onchange = () => this.#run(this.#runs);
     addEventListener("resize", () => this.#drawMarks());
   }
 
   async #read(files: FileList | null | undefined): Promise<void> {
     for (const file of files ?? []) {
-      await this.#attempt(async () => this.open(await readLog(new Uint8Array(await file.arrayBuffer()), file.name)), `${file.name}: `);
+      await this.#attempt("log-problem", async () => this.#add(await readLog(new Uint8Array(await file.arrayBuffer()), file.name)), `${file.name}: `);
     }
     byId("log", HTMLInputElement).value = "";
   }
 
-  /** Does something, and shows the sentence of its failure, after the name of the file that it is about. */
-  async #attempt(action: () => Promise<void>, name = ""): Promise<void> {
-    const problem = byId("log-problem", HTMLElement);
+  /** Does something, and shows why it failed, in an element, after the name of the file that it is about. */
+  async #attempt(place: string, action: () => Promise<void>, name = ""): Promise<void> {
+    const problem = byId(place, HTMLElement);
     tell(problem, "");
     try {
       await action();
     } catch (error) {
-      tell(problem, error instanceof Error ? `${name}${error.message}.` : String(error));
+      tell(problem, `${name}${reasonOf(error)}.`);
     }
   }
 

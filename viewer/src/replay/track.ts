@@ -152,6 +152,7 @@ export class Track {
       progress(Math.min(1, (at + SENT_AHEAD) / (this.#steps.length + 1)));
     }
     hashes.push(this.#hash());
+    this.#steps.splice(frames); // an act after the end plays no frame
     const found = (await Promise.all(hashes)).map(({ state_hash }) => hexOf(state_hash));
     return { rewards, differences: this.#compare(frames, last, found) };
   }

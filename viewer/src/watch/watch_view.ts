@@ -1,6 +1,6 @@
 import { RefusedError, type Group, type Session } from "racebeam";
 import { byId, copyOf, make, markCurrent, part, tell } from "../page/elements.js";
-import type { Server } from "../page/server.js";
+import { reasonOf, type Server } from "../page/server.js";
 import { titleOf } from "../page/titles.js";
 import { Feed } from "./feed.js";
 
@@ -11,6 +11,8 @@ interface Tile {
   element: HTMLElement;
   button: HTMLButtonElement;
   feed: Feed;
+  /** Its name, and its game. */
+  title: string;
 }
 
 /** The view of sessions that their clients have shared: a wall of small pictures, and a large one. */
@@ -49,7 +51,7 @@ export class WatchView {
       } catch (error) {
         this.#forget();
         if (error instanceof RefusedError) {
-          this.told(error.message);
+          this.told(`The server refuses: ${reasonOf(error)}.`);
           return; // a server that has no sessions to share
         }
         this.#session = undefined;
@@ -92,9 +94,10 @@ export class WatchView {
     [...this.#tiles.keys()].filter((name) => !names.has(name)).forEach((name) => this.#remove(name));
     for (const group of shared) {
       const tile = this.#tiles.get(String(group.name)) ?? this.#add(session, String(group.name));
+      tile.title = `${group.name}: ${titleOf(String(group.game))}`;
       tell(part(tile.button, "facts", HTMLElement), facts(group));
       if (this.#large?.name === group.name) {
-        tell(byId("watched-title", HTMLElement), `${group.name}: ${titleOf(String(group.game))}`);
+        tell(byId("watched-title", HTMLElement), tile.title);
       }
     }
     byId("watch-none", HTMLElement).hidden = shared.length > 0;
@@ -108,8 +111,11 @@ export class WatchView {
     const element = copyOf("tile");
     const button = element.querySelector("button")!;
     tell(part(button, "name", HTMLElement), name);
-    const tile = { element, button, feed: new Feed(session, name, part(button, "screen", HTMLCanvasElement)) };
-    button.onclick = () => this.#enlarge(session, name);
+    const tile = { element, button, feed: new Feed(session, name, part(button, "screen", HTMLCanvasElement)), title: name };
+    button.onclick = () => {
+      this.#enlarge(session, name);
+      byId("watched", HTMLElement).scrollIntoView({ block: "nearest" });
+    };
     byId("wall", HTMLElement).append(element);
     this.#tiles.set(name, tile);
     return tile;
@@ -131,6 +137,7 @@ export class WatchView {
   #enlarge(session: Session, name: string): void {
     this.#large = new Feed(session, name, byId("watched-screen", HTMLCanvasElement));
     byId("watched", HTMLElement).hidden = false;
+    tell(byId("watched-title", HTMLElement), this.#tiles.get(name)?.title ?? name);
     byId("watched-screen", HTMLCanvasElement).setAttribute("aria-label", `Screen of ${name}`);
     this.#tiles.forEach(({ button }, each) => markCurrent(button, each === name));
   }

@@ -96,6 +96,17 @@ describe("accessibility", () => {
     await page.context().close();
   });
 
+  test("on a phone on its side, the picture and the controls beside it are seen at once", async () => {
+    for (const viewport of [{ width: 844, height: 390 }, { width: 568, height: 320 }]) {
+      const page = await tabs.open(server.address, { ...PHONE, viewport });
+      await page.getByRole("button", { name: "Play beamfall" }).tap();
+      const [picture, pad, fire] = (await Promise.all(["#screen", "#pad", "#fire"].map((each) => page.locator(each).boundingBox())));
+      assert.ok(pad!.x + pad!.width <= picture!.x && picture!.x + picture!.width <= fire!.x, "a control covers the picture");
+      assert.ok(picture!.y >= 0 && pad!.y + pad!.height <= viewport.height, `the picture begins at ${picture!.y}`);
+      await page.context().close();
+    }
+  });
+
   test("on a phone everything fits, and fingers play", async () => {
     const page = await tabs.open(server.address, PHONE);
     await page.getByRole("button", { name: "Play beamfall" }).tap();

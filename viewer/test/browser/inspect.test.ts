@@ -58,6 +58,7 @@ describe("the panels of Inspect", () => {
     await other.locator("#inspect").click();
     await until(async () => await byte(0x81, other) === await numberIn(other, "#lives"), "the lives in RAM");
     await until(async () => /[0-9A-F]{2}/.test(await other.locator("#tia dd").first().textContent() ?? ""), "a register");
+    await until(async () => await numberIn(other, "#lives-now") === await numberIn(other, "#lives"), "the plot of the lives");
     assert.equal(await numberIn(other, "#frame"), 0);
     await other.context().close();
   });

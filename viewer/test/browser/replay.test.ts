@@ -9,12 +9,18 @@ import { measured, paused, recordedEpisodes, Server, Tabs, until } from "./harne
 
 const HEADER = 24; // bytes of a log before its contents
 
-/** A log, sealed anew, one of whose hashes of states has another bit. */
+/** A log whose first hash of a state has another bit. */
 function withAnotherHash(log: Buffer): Buffer {
   const contents = inflateSync(log.subarray(HEADER));
   contents[contents.indexOf("\n\n") + 2]! ^= 1;
+  return sealed(log, contents);
+}
+
+/** A log with other contents, sealed anew. */
+function sealed(log: Buffer, contents: Buffer): Buffer {
   const header = Buffer.from(log.subarray(0, HEADER));
   const packed = deflateSync(contents);
+  header.writeBigUInt64LE(BigInt(contents.length), 12);
   header.writeUInt32LE(crc32(header.subarray(0, HEADER - 4), packed), HEADER - 4);
   return Buffer.concat([header, packed]);
 }
@@ -50,7 +56,8 @@ describe("the view Replay", () => {
   test("a log plays as it says, frame by frame", async () => {
     await page.locator("#log").setInputFiles(logs[0]!);
     await until(async () => / plays as logged$/.test(await facts() ?? ""), "the episode");
-    assert.match(await page.locator("#place").textContent() ?? "", /^frame 0 of \d{3,}$/);
+    const [, frames = ""] = / frames=(\d{3,}) /.exec(inflateSync(readFileSync(logs[0]!).subarray(HEADER)).toString("latin1")) ?? [];
+    assert.equal(await page.locator("#place").textContent(), `frame 0 of ${frames}`);
   });
 
   test("any frame is shown at once, and always looks the same", async () => {
@@ -81,7 +88,7 @@ describe("the view Replay", () => {
     await page.locator("#film-kind").selectOption("webm");
     await page.getByRole("button", { name: "Make it on the server" }).click();
     await until(async () => /\.webm: |ffmpeg is not installed/.test(
-      `${await note.textContent()} ${await page.locator("#log-problem").textContent()}`), "a film, or the reason against one");
+      `${await note.textContent()} ${await page.locator("#transport-problem").textContent()}`), "a film, or the reason against one");
   });
 
   test("it runs at the speed that is chosen", async () => {
@@ -162,6 +169,32 @@ describe("the view Replay", () => {
     await page.getByRole("button", { name: "Replay this episode" }).click();
     await page.locator("#place").filter({ hasText: `of ${frame}` }).waitFor();
     await until(async () => (await facts() ?? "").startsWith(`score 0 of ${score} `), "the score of the episode");
+  });
+
+  test("a third episode is refused in a sentence", async () => {
+    for (const answer of [page.locator(".deck").nth(1), page.locator("#log-problem").filter({ hasText: "close one first" })]) {
+      await page.getByRole("link", { name: "Play", exact: true }).click();
+      await page.getByRole("button", { name: "Replay this episode" }).click();
+      await answer.waitFor();
+    }
+  });
+
+  test("the page says that the connection is lost, and shows the episode again when the server is back", async () => {
+    const { port } = server;
+    await server.stop();
+    await scrub(1);
+    await page.locator(".deck").first().getByText("The connection is lost. Trying again.").waitFor();
+    await server.start(["--record-dir", server.folder], port);
+    await until(async () => (await facts() ?? "").startsWith("score 0 of "), "the episode");
+    tabs.problems(); // the browser tells of connections that were refused
+  });
+
+  test("a game that the server lacks is named", async () => {
+    const contents = inflateSync(readFileSync(logs[0]!).subarray(HEADER));
+    const other = sealed(readFileSync(logs[0]!), Buffer.concat([Buffer.from("load pong"), contents.subarray("load beamfall".length)]));
+    await page.getByRole("button", { name: "Close" }).first().click();
+    await page.locator("#log").setInputFiles({ name: "pong.episode", mimeType: "", buffer: other });
+    await page.locator("#log-problem").getByText("pong.episode: the image of pong is missing.", { exact: true }).waitFor();
   });
 });
 

@@ -50,6 +50,14 @@ describe("the view Watch", () => {
     assert.ok(height > 0 && y + height < page.viewportSize()!.height / 3, `the facts end at ${y + height}`);
   });
 
+  test("on a phone, the session that was chosen comes into sight", async () => {
+    const phone = await tabs.open(`${server.address}#watch`, { viewport: { width: 390, height: 400 }, hasTouch: true, isMobile: true });
+    await phone.locator("#watched-facts").getByText("frame").waitFor();
+    await phone.getByRole("button", { name: /right Updraft/ }).tap();
+    await until(async () => (await phone.locator("#watched").boundingBox())!.y > -1, "the large session");
+    await phone.context().close();
+  });
+
   test("tells score, episode and speed", async () => {
     await until(async () => /score [1-9]\d* · episode \d+ · [1-9]\d* frames\/s/.test(
       await page.getByRole("button", { name: /left Beamfall/ }).textContent() ?? ""), "a score");
