@@ -1,7 +1,9 @@
 #include "recording/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <csignal>
@@ -47,6 +49,25 @@ class FullDisk {
   rlimit before_{};
   void (*handler_)(int);
 };
+
+// While it exists, the process has no standard input, so that the next file has the descriptor 0.
+class NoStandardInput {
+ public:
+  NoStandardInput() : before_(::dup(0)) { ::close(0); }
+  ~NoStandardInput() {
+    ::dup2(before_, 0);
+    ::close(before_);
+  }
+  NoStandardInput(const NoStandardInput&) = delete;
+  NoStandardInput& operator=(const NoStandardInput&) = delete;
+
+ private:
+  int before_;
+};
+
+std::ptrdiff_t open_descriptors() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+}
 
 std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
@@ -262,6 +283,8 @@ TEST_CASE("Bytes that another program writes are counted once") {
 TEST_CASE("A folder appears at its commit, with whole files") {
   const Scratch folder;
   DiskBudget budget(10);
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
   {
     AtomicFolder frames(folder.path("frames"), budget);
     frames.add("1.png", bytes_of("12345"));
@@ -280,7 +303,46 @@ TEST_CASE("A folder appears at its commit, with whole files") {
   CHECK(contents(folder.path("frames/4.png")) == "12345");
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path("frames")), {}) == 2);
   CHECK(mode_of(folder.path("frames")) == 0755);
+  CHECK(mode_of(folder.path("frames/4.png")) == (0644 & ~static_cast<int>(mask)));
   CHECK_THROWS_WITH(AtomicFolder(folder.path("frames"), budget), "frames exists; choose another name");
   { const AtomicFolder folder_of_frames(folder.path("left"), budget); }
   CHECK(files_in(folder) == 1);
+}
+
+TEST_CASE("Files are written and removed where the process has no standard input") {
+  const Scratch folder;
+  DiskBudget budget(100);
+  {
+    const NoStandardInput closed;
+    replace_file(folder.path("table.csv"), "new", Durable::kLater);
+    AtomicFolder frames(folder.path("frames"), budget);
+    frames.add("1.png", bytes_of("12345"));
+    {
+      const FullDisk disk(4);
+      CHECK_THROWS_WITH(frames.add("2.png", bytes_of("12345")), "cannot write 2.png: File too large");
+    }
+    frames.add("2.png", bytes_of("12345"));
+    frames.commit();
+    AtomicFile(folder.path("film.avi"), budget).write("all");
+  }
+  CHECK(contents(folder.path("frames/2.png")) == "12345");
+  CHECK(contents(folder.path("table.csv")) == "new");
+  CHECK(files_in(folder) == 2);
+}
+
+TEST_CASE("Files leave no descriptor open, committed or not") {
+  const Scratch folder;
+  DiskBudget budget(1000);
+  const std::ptrdiff_t before = open_descriptors();
+  for (const bool commits : {false, true}) {
+    AtomicFile file(folder.path("film.avi"), budget);
+    AtomicFolder frames(folder.path("frames"), budget);
+    frames.add("1.png", bytes_of("12345"));
+    const FullDisk disk(5);
+    CHECK_THROWS(frames.add("2.png", bytes_of("123456")));
+    CHECK_THROWS(replace_file(folder.path("table.csv"), "123456", Durable::kLater));
+    replace_file(folder.path("table.csv"), "12345", Durable::kNow);
+    if (commits) file.commit(), frames.commit();
+  }
+  CHECK(open_descriptors() == before);
 }
