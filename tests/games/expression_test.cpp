@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "games/language/lexer.hpp"
 #include "games/language/rule_compiler.hpp"
@@ -120,6 +122,27 @@ TEST_CASE("operators bind as the catalogue's README says") {
   CHECK(folded("!0 + 1") == 2);
   CHECK(folded("-2 * 3") == -6);
   CHECK(folded("~0 & 15") == 15);
+}
+
+TEST_CASE("each operator binds tighter than those below it, and as tight as those beside it, from the left") {
+  const std::vector<std::vector<std::string>> loosest_first = {
+      {"||"},     {"&&"},         {"==", "!=", "<", "<=", ">", ">="}, {"|"}, {"^"}, {"&"}, {"<<", ">>"},
+      {"+", "-"}, {"*", "/", "%"}};
+  const std::string operands[][3] = {{"7", "2", "3"}, {"4", "0", "1"}, {"1", "6", "2"}, {"9", "5", "5"}};
+  const std::size_t comparisons = 2;
+  for (std::size_t left = 0; left < loosest_first.size(); ++left)
+    for (std::size_t right = 0; right < loosest_first.size(); ++right) {
+      if (left == right && left == comparisons) continue;  // they cannot be chained
+      for (const std::string& first : loosest_first[left])
+        for (const std::string& second : loosest_first[right])
+          for (const auto& [a, b, c] : operands) {
+            const std::string open = a + first + b + second + c;
+            const std::string grouped = right > left ? a + first + "(" + b + second + c + ")"
+                                                     : "(" + a + first + b + ")" + second + c;
+            INFO(open);
+            REQUIRE(folded(open) == folded(grouped));
+          }
+    }
 }
 
 TEST_CASE("ram, mem and bcd read memory") {

@@ -131,7 +131,7 @@ TEST_CASE("fail gives up with its text") {
   const Game game = game_with_setup("fail \"no such screen\"");
   Rule rule(game);
   FakeHost host;
-  CHECK_THROWS_WITH(run_mode_program(game, rule, 1, host), Contains("no such screen"));
+  CHECK_THROWS_WITH(run_mode_program(game, rule, 1, host), Catch::EndsWith(": no such screen"));
 }
 
 TEST_CASE("a game without a mode program does nothing") {
@@ -177,4 +177,9 @@ TEST_CASE("an invalid mode program is refused with file, line and field") {
   std::string many;
   for (int i = 0; i < 40; ++i) many += std::string("v").append(std::to_string(i)).append(" = 1\n");
   CHECK_THAT(error_of(many), Contains("too many variables"));
+}
+
+TEST_CASE("a text may be empty, and ends on its line") {
+  CHECK(error_of("if mode == 1 { fail \"\"}").empty());
+  CHECK_THAT(error_of("fail \"\nsoft_reset \""), Contains("a text must end with \" on its line"));
 }
