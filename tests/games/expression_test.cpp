@@ -60,13 +60,13 @@ TEST_CASE("every operator gives the same when it is folded and when it is comput
     int x, y, result;
   };
   const Case cases[] = {
-      {"+", 7, 3, 10},  {"-", 7, 3, 4},   {"*", 7, 3, 21},        {"/", 7, 3, 2},    {"%", 7, 3, 1},
-      {"<<", 7, 3, 56}, {">>", 56, 3, 7}, {"&", 12, 10, 8},       {"|", 12, 10, 14}, {"^", 12, 10, 6},
-      {"==", 5, 5, 1},  {"==", 5, 6, 0},  {"!=", 5, 6, 1},        {"!=", 5, 5, 0},   {"<", 5, 6, 1},
-      {"<", 6, 6, 0},   {"<=", 6, 6, 1},  {"<=", 7, 6, 0},        {">", 6, 5, 1},    {">", 6, 6, 0},
-      {">=", 6, 6, 1},  {">=", 5, 6, 0},  {"&&", 2, 4, 1},        {"&&", 2, 0, 0},   {"||", 0, 4, 1},
-      {"||", 0, 0, 0},  {"/", 7, 0, 0},   {"%", 7, 0, 0},         {"<<", 1, 33, 2},  {">>", -8, 1, -4},
-      {"/", -7, 2, -3}, {"%", -7, 2, -1}, {"<<", 1, 31, kLowest},
+      {"+", 7, 3, 10},  {"-", 7, 3, 4},   {"*", 7, 3, 21},  {"/", 7, 3, 2},    {"%", 7, 3, 1},
+      {"<<", 7, 3, 56}, {">>", 56, 3, 7}, {"&", 12, 10, 8}, {"|", 12, 10, 14}, {"^", 12, 10, 6},
+      {"==", 5, 5, 1},  {"==", 5, 6, 0},  {"!=", 5, 6, 1},  {"!=", 5, 5, 0},   {"<", 5, 6, 1},
+      {"<", 6, 6, 0},   {"<=", 6, 6, 1},  {"<=", 7, 6, 0},  {">", 6, 5, 1},    {">", 6, 6, 0},
+      {">=", 6, 6, 1},  {">=", 5, 6, 0},  {"&&", 2, 4, 1},  {"&&", 2, 0, 0},   {"||", 0, 4, 1},
+      {"||", 0, 0, 0},  {"/", 7, 0, 0},   {"%", 7, 0, 0},   {"<<", 1, 33, 2},  {">>", -8, 1, -4},
+      {"/", -7, 2, -3}, {"%", -7, 2, -1}, {"/", -7, -1, 7}, {"%", -7, -1, 0},  {"<<", 1, 31, kLowest},
   };
   for (const Case& each : cases) {
     INFO(each.x << " " << each.sign << " " << each.y);
@@ -213,9 +213,28 @@ TEST_CASE("what cannot be an expression is refused with the word that is wrong")
   CHECK_THAT(error_of("sum(i, 1, 4000, " + ones + ")"), Contains("sums are too long"));
 }
 
+TEST_CASE("a counter that wraps has at least ten values") {
+  CHECK(folded("wrap(-9, 10)") == 1);
+  CHECK_THAT(error_of("wrap(-9, 9)"), Contains("wrap() takes a constant of at least 10"));
+}
+
+TEST_CASE("mem is 0 where only RAM is known") {
+  const Game game = game_with_step("reward = mem[0x1234] + ram[0x80]\nterminal = 0");
+  Rule rule(game);
+  FakeMemory memory;
+  memory[0x80] = 7;
+  rule.step({memory.ram.data()});
+  CHECK(rule.reward() == 7);
+}
+
 TEST_CASE("no expression can exhaust the compiler") {
   CHECK_THAT(error_of(std::string(100000, '(')), Contains("nested too deeply"));
   CHECK_THAT(error_of(std::string(100000, '-') + "1"), Contains("nested too deeply"));
+  // Five hundred levels: the expression, the number, and a sign or two levels of brackets each.
+  CHECK(folded(std::string(498, '-') + "1") == 1);
+  CHECK_THAT(error_of(std::string(499, '-') + "1"), Contains("nested too deeply"));
+  CHECK(folded(std::string(249, '(') + "1" + std::string(249, ')')) == 1);
+  CHECK_THAT(error_of(std::string(250, '(') + "1"), Contains("nested too deeply"));
   CHECK_THAT(error_of("sum(i, 0, 2147483647, 1)"), Contains("too long"));
   CHECK_THAT(error_of("sum(i, 0, 255, sum(k, 0, 255, 1))"), Contains("too long"));
   CHECK_THAT(error_of("sum(i, 0, 4000, ram[0x80 + i % 128] * i)"), Contains("too long"));

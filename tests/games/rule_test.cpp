@@ -67,6 +67,33 @@ TEST_CASE("a reset gives variables their first values and leaves those alone tha
   CHECK_FALSE(Rule(Game{}).keeps_variables());
 }
 
+TEST_CASE("lives at the beginning do not count what is kept from earlier episodes") {
+  const Game game =
+      game_with_step("m = m + 2\nlives = m + 1\nreward = 0\nterminal = 0", "keep = ['m']\nlives = 'm + 3'");
+  Rule rule(game);
+  rule.step(FakeMemory{}.memory());
+  CHECK(rule.lives() == 5);
+  CHECK(rule.initial_lives() == 3);
+  CHECK(rule.lives() == 5);
+}
+
+// What a rule reads last stays on the bus.
+TEST_CASE("the byte that a rule reads last is known unless an address depends on values") {
+  const auto last = [](const std::string& reward) {
+    const Game game = game_with_step("a = ram[0x90]\nreward = " + reward + "\nterminal = 0");
+    return Rule(game).last_byte();
+  };
+  CHECK(last("ram[0x80] + ram[0x85]") == 5);
+  CHECK(last("ram[0x85] + ram[0x80]") == 0);
+  CHECK(last("mem[0x1000] + ram[0xFF] + 1") == 127);
+  CHECK(last("ram[0x80 + a] + ram[0x86]") == 6);
+  CHECK(last("ram[0x86] + ram[0x80 + a]") == std::nullopt);
+  CHECK(last("ram[0x86] + mem[0x1000]") == std::nullopt);
+  const Game reads_none = game_with_step("reward = 1\nterminal = 0");
+  CHECK(Rule(reads_none).last_byte() == std::nullopt);
+  CHECK(Rule(Game{}).last_byte() == std::nullopt);
+}
+
 TEST_CASE("lives are the variable of that name while the game runs, or else 1") {
   FakeMemory memory;
   const Game with =
