@@ -118,6 +118,8 @@ TEST_CASE("a mode program that asks for too many frames is stopped before it run
     CHECK(host.log.size() <= std::string("select 9000; act 0 9000; ").size());
   }
   CHECK(run("select 9000\nact NOOP 11000", 1) == "select 9000; act 0 11000; ");
+  CHECK(run("select 20000\nact NOOP 0", 1) == "select 20000; act 0 0; ");
+  CHECK_THROWS_WITH(run("select 0 - 5\nselect 20001", 1), Contains("more than 20000 frames and acts"));
 }
 
 TEST_CASE("an empty loop that does not end is stopped, too") {
