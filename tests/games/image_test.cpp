@@ -189,6 +189,38 @@ TEST_CASE("a damaged zip archive is refused, or its image is whole") {
   }
 }
 
+TEST_CASE("a zip archive may end in a comment of 65535 bytes") {
+  const Scratch scratch;
+  ZipFile zip;
+  zip.add("game.bin", numbers(4096));
+  const auto load = [&](std::size_t comment) {
+    return load_image(scratch.write("comment.zip", zip.bytes() + std::string(comment, 'x')));
+  };
+  CHECK(load(65535)->bytes->size() == 4096);
+  CHECK_THROWS_WITH(load(65536), Contains("the zip archive is damaged"));
+}
+
+TEST_CASE("a zip archive whose name of a file goes beyond its end is damaged") {
+  const Scratch scratch;
+  ZipFile zip;
+  zip.add("game.bin", numbers(300));
+  std::string bytes = zip.bytes();
+  const std::size_t length = bytes.find("PK\1\2") + 28;
+  const std::size_t name = length - 28 + 46;
+  const auto refused_with = [&](std::size_t size) {
+    bytes[length] = static_cast<char>(size & 0xFF);
+    bytes[length + 1] = static_cast<char>(size >> 8);
+    try {
+      load_image(scratch.write("long.zip", bytes));
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK_THAT(refused_with(bytes.size() - name), Contains("has no file that ends in"));  // up to its end
+  CHECK_THAT(refused_with(bytes.size() - name + 1), Contains("the zip archive is damaged"));
+}
+
 TEST_CASE("an image of 32 to 2047 bytes repeats in 2K, up to their end") {
   const Scratch scratch;
   for (const std::size_t size : {32U, 100U, 512U, 1024U, 2047U}) {
