@@ -1,4 +1,5 @@
 // Whether recordings are what the specifications of their formats say, from the first byte to the last.
+// Comparisons of bytes are in parentheses, so that a failure does not print them.
 #include <zlib.h>
 
 #include <catch2/catch.hpp>
@@ -93,8 +94,8 @@ TEST_CASE("An AVI has a stream of bitmaps and one of sound, and an end that is n
   };
   const std::string headers =
       chunk("LIST", "hdrl" + chunk("avih", main) + stream(pictures, bitmap) + stream(sound, wave));
-  CHECK(avi_header(footage()) ==
-        "RIFF" + numbers(4, {0}) + "AVI " + headers + "LIST" + numbers(4, {0}) + "movi");
+  CHECK((avi_header(footage()) ==
+         "RIFF" + numbers(4, {0}) + "AVI " + headers + "LIST" + numbers(4, {0}) + "movi"));
 }
 
 TEST_CASE("A picture of an AVI has its lowest row first, and sound with an odd number of samples is padded") {
@@ -102,15 +103,15 @@ TEST_CASE("A picture of an AVI has its lowest row first, and sound with an odd n
   const std::string picture =
       chunk("00db", rows.substr(320, 160) + rows.substr(160, 160) + rows.substr(0, 160));
   const std::vector<std::uint8_t> samples = {7, 8, 9};
-  CHECK(avi_frame(pixels(), kHeight, samples) == picture + chunk("01wb", "\x07\x08\x09") + numbers(1, {0}));
-  CHECK(avi_frame(pixels(), kHeight, {}) == picture + chunk("01wb", ""));
+  CHECK((avi_frame(pixels(), kHeight, samples) == picture + chunk("01wb", "\x07\x08\x09") + numbers(1, {0})));
+  CHECK((avi_frame(pixels(), kHeight, {}) == picture + chunk("01wb", "")));
 }
 
 TEST_CASE("A WAV has PCM with eight bits and one channel") {
   const std::string header =
       chunk("fmt ", numbers(2, {1, 1}) + numbers(4, {30720, 30720}) + numbers(2, {1, 8}));
   const std::string samples = std::string(512, 0) + std::string(512, 1);
-  CHECK(film(MediaKind::kWav, 2) == chunk("RIFF", "WAVE" + header + chunk("data", samples)));
+  CHECK((film(MediaKind::kWav, 2) == chunk("RIFF", "WAVE" + header + chunk("data", samples))));
 }
 
 // Colours of ITU-R BT.601 with Y from 16 to 235.
@@ -132,7 +133,7 @@ TEST_CASE("A GIF has every second picture, for as long as two frames take, and r
   std::string head = "GIF89a" + numbers(2, {320, kHeight}) + numbers(1, {0xF7, 0, 0});
   for (const Rgb& colour : colours()) head += numbers(1, {colour.r, colour.g, colour.b});
   head += "\x21\xFF\x0BNETSCAPE2.0" + numbers(1, {3, 1, 0, 0, 0});
-  REQUIRE(gif.substr(0, head.size()) == head);
+  REQUIRE((gif.substr(0, head.size()) == head));
   std::size_t at = head.size(), time = 0;
   int pictures = 0;
   for (; gif.at(at) == '\x21'; ++pictures) {
@@ -141,7 +142,7 @@ TEST_CASE("A GIF has every second picture, for as long as two frames take, and r
     CHECK((delay == 3 || delay == 4));
     const std::string before = "\x21\xF9\x04"s + numbers(1, {0, delay, 0, 0, 0}) + "," +
                                numbers(2, {0, 0, 320, kHeight}) + numbers(1, {0});
-    REQUIRE(gif.substr(at, before.size()) == before);
+    REQUIRE((gif.substr(at, before.size()) == before));
     at += before.size();
     std::size_t end = at + 1;
     while (gif.at(end) != 0) end += static_cast<std::uint8_t>(gif[end]) + 1U;
@@ -163,7 +164,7 @@ TEST_CASE("A PNG has rows without a filter, a palette, and sums of its chunks") 
     return found;
   };
   std::vector<std::pair<std::string, std::string>> chunks;
-  REQUIRE(png.substr(0, 8) == "\x89PNG\r\n\x1A\n");
+  REQUIRE((png.substr(0, 8) == "\x89PNG\r\n\x1A\n"));
   for (std::size_t at = 8; at < png.size();) {
     const std::size_t size = number(at);
     const std::string content = png.substr(at + 4, 4 + size);
@@ -173,12 +174,12 @@ TEST_CASE("A PNG has rows without a filter, a palette, and sums of its chunks") 
     at += 12 + size;
   }
   REQUIRE(chunks.size() == 4);
-  CHECK(chunks[0] == std::pair("IHDR"s, "\0\0\x01\x40\0\0\0\x03\x08\x03\0\0\0"s));
+  CHECK((chunks[0] == std::pair("IHDR"s, "\0\0\x01\x40\0\0\0\x03\x08\x03\0\0\0"s)));
   std::string palette;
   for (const Rgb& colour : colours()) palette += numbers(1, {colour.r, colour.g, colour.b});
-  CHECK(chunks[1] == std::pair("PLTE"s, palette));
-  CHECK(chunks[2].first == "IDAT");
-  CHECK(chunks[3] == std::pair("IEND"s, ""s));
+  CHECK((chunks[1] == std::pair("PLTE"s, palette)));
+  CHECK((chunks[2].first == "IDAT"));
+  CHECK((chunks[3] == std::pair("IEND"s, ""s)));
   std::vector<std::uint8_t> rows(kHeight * 321 + 1);
   uLongf size = rows.size();
   REQUIRE(::uncompress(rows.data(), &size, reinterpret_cast<const Bytef*>(chunks[2].second.data()),
