@@ -28,3 +28,14 @@ TEST_CASE("bytes that are not UTF-8 are shown by their values") {
   CHECK(printable("\xF4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");  // beyond the last
   CHECK(printable("\xFF") == "\\xff");
 }
+
+TEST_CASE("the first and the last character of each length are shown, and those beside them are not") {
+  for (const char* text : {" ", "~", "\xC2\xA0", "\xDF\xBF", "\xE0\xA0\x80", "\xED\x9F\xBF", "\xEE\x80\x80",
+                           "\xEF\xBF\xBF", "\xF0\x90\x80\x80", "\xF4\x8F\xBF\xBF"})
+    CHECK(printable(text) == text);
+  for (const char* text :
+       {"\x1F", "\x7F", "\xC2\x80", "\xC2\x9F", "\xED\xA0\x80", "\xED\xBF\xBF", "\xF4\x90\x80\x80"})
+    CHECK(printable(text).starts_with("\\x"));
+  for (const char* longer : {"\xC1\xBF", "\xE0\x9F\xBF", "\xF0\x8F\xBF\xBF"})  // 7F, 7FF, FFFF
+    CHECK(printable(longer).starts_with("\\x"));
+}

@@ -74,7 +74,14 @@ TEST_CASE("A pair is cut at the first '='") {
 TEST_CASE("A name has at most 64 letters") {
   const std::string longest(64, 'a');
   CHECK(checked_name(longest, "state") == longest);
-  CHECK(checked_name("Az09-_", "state") == "Az09-_");
+  const std::string letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+  CHECK(checked_name(letters, "state") == letters);
+  for (int code = 0; code < 256; ++code) {
+    const std::string letter(1, static_cast<char>(code));
+    INFO(code);
+    if (letters.find(letter) == std::string::npos)
+      CHECK_THROWS_AS(checked_name(letter, "state"), InvalidInput);
+  }
   for (const std::string& text : {longest + 'a', std::string(), std::string("a b"), std::string("a/b")})
     CHECK_THROWS_AS(checked_name(text, "state"), InvalidInput);
 }
