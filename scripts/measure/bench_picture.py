@@ -46,7 +46,7 @@ def draw(ratios, heading):
 
 def draw_summary(means, games):
     """Returns a picture of the geometric means as SVG text. means: {setting's heading: ratio to the reference}."""
-    row, left, width = 30, 230, 520
+    row, left, width = 30, 280, 470
     scale = width / max(means.values())
     height = 44 + (len(means) + 1) * row
     parts = [
