@@ -1,8 +1,8 @@
 #include "games/md5.hpp"
 
-#include <algorithm>
 #include <bit>
-#include <string_view>
+
+#include "games/digest.hpp"
 
 namespace racebeam {
 namespace {
@@ -40,46 +40,27 @@ std::uint32_t word_at(const std::uint8_t* at) {
   return at[0] | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16 | std::uint32_t{at[3]} << 24;
 }
 
+struct Md5 {
+  static constexpr std::endian kOrder = std::endian::little;
+  static constexpr std::array<std::uint32_t, 4> kFirst = {0x67452301, 0xEFCDAB89, 0x98BADCFE, 0x10325476};
+
+  static void add_block(std::array<std::uint32_t, 4>& state, const std::uint8_t* block) {
+    auto [a, b, c, d] = state;
+    for (unsigned i = 0; i < 64; ++i) {
+      const std::uint32_t sum = a + mix(i / 16, b, c, d) + word_at(block + 4 * word_of(i)) + kT[i];
+      a = d;
+      d = c;
+      c = b;
+      b += std::rotl(sum, kTurns[i / 16][i % 4]);
+    }
+    state = {state[0] + a, state[1] + b, state[2] + c, state[3] + d};
+  }
+};
+
 }  // namespace
 
-void Md5::add_block(const std::uint8_t* block) {
-  auto [a, b, c, d] = state_;
-  for (unsigned i = 0; i < 64; ++i) {
-    const std::uint32_t sum = a + mix(i / 16, b, c, d) + word_at(block + 4 * word_of(i)) + kT[i];
-    a = d;
-    d = c;
-    c = b;
-    b += std::rotl(sum, kTurns[i / 16][i % 4]);
-  }
-  state_ = {state_[0] + a, state_[1] + b, state_[2] + c, state_[3] + d};
-}
-
-void Md5::add(std::span<const std::uint8_t> bytes) {
-  while (!bytes.empty()) {
-    const std::size_t used = length_ % kBlock, count = std::min(kBlock - used, bytes.size());
-    std::ranges::copy(bytes.first(count), block_.begin() + used);
-    bytes = bytes.subspan(count);
-    length_ += count;
-    if (used + count == kBlock) add_block(block_.data());
-  }
-}
-
-// The end is a set bit, then zeros until 8 bytes of a block are left for the length in bits.
-std::string Md5::hex() const {
-  Md5 whole = *this;
-  std::array<std::uint8_t, kBlock + 8> end{0x80};
-  const std::size_t zeros = (2 * kBlock - 9 - length_ % kBlock) % kBlock;
-  for (unsigned i = 0; i < 8; ++i) end[1 + zeros + i] = static_cast<std::uint8_t>(length_ * 8 >> 8 * i);
-  whole.add(std::span(end).first(1 + zeros + 8));
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  for (const std::uint32_t word : whole.state_)
-    for (const int shift : {4, 0, 12, 8, 20, 16, 28, 24}) text += kDigits[word >> shift & 15];
-  return text;
-}
-
 std::string md5_of(std::span<const std::uint8_t> bytes) {
-  Md5 sum;
+  Digest<Md5> sum;
   sum.add(bytes);
   return sum.hex();
 }

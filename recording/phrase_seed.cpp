@@ -4,7 +4,7 @@
 #include <charconv>
 #include <string>
 
-#include "recording/sealed_file.hpp"
+#include "recording/sha256.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {

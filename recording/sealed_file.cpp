@@ -1,12 +1,9 @@
 #include "recording/sealed_file.hpp"
 
-#include <openssl/evp.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 
 #include "system/input_file.hpp"
@@ -136,51 +133,6 @@ std::string unseal(const SealedKind& kind, const std::string& name, std::string_
 std::string read_sealed(const SealedKind& kind, const std::string& path) {
   const std::string bytes = read_input_file(std::string(kind.what), path, kind.most + kHeadSize);
   return unseal(kind, std::filesystem::path(path).filename().string(), bytes);
-}
-
-namespace {
-
-class Sha256 {
- public:
-  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    check(context_ ? EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) : 0);
-  }
-
-  void add(std::string_view bytes) { check(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size())); }
-
-  std::string hex() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned size = 0;
-    check(EVP_DigestFinal_ex(context_.get(), digest.data(), &size));
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    std::string text;
-    for (unsigned i = 0; i < size; ++i) {
-      text += kDigits[digest[i] >> 4];
-      text += kDigits[digest[i] & 15];
-    }
-    return text;
-  }
-
- private:
-  static void check(int status) {
-    if (status != 1) throw std::runtime_error("SHA-256 is not available");
-  }
-
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-};
-
-}  // namespace
-
-std::string sha256_of(std::string_view bytes) {
-  Sha256 digest;
-  digest.add(bytes);
-  return digest.hex();
-}
-
-std::string sha256_of_file(const std::string& what, const std::string& path) {
-  Sha256 digest;
-  each_piece(what, path, [&](std::string_view piece) { digest.add(piece); });
-  return digest.hex();
 }
 
 }  // namespace racebeam

@@ -28,9 +28,4 @@ std::string unseal(const SealedKind& kind, const std::string& name, std::string_
 
 std::string read_sealed(const SealedKind& kind, const std::string& path);  // throws InvalidInput
 
-// The SHA-256 of bytes, or of a file of any size, in lower-case hex. `what` begins the message of the
-// InvalidInput that is thrown for a file that cannot be read.
-std::string sha256_of(std::string_view bytes);
-std::string sha256_of_file(const std::string& what, const std::string& path);
-
 }  // namespace racebeam

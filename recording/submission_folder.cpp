@@ -18,7 +18,7 @@
 
 #include "environment/settings/setting_tables.hpp"
 #include "recording/result_row.hpp"
-#include "recording/sealed_file.hpp"
+#include "recording/sha256.hpp"
 #include "system/input_file.hpp"
 #include "system/words.hpp"
 

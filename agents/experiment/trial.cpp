@@ -8,6 +8,7 @@
 #include "agents/experiment/cost.hpp"
 #include "recording/atomic_file.hpp"
 #include "recording/sealed_file.hpp"
+#include "recording/sha256.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {

@@ -6,7 +6,7 @@
 #include "agents/experiment/log_judge.hpp"
 #include "agents/experiment/plan_rows.hpp"
 #include "agents/experiment/row_tally.hpp"
-#include "recording/sealed_file.hpp"
+#include "recording/sha256.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 #include "system/words.hpp"

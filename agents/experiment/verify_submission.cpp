@@ -10,7 +10,7 @@
 #include "agents/experiment/row_tally.hpp"
 #include "games/files/toml_section.hpp"
 #include "recording/phrase_seed.hpp"
-#include "recording/sealed_file.hpp"
+#include "recording/sha256.hpp"
 #include "recording/submission_folder.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"

@@ -6,6 +6,7 @@
 #include "agents/base/file_lock.hpp"
 #include "recording/atomic_file.hpp"
 #include "recording/sealed_file.hpp"
+#include "recording/sha256.hpp"
 #include "system/invalid_input.hpp"
 #include "system/words.hpp"
 

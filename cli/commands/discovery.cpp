@@ -6,7 +6,7 @@
 
 #include "cli/arguments/options.hpp"
 #include "recording/atomic_file.hpp"
-#include "recording/sealed_file.hpp"
+#include "recording/sha256.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 #include "system/similar.hpp"

@@ -14,7 +14,7 @@
 #include "cli/arguments/options.hpp"
 #include "cli/commands/interruption.hpp"
 #include "environment/settings/play_settings.hpp"
-#include "recording/sealed_file.hpp"
+#include "recording/sha256.hpp"
 #include "system/input_file.hpp"
 #include "system/printable.hpp"
 

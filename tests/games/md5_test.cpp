@@ -59,17 +59,3 @@ TEST_CASE("MD5 is right where the end begins a new block") {
     CHECK(md5_of(numbers(sum.length)) == sum.md5);
   }
 }
-
-TEST_CASE("MD5 of pieces is that of the whole") {
-  const auto bytes = numbers(1000);
-  const std::string whole = md5_of(bytes);
-  for (const std::size_t piece : {1, 3, 63, 64, 65, 200, 999}) {
-    Md5 sum;
-    for (std::size_t at = 0; at < bytes.size(); at += piece) {
-      sum.add(std::span(bytes).subspan(at, std::min(piece, bytes.size() - at)));
-      sum.hex();  // changes nothing
-    }
-    INFO("pieces of " << piece);
-    CHECK(sum.hex() == whole);
-  }
-}

@@ -1,10 +1,8 @@
 #include "recording/sealed_file.hpp"
 
 #include <catch2/catch.hpp>
-#include <fstream>
 
 #include "system/invalid_input.hpp"
-#include "tests/games/scratch.hpp"
 
 using namespace racebeam;
 
@@ -66,13 +64,4 @@ TEST_CASE("Contents that would be too large are refused before memory is taken")
   const std::string bomb = seal(large, std::string(1 << 20, '\0'));
   CHECK(refusal_of(kKind, bomb) == "test file: it says that it holds 1048576 bytes; accepted: at most 1000");
   CHECK_THROWS_AS(seal(kKind, std::string(1001, 'x')), std::runtime_error);
-}
-
-TEST_CASE("SHA-256 is that of the standard") {
-  CHECK(sha256_of("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  const Scratch place;
-  const std::string contents(200'000, 'x');
-  std::ofstream(place.path("file")) << contents;
-  CHECK(sha256_of_file("table", place.path("file")) == sha256_of(contents));
-  CHECK_THROWS_WITH(sha256_of_file("table", place.path("none")), Catch::Contains("no such file"));
 }

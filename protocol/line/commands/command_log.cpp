@@ -14,7 +14,7 @@
 #include "recording/phrase_seed.hpp"
 #include "recording/recorder.hpp"
 #include "recording/result_row.hpp"
-#include "recording/sealed_file.hpp"
+#include "recording/sha256.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {

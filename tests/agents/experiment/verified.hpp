@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "agents/experiment/verify.hpp"
-#include "recording/sealed_file.hpp"
+#include "recording/sha256.hpp"
 #include "tests/agents/experiment/samples.hpp"
 
 namespace racebeam::test {

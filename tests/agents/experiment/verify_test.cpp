@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "recording/sealed_file.hpp"
+#include "recording/sha256.hpp"
 #include "system/invalid_input.hpp"
 #include "tests/agents/experiment/verified.hpp"
 
