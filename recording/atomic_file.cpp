@@ -46,9 +46,17 @@ void sync_folder_of(const std::string& path) {
   ::close(folder);
 }
 
+// Renames a file unless `path` exists.
+bool renames_anew(const char* temporary, const char* path) {
+#if defined(RENAME_NOREPLACE)
+  return ::renameat2(AT_FDCWD, temporary, AT_FDCWD, path, RENAME_NOREPLACE) == 0;
+#else
+  return ::link(temporary, path) == 0 && ::unlink(temporary) == 0;
+#endif
+}
+
 void rename_anew(const std::string& temporary, const std::string& path) {
-  if (::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) != 0)
-    fail("create", path);
+  if (!renames_anew(temporary.c_str(), path.c_str())) fail("create", path);
   sync_folder_of(path);
 }
 

@@ -42,8 +42,10 @@ class SpawnPlan {
     short flags = POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK;
 #if defined(__APPLE__)
     flags |= POSIX_SPAWN_CLOEXEC_DEFAULT;
-#elif defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
+#elif defined(__GLIBC_PREREQ)
+#if __GLIBC_PREREQ(2, 34)
     ::posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);  // the sockets of clients, too
+#endif
 #endif
     sigset_t none;
     ::sigemptyset(&none);

@@ -16,7 +16,8 @@ void put(std::span<char> field, const std::string& text) {
 
 // Replaces control bytes, since the state may come from an untrusted source.
 std::string text_of(std::span<const char> field) {
-  return printable({field.begin(), std::ranges::find(field, '\0')});
+  const auto end = std::ranges::find(field, '\0');
+  return printable({field.data(), static_cast<std::size_t>(end - field.begin())});
 }
 
 }  // namespace

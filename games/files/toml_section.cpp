@@ -99,7 +99,7 @@ std::optional<int> Section::choice(std::string_view key, const std::vector<std::
   if (!word) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *word);
   if (found == words.end())
-    refuse(*node(key), key, "unknown value " + quoted(*word) + "; accepted: " + joined(words));
+    refuse(*node(key), key, "unknown value " + racebeam::quoted(*word) + "; accepted: " + joined(words));
   return static_cast<int>(found - words.begin());
 }
 
