@@ -1,16 +1,20 @@
-// index.d.ts declares what index.js has.
+// Each index.d.ts declares what its index.js has.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import test from "node:test";
 import * as racebeam from "../src/index.js";
+import * as wasm from "../src/wasm/index.js";
 
-const declared = readFileSync(new URL("../src/index.d.ts", import.meta.url), "utf8");
+const read = (name) => readFileSync(new URL(`../src/${name}`, import.meta.url), "utf8");
+const declared = read("index.d.ts"), declaredWasm = read("wasm/index.d.ts");
 
 const names = (pattern, text) => [...text.matchAll(pattern)].map((found) => found[1]).sort();
 
 test("the exports are declared", () => {
-  assert.deepEqual(names(/^export (?:const|function|class) (\w+)/gm, declared), Object.keys(racebeam).sort());
+  for (const [text, module] of [[declared, racebeam], [declaredWasm, wasm]]) {
+    assert.deepEqual(names(/^export (?:const|function|class) (\w+)/gm, text), Object.keys(module).sort());
+  }
 });
 
 /** The methods of a class and of those that it extends. */
@@ -19,10 +23,11 @@ function methodsOf(prototype) {
 }
 
 test("the methods are declared", () => {
-  for (const name of ["Session", "ScreenStack"]) {
-    const body = new RegExp(`^export class ${name} \\{(.*?)^\\}`, "ms").exec(declared)[1];
+  const classes = { Session: [declared, racebeam], ScreenStack: [declared, racebeam], EmulatorWorker: [declaredWasm, wasm] };
+  for (const [name, [text, module]] of Object.entries(classes)) {
+    const body = new RegExp(`^export class ${name} \\{(.*?)^\\}`, "ms").exec(text)[1];
     const methods = names(/^ {2}(?:readonly )?(\w+)[(:]/gm, body);
-    const own = methodsOf(racebeam[name].prototype);
+    const own = methodsOf(module[name].prototype);
     assert.deepEqual(methods.filter((method) => method !== "constructor"), own.filter((method) => method !== "constructor").sort());
   }
 });
