@@ -1,5 +1,6 @@
-// Bundles the page into dist/, or into the folder that is given. `--tests KIND [NAME]`: bundles the tests in test/KIND, or those
-// whose files begin with NAME, for Node, into build/viewer/KIND/all.test.js.
+// Bundles the page into dist/, or into the folder that is given. `--static FOLDER`: the page without a server, which needs
+// racebeam.wasm beside it. `--tests KIND [NAME]`: bundles the tests in test/KIND, or those whose files begin with NAME, for Node,
+// into build/viewer/KIND/all.test.js.
 
 import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync } from "node:fs";
 import path from "node:path";
@@ -20,12 +21,16 @@ function titles() {
 
 const common = {
   absWorkingDir: here, bundle: true, format: "esm", target: "es2022", logLevel: "warning", charset: "utf8",
-  define: { TITLES: JSON.stringify(titles()) },
 };
 
-async function page(folder) {
-  const small = { ...common, outdir: folder, minify: true, legalComments: "none" };
-  await build({ ...small, entryPoints: { viewer: "src/main.ts", sound: "src/sound/worklet.ts" } });
+function defined(withoutServer) {
+  return { TITLES: JSON.stringify(titles()), WITHOUT_SERVER: String(withoutServer) };
+}
+
+async function page(folder, withoutServer = false) {
+  const small = { ...common, outdir: folder, minify: true, legalComments: "none", define: defined(withoutServer) };
+  const worker = withoutServer ? { worker: "racebeam/wasm/worker" } : {};
+  await build({ ...small, entryPoints: { viewer: "src/main.ts", sound: "src/sound/worklet.ts", ...worker } });
   await build({ ...small, entryPoints: ["src/viewer.css"] });
   for (const name of ["index.html", "favicon.svg"]) {
     copyFileSync(path.join(here, "src", name), path.join(folder, name));
@@ -40,8 +45,17 @@ async function tests(kind, named) {
   const files = readdirSync(path.join(here, "test", kind)).filter((name) => name.endsWith(".test.ts") && name.startsWith(named));
   const contents = files.map((name) => `import "./${name}";`).join("\n");
   const stdin = { contents, resolveDir: path.join(here, "test", kind) };
-  await build({ ...common, stdin, outfile: path.join(folder, "all.test.js"), platform: "node", packages: "external" });
+  await build({ ...common, define: defined(false), stdin, outfile: path.join(folder, "all.test.js"), platform: "node", packages: "external" });
 }
 
-const [, , option, kind, named = ""] = process.argv;
-await (option === "--tests" ? tests(kind, named) : page(path.resolve(option ?? path.join(here, "dist"))));
+const [, , option, argument, named = ""] = process.argv;
+switch (option) {
+  case "--tests":
+    await tests(argument, named);
+    break;
+  case "--static":
+    await page(path.resolve(argument), true);
+    break;
+  default:
+    await page(path.resolve(option ?? path.join(here, "dist")));
+}

@@ -1,4 +1,4 @@
-"""The page of viewer/: scripts/viewer --check, --unit, --browser or --firefox succeeds. Usage: test_viewer.py OPTION.
+"""scripts/viewer succeeds with --check, --unit, --browser, --firefox or --static. Usage: test_viewer.py OPTION.
 
 Skipped where the npm packages of viewer/ are missing, and in a browser where that is.
 """
@@ -16,8 +16,9 @@ sys.path.insert(0, str(SOURCE / "tests/server"))
 
 from harness import BINARY, PATIENCE, main, sanitized  # noqa: E402
 
-LEAST_TESTS = {"--unit": 50, "--browser": 30, "--firefox": 4}
-BROWSERS = {"--browser": "chromium", "--firefox": "firefox-esr"}
+LEAST_TESTS = {"--unit": 50, "--browser": 30, "--firefox": 4, "--static": 3}
+BROWSERS = {"--browser": "chromium", "--firefox": "firefox-esr", "--static": "chromium"}
+EMULATOR = SOURCE / "build/wasm/clients/js/wasm/racebeam.wasm"
 
 
 class Viewer(unittest.TestCase):
@@ -53,4 +54,6 @@ if __name__ == "__main__":
             (f"{browser}, which scripts/setup --viewer installs", shutil.which(browser)),
             ("a program without sanitizers", not sanitized()),
         ]
+    if Viewer.option == "--static":
+        needs += [("racebeam.wasm, which platforms/check wasm builds", EMULATOR.exists())]
     main(*needs)

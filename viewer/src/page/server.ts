@@ -1,6 +1,8 @@
 import { connect, RefusedError, type Group, type Session } from "racebeam";
 import { byId, tell } from "./elements.js";
 
+declare const WITHOUT_SERVER: boolean; // build.mjs --static: the page has the emulator
+
 const PATIENCE = 30_000; // milliseconds until a reply
 const PICTURES = "pictures"; // sessions of any page that make small pictures
 const WAITS = [250, 500, 1000, 2000]; // milliseconds between attempts to reach a server that has gone
@@ -29,7 +31,7 @@ export class Server {
 
   /** A new session that is admitted. Rejects if the server does not answer. */
   async open(): Promise<Opened> {
-    const session = await connect(undefined, { timeout: PATIENCE });
+    const session = WITHOUT_SERVER ? await (await import("./emulator.js")).open() : await connect(undefined, { timeout: PATIENCE });
     let limits = await session.hello();
     for (let problem = ""; limits.admitted === 0;) {
       const token = this.#token ?? await (this.#asking ??= askForToken(problem));
