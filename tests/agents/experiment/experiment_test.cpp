@@ -12,6 +12,7 @@
 #include "agents/experiment/cost.hpp"
 #include "agents/experiment/trial.hpp"
 #include "agents/features/game_facts.hpp"
+#include "recording/sealed_file.hpp"
 #include "system/invalid_input.hpp"
 #include "tests/agents/experiment/verified.hpp"
 

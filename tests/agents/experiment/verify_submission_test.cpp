@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "recording/phrase_seed.hpp"
+#include "recording/sha256.hpp"
 #include "system/invalid_input.hpp"
 #include "tests/agents/experiment/verified.hpp"
 
