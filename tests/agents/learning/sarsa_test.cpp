@@ -68,9 +68,9 @@ TEST_CASE("A trace that is taken again is 1, and the traces of other actions are
   }
 }
 
-TEST_CASE("Small traces are dropped") {
+TEST_CASE("Traces below the least one are dropped") {
   SarsaSettings settings = plain(0.5);
-  settings.least_trace = 0.01;
+  settings.least_trace = 0.015625;
   Sarsa sarsa(settings, 10, 1, 1);
   sarsa.begin(active({0}));
   for (std::uint32_t step = 1; step <= 3; ++step) sarsa.next(0, active({step}));
