@@ -1,6 +1,7 @@
 #include "server/access/wrong_tokens.hpp"
 
 #include <catch2/catch.hpp>
+#include <utility>
 
 using namespace racebeam;
 using namespace std::chrono_literals;
@@ -25,6 +26,13 @@ TEST_CASE("the delay doubles with each wrong token in a row, up to the longest")
   CHECK(all.count("a").delay == 1s);
 }
 
+TEST_CASE("the delay doubles sixteen times at most") {
+  WrongTokens all(1000h);
+  for (int more = 0; more < 16; ++more) all.count("a");
+  CHECK(all.count("a").delay == 100ms * (1 << 16));
+  CHECK(all.count("a").delay == 100ms * (1 << 16));
+}
+
 TEST_CASE("wrong tokens from one address delay no other") {
   WrongTokens all(1s);
   all.count("a");
@@ -45,6 +53,15 @@ TEST_CASE("many addresses take no more than some memory, and the latest are know
   for (int number = 0; number < 10000; ++number) all.count(std::to_string(number));
   CHECK(all.count("9999").in_a_row == 2);
   CHECK(all.count("0").in_a_row == 1);
+}
+
+TEST_CASE("the wrong tokens of 4096 addresses are known") {
+  for (const auto& [others, known] : {std::pair(4095, 2), std::pair(4096, 1)}) {
+    WrongTokens all(1s);
+    all.count("first");
+    for (int number = 0; number < others; ++number) all.count(std::to_string(number));
+    CHECK(all.count("first").in_a_row == known);
+  }
 }
 
 TEST_CASE("a guesser counts each of its wrong tokens once") {
