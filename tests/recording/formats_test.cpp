@@ -193,3 +193,15 @@ TEST_CASE("A PNG has rows without a filter, a palette, and sums of its chunks") 
                      rows.begin() + static_cast<std::ptrdiff_t>(321 * row + 1)));
   }
 }
+
+TEST_CASE("Pictures of a folder of PNGs are numbered, and each is what a file of one picture is") {
+  const Scratch folder;
+  DiskBudget budget(1'000'000);
+  const auto media = make_media(MediaKind::kPng, folder.path(""), "a", footage(), budget);
+  for (int frame = 0; frame < 2; ++frame) media->frame(pixels());
+  media->commit();
+  const std::string picture = film(MediaKind::kPicture, 1);
+  for (const char* const name : {"a/000000.png", "a/000001.png"})
+    CHECK((test::read(folder.path(name)) == picture));
+  CHECK(test::files_in(folder.path("a")) == 2);
+}
