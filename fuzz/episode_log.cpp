@@ -6,6 +6,7 @@
 #include "agents/experiment/log_judge.hpp"
 #include "fuzz/support/logs.hpp"
 #include "fuzz/support/target.hpp"
+#include "recording/sha256.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam::fuzz {

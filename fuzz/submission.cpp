@@ -11,6 +11,7 @@
 #include "fuzz/support/folder.hpp"
 #include "fuzz/support/logs.hpp"
 #include "fuzz/support/target.hpp"
+#include "recording/sha256.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam::fuzz {
