@@ -217,6 +217,7 @@ export class PlayView {
     } else {
       this.#move("playing");
     }
+    this.#stage.scrollIntoView({ block: "nearest" }); // the layout while playing is another one
   }
 
   /** A switch of the console is used: the game must run to notice it. */
