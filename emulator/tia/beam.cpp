@@ -124,8 +124,9 @@ void Beam::collide_to(std::int32_t clock) {
 // to 80 % more instructions a frame.
 RACEBEAM_INLINE std::uint8_t* Beam::row_of(int first) {
   const auto rows = reinterpret_cast<std::uintptr_t>(picture_->pixels().data());
-  return reinterpret_cast<std::uint8_t*>(rows + static_cast<std::uintptr_t>(tia_.pixel) -
-                                         static_cast<std::uintptr_t>(first));
+  const std::uintptr_t row =
+      rows + static_cast<std::uintptr_t>(tia_.pixel) - static_cast<std::uintptr_t>(first);
+  return reinterpret_cast<std::uint8_t*>(row);  // NOLINT(performance-no-int-to-ptr)
 }
 
 // The common case: from the cursor to a visible clock on the same line. kMayPass: the pixels after that are
