@@ -179,7 +179,7 @@ def write(results):
     if names:
         ratios = {game: found[names[0]]["ratio"] for game, found in results["games"].items()}
         PICTURE.write_text(bench_picture.draw(ratios, HEADINGS[names[0]]))
-        means = {HEADINGS[name]: summary(results)[HEADINGS[name]][0] for name in names}
+        means = {HEADINGS[name]: round(summary(results)[HEADINGS[name]][0], 2) for name in names}  # as in the table
         SUMMARY.write_text(bench_picture.draw_summary(means, len(ratios)))
         picture = f"![{HEADINGS[names[0]]}: ratio to ALE, by game]({PICTURE.relative_to(PAGE.parent)})\n\n"
     PAGE.write_text(f"{before}{BEGIN}\n{picture}{page(results)}\n{END}{after}")
