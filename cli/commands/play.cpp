@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -52,6 +53,9 @@ struct PlayOptions {
   bool terminal = false;
   Graphics graphics = Graphics::kAuto;
 };
+
+// Options of racebeam serve that play refuses, and does not show.
+constexpr std::array kServeOnly = {"--stdio", "--pipes", "--ready-file", "--announce", "--classic"};
 
 void check_for_page(const ServeOptions& options) {
   const auto refuse = [](const std::string& option) {
@@ -178,6 +182,7 @@ void add_play(Subcommand& program) {
   command.option("GAME", options->game, "The game to begin with");
   command.flag("--terminal", options->terminal, "Play in the terminal");
   add_graphics_option(command, options->graphics);
+  for (const char* name : kServeOnly) command.find(name).group("");
   command.exits_with([options, command] { return run(*options, complete(command)); });
 }
 
