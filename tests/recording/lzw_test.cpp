@@ -13,7 +13,7 @@ using namespace racebeam::test;
 namespace {
 
 Decoded there_and_back(Lzw& lzw, const Bytes& pixels) {
-  Bytes data = {1, 2, 3};  // of the file, and left alone
+  Bytes data = {1, 2, 3};  // the file so far, which the encoder must not change
   lzw.append(data, pixels);
   REQUIRE(Bytes(data.begin(), data.begin() + 3) == Bytes{1, 2, 3});
   Decoded result = decoded(Bytes(data.begin() + 3, data.end()));

@@ -54,7 +54,7 @@ EXPORTED("run") std::uint32_t run(LineSession* session, std::uint32_t count) {
 
 EXPORTED("replies") const char* last_replies() { return replies.data(); }
 
-// Whether there will be no more replies.
+// Whether the session has ended, so that it takes no more requests.
 EXPORTED("finished") bool finished(LineSession* session) { return session->finished(); }
 
 }  // namespace racebeam

@@ -15,7 +15,7 @@ export function open(options?: Source): Promise<Session>;
 export class EmulatorWorker {
   /** Starts the worker. script: the address of worker.js, if a bundler has moved it. */
   constructor(options?: Source & { script?: URL });
-  /** A session of this worker. Its requests and replies go over a port of its own. */
+  /** Opens a session in this worker. Its requests and replies pass through a separate MessagePort. */
   open(): Promise<Session>;
   /** Ends the worker and its sessions. */
   end(): void;
