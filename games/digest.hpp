@@ -12,6 +12,15 @@
 
 namespace racebeam {
 
+// The four bytes at `at` as a number.
+template <std::endian kOrder>
+std::uint32_t word_at(const std::uint8_t* at) {
+  std::uint32_t word = 0;
+  for (unsigned i = 0; i < 4; ++i)
+    word |= std::uint32_t{at[i]} << 8 * (kOrder == std::endian::little ? i : 3 - i);
+  return word;
+}
+
 // The sum of all bytes that were added. `Function` has kOrder, the order of bytes in words; kFirst, the state
 // before the first block; and add_block(state, block).
 template <typename Function>

@@ -36,10 +36,6 @@ constexpr std::uint32_t mix(unsigned round, std::uint32_t b, std::uint32_t c, st
   }
 }
 
-std::uint32_t word_at(const std::uint8_t* at) {
-  return at[0] | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16 | std::uint32_t{at[3]} << 24;
-}
-
 struct Md5 {
   static constexpr std::endian kOrder = std::endian::little;
   static constexpr std::array<std::uint32_t, 4> kFirst = {0x67452301, 0xEFCDAB89, 0x98BADCFE, 0x10325476};
@@ -47,7 +43,7 @@ struct Md5 {
   static void add_block(std::array<std::uint32_t, 4>& state, const std::uint8_t* block) {
     auto [a, b, c, d] = state;
     for (unsigned i = 0; i < 64; ++i) {
-      const std::uint32_t sum = a + mix(i / 16, b, c, d) + word_at(block + 4 * word_of(i)) + kT[i];
+      const std::uint32_t sum = a + mix(i / 16, b, c, d) + word_at<kOrder>(block + 4 * word_of(i)) + kT[i];
       a = d;
       d = c;
       c = b;

@@ -19,14 +19,10 @@ constexpr std::array<std::uint32_t, 64> kK = {
     0x19A4C116, 0x1E376C08, 0x2748774C, 0x34B0BCB5, 0x391C0CB3, 0x4ED8AA4A, 0x5B9CCA4F, 0x682E6FF3,
     0x748F82EE, 0x78A5636F, 0x84C87814, 0x8CC70208, 0x90BEFFFA, 0xA4506CEB, 0xBEF9A3F7, 0xC67178F2};
 
-std::uint32_t word_at(const std::uint8_t* at) {
-  return std::uint32_t{at[0]} << 24 | std::uint32_t{at[1]} << 16 | std::uint32_t{at[2]} << 8 | at[3];
-}
-
 // 6.2.2, 1: the words of the block, and 48 that are made of them.
 std::array<std::uint32_t, 64> schedule_of(const std::uint8_t* block) {
   std::array<std::uint32_t, 64> words{};
-  for (unsigned i = 0; i < 16; ++i) words[i] = word_at(block + 4 * i);
+  for (unsigned i = 0; i < 16; ++i) words[i] = word_at<std::endian::big>(block + 4 * i);
   for (unsigned i = 16; i < 64; ++i) {
     const std::uint32_t early = words[i - 15], late = words[i - 2];
     words[i] = words[i - 16] + (std::rotr(early, 7) ^ std::rotr(early, 18) ^ early >> 3) + words[i - 7] +
