@@ -1,17 +1,13 @@
 #include "agents/learning/sarsa.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <limits>
-#include <numeric>
 #include <string>
+
+#include "agents/learning/action_sums.hpp"
 
 namespace racebeam {
 namespace {
-
-using Doubles [[gnu::vector_size(16)]] = double;
-using Floats [[gnu::vector_size(8)]] = float;
 
 constexpr int kFetchAhead = 24;  // features whose weights are on their way from memory
 
@@ -27,35 +23,33 @@ std::size_t weights_of(std::size_t features, std::size_t actions) {
 }  // namespace
 
 Sarsa::Sarsa(const SarsaSettings& settings, std::size_t features, std::uint64_t seed, int actions)
-    : settings_(settings),
-      actions_(static_cast<std::size_t>(actions)),
+    : control_(settings, static_cast<std::size_t>(actions), seed),
+      actions_(control_.actions()),
       grows_(features == 0),
-      weights_(weights_of(features, actions_)),
-      scaled_(settings.reward_scale),
-      random_(seed) {}
+      weights_(weights_of(features, actions_)) {}
 
 int Sarsa::begin(const ActiveFeatures& features) {
   traces_.clear();
   compute_values(features);
-  action_ = choose();
+  action_ = control_.choose(values_);
   features_ = features;
   return action_;
 }
 
 int Sarsa::next(double reward, const ActiveFeatures& features) {
-  const double scaled_reward = scaled_(reward);
-  const double before = learning_ ? value(features_, action_) : 0;
+  const double scaled_reward = control_.scaled(reward);
+  const double before = control_.is_learning() ? value(features_, action_) : 0;
   compute_values(features);
-  const int action = choose();
-  if (learning_)
-    update(scaled_reward + settings_.discount * values_[static_cast<std::size_t>(action)] - before);
+  const int action = control_.choose(values_);
+  if (control_.is_learning())
+    update(scaled_reward + control_.settings().discount * values_[static_cast<std::size_t>(action)] - before);
   features_ = features;
   return action_ = action;
 }
 
 void Sarsa::end(double reward) {
-  const double scaled_reward = scaled_(reward);
-  if (!learning_) return;
+  const double scaled_reward = control_.scaled(reward);
+  if (!control_.is_learning()) return;
   update(scaled_reward - value(features_, action_));
   traces_.clear();
 }
@@ -81,7 +75,7 @@ void Sarsa::fetch_weights(const ActiveFeatures& features, std::size_t i) const {
 void Sarsa::compute_values(const ActiveFeatures& features) {
   if (actions_ == kActions)
     return features.counts.empty() ? compute_all_values<false>(features) : compute_all_values<true>(features);
-  Values sums{};
+  ActionValues sums{};
   for (std::size_t i = 0; i < features.indices.size(); ++i) {
     const float* const weights = weights_.data() + place(features.indices[i], 0);
     const double count = features.count(i);
@@ -90,37 +84,19 @@ void Sarsa::compute_values(const ActiveFeatures& features) {
   values_ = sums;
 }
 
-// Does so for 18 actions, two at a time: the sums stay in registers, as a loop over actions would not keep
-// them.
+// The sums of 18 actions.
 template <bool kCounted>
 void Sarsa::compute_all_values(const ActiveFeatures& features) {
-  std::array<Doubles, kActions / 2> sums{};
+  ActionSums sums;
   for (std::size_t i = 0; i < features.indices.size(); ++i) {
     fetch_weights(features, i + kFetchAhead);
     const float* const weights = weights_.data() + std::size_t{features.indices[i]} * kActions;
-    for (std::size_t pair = 0; pair < sums.size(); ++pair) {
-      Floats two;
-      std::memcpy(&two, weights + 2 * pair, sizeof two);
-      Doubles wide = __builtin_convertvector(two, Doubles);
-      if constexpr (kCounted) wide *= double{features.counts[i]};
-      sums[pair] += wide;
-    }
+    if constexpr (kCounted)
+      sums.add(weights, double{features.counts[i]});
+    else
+      sums.add(weights);
   }
-  std::memcpy(values_.data(), sums.data(), sizeof sums);
-}
-
-// Chooses each of the best actions with equal probability.
-int Sarsa::choose() {
-  if (!std::isfinite(std::accumulate(values_.begin(), values_.end(), 0.0))) diverged_ = true;
-  if (random_.uniform() < (learning_ ? settings_.exploration : settings_.evaluation_exploration))
-    return static_cast<int>(random_.below(actions_));
-  const double best =
-      *std::max_element(values_.begin(), values_.begin() + static_cast<std::ptrdiff_t>(actions_));
-  std::array<int, kActions> equal{};
-  std::size_t count = 0;
-  for (std::size_t action = 0; action < actions_; ++action)
-    if (values_[action] == best) equal[count++] = static_cast<int>(action);
-  return count <= 1 ? equal[0] : equal[random_.below(count)];
+  values_ = sums.values();
 }
 
 double Sarsa::trace(std::size_t feature, int action) const {
@@ -138,20 +114,15 @@ double Sarsa::gain(const ActiveFeatures& features) {
 }
 
 void Sarsa::update(double error) {
-  largest_gain_ = std::max(largest_gain_, gain(features_));
-  const double step = settings_.step_size / largest_gain_ * error;
-  if (!std::isfinite(step)) {
-    diverged_ = true;
-    return;
-  }
-  move_weights(static_cast<float>(step));
+  if (const auto step = control_.step(error, gain(features_))) move_weights(*step);
 }
 
 // Merges the traces of features_, which replace others, into traces_. Moves each weight along its trace,
 // which then decays.
 void Sarsa::move_weights(float step) {
-  const auto decay = static_cast<float>(settings_.discount * settings_.trace_decay);
-  const auto least = static_cast<float>(settings_.least_trace);
+  const SarsaSettings& settings = control_.settings();
+  const auto decay = static_cast<float>(settings.discount * settings.trace_decay);
+  const auto least = static_cast<float>(settings.least_trace);
   merged_.resize(traces_.size() + features_.indices.size());
   Trace* out = merged_.data();
   const auto move = [&](Trace trace) {
@@ -168,8 +139,8 @@ void Sarsa::move_weights(float step) {
   for (std::size_t i = 0; i < features_.indices.size(); ++i) {
     fetch_weights(features_, i + kFetchAhead);
     const auto at = static_cast<std::uint32_t>(place(features_.indices[i], action_));
-    const auto before = static_cast<std::uint32_t>(settings_.clear_other_traces ? action_ : 0);
-    const auto behind = static_cast<std::uint32_t>(settings_.clear_other_traces ? actions_ : 1) - before;
+    const auto before = static_cast<std::uint32_t>(settings.clear_other_traces ? action_ : 0);
+    const auto behind = static_cast<std::uint32_t>(settings.clear_other_traces ? actions_ : 1) - before;
     while (old != traces_.cend() && old->place < at - before) move_old();
     if (old != traces_.cend() && old->place < at + behind) ++old;  // is replaced
     move({at, features_.trace(i)});
@@ -204,17 +175,13 @@ void Sarsa::split(const FeatureSplit& part) {
 // Traces are empty between episodes.
 void Sarsa::write(StateWriter& out) const {
   out.put(weights_);
-  out.put(largest_gain_);
-  out.put(scaled_);
-  out.put(random_);
+  control_.write(out);
 }
 
 void Sarsa::read(StateReader& in) {
   const std::size_t size = weights_.size();
   in.get(weights_);
-  in.get(largest_gain_);
-  in.get(scaled_);
-  in.get(random_);
+  control_.read(in);
   if (weights_.size() != size && !grows_)
     throw InvalidInput("the checkpoint is of another number of features");
 }
