@@ -1,123 +1,132 @@
-// Emits reads. The more is known of an address at translation, the shorter is the code.
+// Plans reads. The more is known of an address at translation, the shorter is the code.
+#include <cstddef>
+
+#include "emulator/cartridge/mappers/dpc.hpp"
 #include "emulator/translator/addresses.hpp"
 #include "emulator/translator/block_emitter.hpp"
-#include "emulator/translator/bus_calls.hpp"
 
 namespace racebeam::translator {
 namespace {
-
-constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
 
 constexpr std::uint8_t high_byte(std::uint16_t word) { return static_cast<std::uint8_t>(word >> 8); }
 
 }  // namespace
 
-BlockEmitter::Value BlockEmitter::read(const Instruction& instruction) {
+Value BlockEmitter::read(const Instruction& instruction) {
   // clang-format off
   switch (instruction.mode) {
-    case Mode::immediate: return {Value::Kind::kConstant, static_cast<std::uint8_t>(instruction.operand)};
+    case Mode::immediate: return {Value::Kind::kConstant, instruction.operand};
     case Mode::zero_page: case Mode::absolute: return read_fixed(instruction);
-    case Mode::zero_page_x: return read_zero_page_indexed(instruction, as_.r13d);
-    case Mode::zero_page_y: return read_zero_page_indexed(instruction, as_.r14d);
-    case Mode::absolute_x: return read_indexed(instruction, as_.r13d);
-    case Mode::absolute_y: return read_indexed(instruction, as_.r14d);
+    case Mode::zero_page_x: return read_zero_page_indexed(instruction, Reg::kX);
+    case Mode::zero_page_y: return read_zero_page_indexed(instruction, Reg::kY);
+    case Mode::absolute_x: return read_indexed(instruction, Reg::kX);
+    case Mode::absolute_y: return read_indexed(instruction, Reg::kY);
     default: return read_through_pointer(instruction);
   }
   // clang-format on
 }
 
-BlockEmitter::Value BlockEmitter::read_fixed(const Instruction& instruction) {
+Value BlockEmitter::read_fixed(const Instruction& instruction) {
   const std::uint16_t address = instruction.operand;
-  if (is_ram(address)) return {Value::Kind::kMemory, 0, as_.rbx + (as_.layout.ram + (address & 0x7F))};
+  if (is_ram(address)) return {Value::Kind::kRam, address & 0x7FU};
   if (const PortReader reader = as_.window.port_reader(address)) return read_port(instruction, reader);
   if (!is_cartridge(address)) {
     // the last byte on the data bus was the operand's
-    const unsigned latch = instruction.length == 3 ? high_byte(address) : address;
-    if (is_pin(address) && !as_.window.cartridge_watches()) return read_pin(instruction, latch);
-    as_.mov(as_.eax, address);
-    as_.mov(as_.ecx, latch);
-    read_device(instruction, exit_state());
-    return {Value::Kind::kEax};
+    const std::uint8_t latch =
+        instruction.length == 3 ? high_byte(address) : static_cast<std::uint8_t>(address);
+    if (is_pin(address) && !as_.window.cartridge_watches()) {
+      host_.read_pin(address & 7, latch & 0x3FU, cycles_to(instruction));
+    } else {
+      host_.load_address(address);
+      host_.load_latch(latch);
+      read_device(instruction, exit_state());
+    }
+    return {Value::Kind::kByte};
   }
-  if (as_.covers(address)) return {Value::Kind::kConstant, as_.byte_at(address)};
-  Xbyak::Label hidden;
-  as_.mov(as_.rdx, as_.ptr[as_.rbx + as_.layout.pages + 8 * (address >> 6 & 0xFF)]);
-  as_.test(as_.rdx, as_.rdx);
-  as_.jz(hidden, kNear);
+  if (as_.window.covers(address)) return {Value::Kind::kConstant, as_.window.byte_at(address)};
+  Label hidden;
+  host_.load_page(address, hidden);
   exit_out_of_line(hidden, instruction, exit_state());
-  clobbered_flags();
-  return {Value::Kind::kMemory, 0, as_.rdx + (address & 0x3F)};
+  return {Value::Kind::kPage, address & 0x3FU};
 }
 
-// Reads the TIA or the RIOT, in line. Inputs as for call_read, in eax and ecx. If the cartridge watches these
-// addresses, the interpreter executes the read: the cartridge may have memory there, or switch banks.
+Value BlockEmitter::read_port(const Instruction& instruction, PortReader reader) {
+  if (as_.window.port_reader_at == dpc::port_reader && dpc::is_plain_fetch(instruction.operand)) {
+    fetch(instruction.operand);
+  } else {
+    host_.read_port(reader, instruction.operand, cycles_to(instruction));
+    load_rom_again(exit_state());
+  }
+  return {Value::Kind::kByte};
+}
+
+void BlockEmitter::fetch(std::uint16_t address) {
+  Label enters, leaves, done;
+  host_.fetch(address, enters, leaves, done);
+  cold([this, address, enters, leaves, done]() mutable {
+    const std::int32_t flag = as_.layout.in_fetcher(address, offsetof(dpc::Fetcher, flag));
+    host_.bind(enters);
+    host_.store(flag, 0xFF);
+    host_.jump(done);
+    host_.bind(leaves);
+    host_.store(flag, 0x00);
+    host_.jump(done);
+  });
+}
+
+// Reads the TIA or the RIOT at `address`. If the cartridge watches these addresses, the interpreter executes
+// the read: the cartridge may have memory there, or switch banks.
 void BlockEmitter::read_device(const Instruction& instruction, const ExitState& exit) {
   if (as_.window.cartridge_watches()) {
     remove_penalty(instruction);
     settle(exit);
-    exit_before(instruction);
-    return;
+    return exit_before(instruction);
   }
-  as_.lea(as_.edx, as_.ptr[as_.rbp + (exit.elapsed + instruction.cycles)]);
-  call_read(as_);
-  if (exit.rom_loaded) load_rom_again();
-  clobbered_flags();
+  host_.read_bus(exit.elapsed + instruction.cycles);
+  load_rom_again(exit);
 }
 
-BlockEmitter::Value BlockEmitter::read_zero_page_indexed(const Instruction& instruction, Reg32 index) {
-  Xbyak::Label device, done;
-  as_.lea(as_.ecx, as_.ptr[index.cvt64() + (instruction.operand - 0x80)]);
-  as_.movzx(as_.ecx, as_.cl);
-  as_.test(as_.cl, as_.cl);
-  as_.js(device, kNear);
-  as_.movzx(as_.eax, as_.byte[as_.rbx + as_.rcx + as_.layout.ram]);
-  as_.L(done);
-  clobbered_flags();
+Value BlockEmitter::read_zero_page_indexed(const Instruction& instruction, Reg index) {
+  Label device, done;
+  host_.offset_in_ram(instruction.operand, index, device);
+  host_.read_ram();
+  host_.bind(done);
   cold([this, instruction, exit = exit_state(), device, done]() mutable {
-    as_.L(device);
-    as_.mov(as_.eax, as_.ecx);
-    as_.xor_(as_.eax, 0x80);
-    as_.mov(as_.ecx, instruction.operand);
+    host_.bind(device);
+    host_.address_of_device();
+    host_.load_latch(static_cast<std::uint8_t>(instruction.operand));
     read_device(instruction, exit);
-    as_.jmp(done, kNear);
+    host_.jump(done);
   });
-  return {Value::Kind::kEax};
+  return {Value::Kind::kByte};
 }
 
 // A table within the window is read without a check of the address.
-BlockEmitter::Value BlockEmitter::read_indexed(const Instruction& instruction, Reg32 index) {
+Value BlockEmitter::read_indexed(const Instruction& instruction, Reg index) {
   const std::uint16_t base = instruction.operand;
-  if (is_cartridge(base) && as_.covers(base, 256)) {
+  if (is_cartridge(base) && as_.window.covers(base, 256)) {
     add_penalty(instruction, index);
     load_rom();
-    return {Value::Kind::kMemory, 0, as_.r10 + index.cvt64() + as_.offset_of(base)};
+    return {Value::Kind::kTable, as_.window.offset_of(base), index};
   }
-  as_.lea(as_.eax, as_.ptr[index.cvt64() + base]);
-  as_.movzx(as_.eax, as_.ax);
+  host_.index_address(base, index);
+  host_.wrap_address();
   add_penalty(instruction, index);
-  as_.mov(as_.esi, high_byte(base));
-  read_at_eax(instruction);
-  return {Value::Kind::kEax};
+  host_.keep_bus(high_byte(base));
+  read_at_address(instruction);
+  return {Value::Kind::kByte};
 }
 
-BlockEmitter::Value BlockEmitter::read_through_pointer(const Instruction& instruction) {
+Value BlockEmitter::read_through_pointer(const Instruction& instruction) {
   if (!load_pointer(instruction)) return {Value::Kind::kConstant};
-  as_.mov(as_.esi, as_.eax);
-  as_.shr(as_.esi, 8);
-  if (instruction.mode == Mode::indirect_y) {
-    as_.movzx(as_.ecx, as_.al);
-    as_.add(as_.cl, as_.r14b);
-    as_.adc(as_.ebp, 0);
-    as_.add(as_.eax, as_.r14d);
-    as_.movzx(as_.eax, as_.ax);
-  }
-  clobbered_flags();
-  read_at_eax(instruction);
-  return {Value::Kind::kEax};
+  host_.keep_bus_of_pointer();
+  if (instruction.mode == Mode::indirect_y) host_.add_y_with_penalty();
+  read_at_address(instruction);
+  return {Value::Kind::kByte};
 }
 
-// Loads the pointer of (zp),Y or (zp,X) into eax. Returns false if it is not in RAM; the interpreter then
-// executes the instruction.
+// Loads the pointer of (zp),Y or (zp,X) into `address`. Returns false if it is not in RAM; the interpreter
+// then executes the instruction.
 bool BlockEmitter::load_pointer(const Instruction& instruction) {
   if (instruction.mode == Mode::indirect_y) {
     if (instruction.operand < 0x80 || instruction.operand == 0xFF) {
@@ -125,50 +134,33 @@ bool BlockEmitter::load_pointer(const Instruction& instruction) {
       exit_before(instruction);
       return false;
     }
-    as_.movzx(as_.eax, as_.word[as_.rbx + (as_.layout.ram + (instruction.operand & 0x7F))]);
+    host_.load_pointer(instruction.operand);
     return true;
   }
-  Xbyak::Label outside;
-  as_.lea(as_.ecx, as_.ptr[as_.r13 + (instruction.operand - 0x80)]);
-  as_.movzx(as_.ecx, as_.cl);
-  as_.cmp(as_.ecx, 0x7F);
-  as_.jae(outside, kNear);
-  as_.movzx(as_.eax, as_.word[as_.rbx + as_.rcx + as_.layout.ram]);
+  Label outside;
+  host_.load_pointer_at_x(instruction.operand, outside);
   exit_out_of_line(outside, instruction, exit_state());
-  clobbered_flags();
   return true;
 }
 
-// Reads the byte at the address in eax, into eax. Input: esi the data bus before. The penalty for a crossed
-// page has been added already. The common case is a table in the window's ROM.
-void BlockEmitter::read_at_eax(const Instruction& instruction) {
-  Xbyak::Label elsewhere, done;
+// Reads the byte at `address`. The data bus before is kept already, and the penalty for a crossed page added.
+// The common case is a table in the window's ROM.
+void BlockEmitter::read_at_address(const Instruction& instruction) {
+  Label elsewhere, done;
   load_rom();
-  as_.lea(as_.ecx, as_.ptr[as_.rax - as_.window.code.first]);
-  as_.cmp(as_.ecx, as_.size());
-  as_.jae(elsewhere, kNear);
-  as_.movzx(as_.eax, as_.byte[as_.r10 + as_.rcx]);
-  as_.L(done);
-  clobbered_flags();
+  host_.read_window(elsewhere);
+  host_.bind(done);
   cold([this, instruction, exit = exit_state(), elsewhere, done]() mutable {
-    Xbyak::Label device, cartridge;
-    as_.L(elsewhere);
-    as_.mov(as_.ecx, as_.eax);
-    as_.shr(as_.ecx, 6);
-    as_.movzx(as_.ecx, as_.cl);
-    as_.mov(as_.rdx, as_.ptr[as_.rbx + as_.rcx * 8 + as_.layout.pages]);
-    as_.test(as_.rdx, as_.rdx);
-    as_.jz(device, kNear);
-    as_.and_(as_.eax, 0x3F);
-    as_.movzx(as_.eax, as_.byte[as_.rdx + as_.rax]);
-    as_.jmp(done, kNear);
-    as_.L(device);
-    as_.test(as_.ah, 0x10);
-    as_.jnz(cartridge, kNear);
-    as_.mov(as_.ecx, as_.esi);
+    Label device, cartridge;
+    host_.bind(elsewhere);
+    host_.read_page(device);
+    host_.jump(done);
+    host_.bind(device);
+    host_.jump_if_cartridge(cartridge);
+    host_.latch_kept_bus();
     read_device(instruction, exit);
-    as_.jmp(done, kNear);
-    as_.L(cartridge);
+    host_.jump(done);
+    host_.bind(cartridge);
     remove_penalty(instruction);
     settle(exit);
     exit_before(instruction);
@@ -176,39 +168,27 @@ void BlockEmitter::read_at_eax(const Instruction& instruction) {
 }
 
 // Adds a cycle if the index crosses a page.
-void BlockEmitter::add_penalty(const Instruction& instruction, Reg32 index) {
+void BlockEmitter::add_penalty(const Instruction& instruction, Reg index) {
   const int low = instruction.operand & 0xFF;
-  if (low == 0) return;
-  as_.cmp(index.cvt8(), 256 - low);
-  as_.sbb(as_.ebp, -1);
-  clobbered_flags();
+  if (low != 0) host_.add_cycle_if(index, 256 - low);
 }
 
 void BlockEmitter::remove_penalty(const Instruction& instruction) {
   const int low = instruction.operand & 0xFF;
-  switch (instruction.mode) {
-    case Mode::absolute_x:
-    case Mode::absolute_y:
-      if (low == 0) return;
-      as_.cmp(instruction.mode == Mode::absolute_x ? as_.r13b : as_.r14b, 256 - low);
-      as_.adc(as_.ebp, -1);
-      break;
-    case Mode::indirect_y:
-      as_.movzx(as_.ecx, as_.ram(instruction.operand));
-      as_.add(as_.cl, as_.r14b);
-      as_.sbb(as_.ebp, 0);
-      break;
-    default: break;
-  }
+  if (instruction.mode == Mode::indirect_y) return host_.remove_cycle_of_pointer(instruction.operand);
+  const bool is_indexed = instruction.mode == Mode::absolute_x || instruction.mode == Mode::absolute_y;
+  if (is_indexed && low != 0)
+    host_.remove_cycle_if(instruction.mode == Mode::absolute_x ? Reg::kX : Reg::kY, 256 - low);
 }
 
 void BlockEmitter::load_rom() {
-  if (!rom_loaded_) load_rom_again();
+  if (!rom_loaded_) host_.load_rom();
   rom_loaded_ = true;
 }
 
-void BlockEmitter::load_rom_again() {
-  as_.mov(as_.r10, reinterpret_cast<std::uintptr_t>(as_.window.code.memory));
+// A call may have overwritten its register.
+void BlockEmitter::load_rom_again(const ExitState& exit) {
+  if (exit.rom_loaded) host_.load_rom();
 }
 
 }  // namespace racebeam::translator

@@ -109,35 +109,12 @@ View* ImageCode::view(const CodeWindow& window, const Rom& rom, bool make) {
   return views_.emplace(place, std::move(view)).first->second.get();
 }
 
-// The entry stub saves the host's registers, loads the 6507's and jumps to a block. The exit stub does the
-// reverse.
-void ImageCode::emit_stubs(const Layout& layout) {
-  using namespace Xbyak::util;
-  Xbyak::CodeGenerator as(memory_.left(), memory_.writable());
-  const Xbyak::Reg64 saved[] = {rbx, rbp, r12, r13, r14, r15};
-  const auto in = [&](const Xbyak::Reg32& reg, std::int32_t place) { as.movzx(reg, byte[rbx + place]); };
-  const auto out = [&](const Xbyak::Reg8& reg, std::int32_t place) { as.mov(byte[rbx + place], reg); };
-  const void* enter = as.getCurr();
-  for (const auto& reg : saved) as.push(reg);
-  as.sub(rsp, 24);
-  as.mov(rbx, rsi);
-  as.mov(r15, rdx);
-  in(r12d, layout.a), in(r13d, layout.x), in(r14d, layout.y);
-  as.mov(ebp, dword[rbx + layout.cycle]);
-  as.mov(r8d, dword[rbx + layout.nz]);
-  as.mov(r9d, dword[rbx + layout.carry]);
-  as.jmp(rdi);
-  exit_stub_ = as.getCurr();
-  out(r12b, layout.a), out(r13b, layout.x), out(r14b, layout.y);
-  as.mov(dword[rbx + layout.cycle], ebp);
-  as.mov(dword[rbx + layout.nz], r8d);
-  as.mov(dword[rbx + layout.carry], r9d);
-  as.add(rsp, 24);
-  std::for_each(std::rbegin(saved), std::rend(saved), [&](const auto& reg) { as.pop(reg); });
-  as.ret();
-  count(memory_.seal(as.getSize()));
-  enter_ =
-      reinterpret_cast<Enter>(reinterpret_cast<std::uintptr_t>(enter));  // NOLINT(performance-no-int-to-ptr)
+void ImageCode::make_stubs(const Layout& layout) {
+  const Stubs stubs = emit_stubs(memory_.writable(), memory_.left(), layout);
+  exit_stub_ = stubs.leave;
+  count(memory_.seal(stubs.size));
+  enter_ = reinterpret_cast<Enter>(
+      reinterpret_cast<std::uintptr_t>(stubs.enter));  // NOLINT(performance-no-int-to-ptr)
 }
 
 const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout) {
@@ -145,14 +122,14 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
   if (const void* entry = view.entry(pc)) return entry;
   if (memory_.left() < kBatchCapacity) full_ = true;
   if (full_ || !has_room(kBatchCapacity)) return nullptr;
-  if (enter_ == nullptr) emit_stubs(layout);
+  if (enter_ == nullptr) make_stubs(layout);
   const Window window{wiring_, rom_.data(), view.code, view.entries.data()};
   Assembler assembler(memory_.writable(), memory_.left(), layout, window, exit_stub_);
   const std::vector<Block> blocks = discover(view.code, pc, view.known);
   try {
     for (const Block& block : blocks) assembler.blocks[block.pc];
     for (const Block& block : blocks) BlockEmitter(assembler, block).emit();
-  } catch (const Xbyak::Error&) {  // The code memory is full.
+  } catch (const AssemblyError&) {  // The code memory is full.
     full_ = true;
     return nullptr;
   }
@@ -161,7 +138,7 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
     const auto offset = static_cast<std::uint16_t>(block.pc - view.code.first);
     view.known[offset] = true;
     view.profitability[offset].set_length(block.instructions.size() + 1);
-    const void* start = assembler.blocks[block.pc].getAddress();
+    const void* start = assembler.address_of(block.pc);
     std::atomic_ref(view.entries[offset]).store(start, std::memory_order_release);
   }
   return view.entry(pc);

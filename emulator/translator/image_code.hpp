@@ -11,9 +11,9 @@
 #include "emulator/cartridge/cartridge.hpp"
 #include "emulator/cartridge/memory_map.hpp"
 #include "emulator/state/state.hpp"
-#include "emulator/translator/assembler.hpp"
 #include "emulator/translator/calling_convention.hpp"
 #include "emulator/translator/code_memory.hpp"
+#include "emulator/translator/host.hpp"
 #include "emulator/translator/profitability.hpp"
 
 namespace racebeam {
@@ -77,7 +77,7 @@ class ImageCode {
 
  private:
   bool is_of(const Rom& rom, std::size_t hash) const;
-  void emit_stubs(const Layout& layout);
+  void make_stubs(const Layout& layout);
   bool has_room(std::size_t bytes) const;
   void count(std::size_t bytes);
 

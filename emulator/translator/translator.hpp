@@ -1,5 +1,6 @@
-// Runs a machine's 6507 code as x86-64 code, and interprets what is not translated (docs/translator.md).
-// Builds for other processors have only the interpreter, as have systems that refuse executable memory.
+// Runs a machine's 6507 code as code of the host, and interprets what is not translated (docs/translator.md).
+// Builds for processors without a back end have only the interpreter, as have systems that refuse executable
+// memory.
 #pragma once
 
 #include <cstddef>

@@ -27,6 +27,16 @@ struct Window : Wiring {
   const std::uint8_t* image;   // the translator's own copy
   CodeWindow code;             // in it
   const void* const* entries;  // by offset in the window: the start of a block, or null
+
+  // Whether the window contains the byte at an address.
+  bool covers(std::uint16_t address) const { return offset_of(address) < size(); }
+  bool covers(std::uint16_t first, unsigned count) const { return offset_of(first) + count <= size(); }
+  std::uint8_t byte_at(std::uint16_t address) const { return code.memory[offset_of(address)]; }
+  unsigned offset_of(std::uint16_t address) const {
+    // Bits 15 and 14 are not decoded, so that pages repeat.
+    return static_cast<std::uint16_t>((address & 0x3FFF) - (code.first & 0x3FFF));
+  }
+  unsigned size() const { return code.span + 2U; }
 };
 
 }  // namespace racebeam::translator

@@ -25,13 +25,13 @@ std::shared_ptr<const Rom> load(const char* path) {
   return std::make_shared<const Rom>(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
 }
 
-void list(const translator::Block& block, const translator::Assembler& as) {
+void list(const translator::Block& block, const translator::Window& window) {
   for (const translator::Instruction& instruction : block.instructions) {
     std::printf("%04X ", instruction.pc);
     for (unsigned i = 0; i < instruction.length; ++i)
-      std::printf(" %02X", as.byte_at(static_cast<std::uint16_t>(instruction.pc + i)));
+      std::printf(" %02X", window.byte_at(static_cast<std::uint16_t>(instruction.pc + i)));
     std::printf("%*s%s\n", 3 * (4 - static_cast<int>(instruction.length)), "",
-                kNames[as.byte_at(instruction.pc)]);
+                kNames[window.byte_at(instruction.pc)]);
   }
 }
 
@@ -48,7 +48,7 @@ void show(const char* image, std::uint16_t pc, const char* path) {
   translator::Assembler as(memory.data(), memory.size(), layout, window, memory.data());
   for (const translator::Block& block : translator::discover(code, pc, std::vector<bool>(code.span))) {
     if (block.pc != pc) continue;
-    list(block, as);
+    list(block, window);
     translator::BlockEmitter(as, block).emit();
     std::ofstream(path, std::ios::binary)
         .write(reinterpret_cast<const char*>(memory.data()), static_cast<std::streamsize>(as.getSize()));

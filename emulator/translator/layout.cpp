@@ -1,6 +1,7 @@
-#include "emulator/translator/assembler.hpp"
+#include "emulator/translator/layout.hpp"
 
 #include "emulator/board/board.hpp"
+#include "emulator/cartridge/mappers/dpc.hpp"
 
 namespace racebeam::translator {
 
@@ -18,6 +19,7 @@ Layout::Layout(Board& board) {
   cycle = at(state.cycle);
   pages = at(board.map.page);
   stop = at(board.stop);
+  code = at(board.code.memory);
   code_span = at(board.code.span);
   last_access = at(board.last_access_);
   slot = at(board.slot);
@@ -32,6 +34,10 @@ Layout::Layout(Board& board) {
   overflow = at(board.translated.V);
   decimal = at(board.translated.D);
   interrupt = at(board.translated.I);
+}
+
+std::int32_t Layout::in_fetcher(std::uint16_t address, std::size_t member) const {
+  return in_chip(offsetof(dpc::Chip, fetcher) + (address & 7) * sizeof(dpc::Fetcher) + member);
 }
 
 }  // namespace racebeam::translator

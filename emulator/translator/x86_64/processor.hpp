@@ -1,0 +1,82 @@
+// The x86-64 assembler of one batch of blocks, and what Host needs of it. Registers:
+//   rbx   Board*
+//   ebp   the cycle, without those that are to be added (BlockEmitter::elapsed_)
+//   r8d   N and Z as one number, see Context::nz
+//   r9d   the carry, 0 or 1
+//   r10   the window's ROM
+//   r12d  A, r13d X, r14d Y, zero-extended
+//   r15   WriteLog*
+//   eax   address, SP or byte; ecx offset or latch; esi the data bus that is kept; edx, rsi pages and blocks
+#pragma once
+
+#include <xbyak/xbyak.h>
+
+#include <cstdint>
+#include <unordered_map>
+
+#include "emulator/translator/layout.hpp"
+#include "emulator/translator/window.hpp"
+
+namespace racebeam::translator::x86_64 {
+
+using Label = Xbyak::Label;
+using AssemblyError = Xbyak::Error;  // the memory is full
+
+class Assembler : public Xbyak::CodeGenerator {
+ public:
+  // Writes to `memory`. out: the exit stub, which translated code jumps to when it ends. eax then holds the
+  // PC, and kInterpretNext if the interpreter must execute the next instruction.
+  Assembler(void* memory, std::size_t size, const Layout& places, const Window& seen, const void* out)
+      : CodeGenerator(size, memory), layout(places), window(seen), exit_stub(out) {}
+
+  const Layout& layout;
+  const Window& window;
+  const void* exit_stub;
+  std::unordered_map<std::uint16_t, Label> blocks;  // of this batch, by address
+
+  const void* address_of(std::uint16_t block) { return blocks[block].getAddress(); }
+
+  using CodeGenerator::byte;
+  using CodeGenerator::word;
+  Xbyak::Address byte_of(std::int32_t place) { return byte[rbx + place]; }
+  Xbyak::Address dword_of(std::int32_t place) { return dword[rbx + place]; }
+};
+
+class Processor {
+ public:
+  explicit Processor(Assembler& assembler) : as_(assembler) {}
+
+ protected:
+  using Reg8 = Xbyak::Reg8;
+  using Reg32 = Xbyak::Reg32;
+  enum class HostCarry : std::uint8_t {
+    kUnknown,
+    kSame,
+    kInverted
+  };  // whether the host's CF holds the carry
+
+  static constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
+
+  static Reg32 reg_of(Reg reg) { return Reg32(Xbyak::Operand::R12 + static_cast<int>(reg)); }
+  Xbyak::RegExp ram(unsigned offset) const { return as_.rbx + (as_.layout.ram + static_cast<int>(offset)); }
+  Xbyak::RegExp place_of(const Value& value) const;
+  template <class Apply>
+  void with_operand(const Value& value, Apply apply);
+
+  bool test_nz(NzHome home, bool sign);
+  void branch_on_carry(bool if_set, Label& taken);
+  void into_al(const Value& value);
+  void carry_to_host(CarryHome carry, bool inverted);
+  void carry_from_host(bool inverted, Flags live);
+  void shift(Operation operation, Reg8 reg, CarryHome carry, Flags live);
+  void modify(const Xbyak::RegExp& place, Operation operation, CarryHome carry, Flags live);
+  void clobbered_flags() { host_nz_ = false, host_carry_ = HostCarry::kUnknown; }
+  template <class Function>
+  void call(Function* function);
+
+  Assembler& as_;
+  HostCarry host_carry_ = HostCarry::kUnknown;
+  bool host_nz_ = false;  // the host's ZF and SF equal Z and N
+};
+
+}  // namespace racebeam::translator::x86_64
