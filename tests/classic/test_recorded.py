@@ -1,17 +1,17 @@
 """`racebeam classic` gives the recorded output of ALE 0.6.0, in one session of each of its games."""
 
 import os
-import sys
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 
-from images import SKIPPED, folder, image, images
+from images import folder, image, images
 from recorded import digest, read
 from session import BINARY, play
 
 RUNS = [(run, expected) for run, expected in read() if run.game in images()]
 
 
+@unittest.skipUnless(RUNS, f"no cartridge images are in {folder()}")
 class Kept(unittest.TestCase):
     def test_sessions_are_those_of_ale_0_6(self):
         with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -19,10 +19,3 @@ class Kept(unittest.TestCase):
             for (run, expected), answer in zip(RUNS, answers):
                 with self.subTest(run=run.name):
                     self.assertEqual(digest(answer), expected, answer.errors)
-
-
-if __name__ == "__main__":
-    if not RUNS:
-        print(f"skipped: no cartridge images are in {folder()}")
-        sys.exit(SKIPPED)
-    unittest.main(verbosity=2)

@@ -8,13 +8,17 @@ import sys
 import tempfile
 import unittest
 
+import pytest
+
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "tests/server"))
 
-from harness import BINARY, main  # noqa: E402
+from harness import BINARY  # noqa: E402
 
 BUILD = pathlib.Path(BINARY).parent
 PLAIN = {key: value for key, value in os.environ.items() if not key.startswith("RACEBEAM_")}
+pytestmark = pytest.mark.needs_programs("dpkg-deb", "cpack")
+
 OURS = {"beamfall", "updraft"}  # images that may be distributed; they are inside the program
 
 
@@ -147,7 +151,3 @@ class Completion(unittest.TestCase):
         for shell, name in (("zsh", "_racebeam"), ("fish", "racebeam.fish")):
             if shutil.which(shell):
                 output(shell, "-n", self.folder / name)
-
-
-if __name__ == "__main__":
-    main(("dpkg-deb", shutil.which("dpkg-deb")), ("cpack", shutil.which("cpack")))

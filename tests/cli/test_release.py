@@ -5,17 +5,18 @@ import importlib.machinery
 import importlib.util
 import json
 import pathlib
-import shutil
 import subprocess
 import sys
 import tarfile
 import tempfile
 import unittest
 
+import pytest
+
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "tests/server"))
 
-from harness import BINARY, main  # noqa: E402
+from harness import BINARY  # noqa: E402
 
 BUILD = pathlib.Path(BINARY).parent
 
@@ -30,6 +31,12 @@ def script(name):
 
 def in_git():
     return subprocess.run(["git", "rev-parse", "HEAD"], cwd=SOURCE, capture_output=True).returncode == 0
+
+
+pytestmark = [
+    pytest.mark.needs_programs("dpkg-deb", "cpack"),
+    pytest.mark.skipif(not in_git(), reason="not found: git"),
+]
 
 
 class Release(unittest.TestCase):
@@ -117,7 +124,3 @@ class Release(unittest.TestCase):
         self.assertTrue(
             all(part["version"] and part["purl"].startswith("pkg:deb/debian/") for part in contents["components"])
         )
-
-
-if __name__ == "__main__":
-    main(("git", in_git()), ("dpkg-deb", shutil.which("dpkg-deb")), ("cpack", shutil.which("cpack")))

@@ -3,19 +3,22 @@
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 
+import pytest
+
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(SOURCE / "tests/server"), str(SOURCE / "tests/support")]
 
 from commands import outcome_of, output_of  # noqa: E402
-from harness import BINARY, SKIPPED  # noqa: E402
+from harness import BINARY  # noqa: E402
 
-BUILD = pathlib.Path(os.environ["RACEBEAM_BUILD"])
+pytestmark = pytest.mark.needs_programs("pkg-config", "c++")
+
+BUILD = pathlib.Path(BINARY).parent
 CONSUMER = SOURCE / "tests/clients/consumer"
 HEADERS = sorted((SOURCE / "include/racebeam").glob("*.hpp*")) + [SOURCE / "clients/cpp/racebeam/client.hpp"]
 CXX = os.environ.get("CXX", "c++")
@@ -206,10 +209,3 @@ class Installed(unittest.TestCase):
             if path.suffix in {".cmake", ".pc", ".hpp"}:
                 self.assertNotIn(str(BUILD), path.read_text(), path)
                 self.assertNotIn(str(SOURCE), path.read_text(), path)
-
-
-if __name__ == "__main__":
-    if missing := [word for word in ("pkg-config", "c++") if shutil.which(word) is None]:
-        print(f"SKIPPED: {missing[0]} is not installed")
-        sys.exit(SKIPPED)
-    unittest.main(verbosity=2)

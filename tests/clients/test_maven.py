@@ -7,16 +7,19 @@ import hashlib
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 
+import pytest
+
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "tests/server"))
 
-from harness import BINARY, SKIPPED  # noqa: E402
+from harness import BINARY  # noqa: E402
+
+pytestmark = pytest.mark.needs_programs("mvn", "javac")
 
 VERSION = re.search(r"project\(racebeam VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text())[1]
 UNREACHABLE = re.compile("Could not transfer|Unknown host|Could not resolve|could not be resolved|offline mode")
@@ -49,8 +52,7 @@ class Maven(unittest.TestCase):
         with tempfile.TemporaryDirectory() as first, tempfile.TemporaryDirectory() as second:
             done = maven(first, "verify")
             if done.returncode != 0 and UNREACHABLE.search(done.stdout):
-                print("SKIPPED: Maven cannot get its plugins here", flush=True)
-                os._exit(SKIPPED)
+                self.skipTest("Maven cannot get its plugins here")
             self.assertEqual(done.returncode, 0, done.stdout[-5000:])
             self.assertRegex(done.stdout, r"Tests run: 1\d, Failures: 0, Errors: 0, Skipped: 0")
             archives = jars(first)
@@ -59,10 +61,3 @@ class Maven(unittest.TestCase):
             )
             self.assertEqual(maven(second, "-Dmaven.test.skip=true", "verify").returncode, 0)
             self.assertEqual(jars(second), archives)
-
-
-if __name__ == "__main__":
-    if missing := [word for word in ("mvn", "javac") if shutil.which(word) is None]:
-        print(f"SKIPPED: {missing[0]} is not installed")
-        sys.exit(SKIPPED)
-    unittest.main(verbosity=2)

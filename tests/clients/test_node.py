@@ -4,16 +4,19 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import unittest
+
+import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 CLIENT = SOURCE / "clients/js"
 sys.path.insert(0, str(SOURCE / "tests/server"))
 
-from harness import BINARY, PATIENCE, main  # noqa: E402
+from harness import BINARY, PATIENCE  # noqa: E402
+
+pytestmark = pytest.mark.needs_programs("node")
 
 
 class Node(unittest.TestCase):
@@ -41,7 +44,3 @@ class Node(unittest.TestCase):
             *package["imports"]["#platform"].values(),
         ):
             self.assertTrue((CLIENT / path).exists(), path)
-
-
-if __name__ == "__main__":
-    main(("node", shutil.which("node")))

@@ -10,9 +10,10 @@ sys.path[:0] = [
     os.path.join(SOURCE, folder) for folder in ("tests/server", "tests/support", "clients/python/single_file")
 ]
 
-import reference_python  # noqa: E402
+import pytest  # noqa: E402
 
-reference_python.require("numpy", "PIL")
+pytest.importorskip("numpy")
+pytest.importorskip("PIL")
 
 import unittest  # noqa: E402
 import wave  # noqa: E402

@@ -13,9 +13,9 @@ import zlib
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(SOURCE / folder) for folder in ("tests/server", "tests/support", "clients/python")]
 
-import reference_python  # noqa: E402
+import pytest  # noqa: E402
 
-reference_python.require("numpy")
+pytest.importorskip("numpy")
 
 import numpy as np  # noqa: E402
 import sarsa  # noqa: E402

@@ -9,9 +9,12 @@ sys.path[:0] = [
     os.path.join(SOURCE, folder) for folder in ("tests/server", "tests/support", "clients/python/single_file")
 ]
 
-import reference_python  # noqa: E402
+import pytest  # noqa: E402
 
-reference_python.require("cv2", "numpy", "ale_py", "gymnasium")
+pytest.importorskip("cv2")
+pytest.importorskip("numpy")
+pytest.importorskip("ale_py")
+pytest.importorskip("gymnasium")
 
 import unittest  # noqa: E402
 

@@ -2,15 +2,21 @@
 
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 import unittest
 
+import pytest
+
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "tests/server"))
 
-from harness import BINARY, PATIENCE, main  # noqa: E402
+from harness import BINARY, PATIENCE  # noqa: E402
+
+pytestmark = [
+    pytest.mark.needs_programs("node"),
+    pytest.mark.skipif("RACEBEAM_WASM" not in os.environ, reason="not found: racebeam.wasm (RACEBEAM_WASM)"),
+]
 
 
 class WebAssembly(unittest.TestCase):
@@ -25,7 +31,3 @@ class WebAssembly(unittest.TestCase):
         )
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertIn("\n# skipped 0\n", done.stdout)
-
-
-if __name__ == "__main__":
-    main(("node", shutil.which("node")), ("racebeam.wasm (RACEBEAM_WASM)", os.environ.get("RACEBEAM_WASM")))

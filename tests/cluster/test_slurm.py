@@ -15,6 +15,7 @@ import time
 import unittest
 
 import agent
+import pytest
 import slurm
 import speed
 from small_experiment import PLAN, files
@@ -142,6 +143,7 @@ class Slice(Slurm):
         self.assertEqual(list(self.results.iterdir()), [])
 
 
+@pytest.mark.slow
 class Whole(Slurm):
     def test_a_server_that_is_killed_ends_its_element_and_no_other(self):
         job = self.cluster.submit(

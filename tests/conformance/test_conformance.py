@@ -5,9 +5,11 @@ import pathlib
 import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import pytest  # isort: skip
 import reference_python  # isort: skip
 
-reference_python.require("ale_py", "numpy")
+pytest.importorskip("ale_py")
+pytest.importorskip("numpy")
 reference_python.zero_new_memory()
 
 import json
@@ -33,6 +35,9 @@ FOLDER = pathlib.Path(__file__).resolve().parent
 GAME = "pong"
 # its screen depends on memory at power-on
 FREEWAY = ("--games", "freeway", "--racebeam-options=--system-seed 1")
+
+
+pytestmark = pytest.mark.needs_roms(GAME)
 
 
 class Suite(unittest.TestCase):
@@ -294,10 +299,3 @@ def read_png(path):
     width, height = struct.unpack(">II", chunks[b"IHDR"][:8])
     raw = zlib.decompress(chunks[b"IDAT"])
     return width, height, [raw[y * (3 * width + 1) + 1 : (y + 1) * (3 * width + 1)] for y in range(height)]
-
-
-if __name__ == "__main__":
-    if GAME not in images.games():
-        print(f"skipped: no image of {GAME} was found")
-        sys.exit(reference_python.SKIPPED)
-    unittest.main(verbosity=2)

@@ -1,28 +1,17 @@
-"""Runs a test where the package of evaluation/ is installed: by the Python that `scripts/evaluation` makes, or not at
-all."""
+"""What the tests of the package of evaluation/ need of it."""
 
-import importlib.util
-import os
 import pathlib
 import sys
-import unittest
+
+import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-SKIPPED = 77  # the exit status that ctest reads as "skipped"
-VENV = pathlib.Path(os.environ.get("RACEBEAM_EVALUATION_VENV", SOURCE / "build/evaluation/venv"))
+VENV = pathlib.Path(sys.prefix)
 
 
 def require(*modules):
-    """Returns if the package and the modules are there; else the program begins again where they are, or ends as
-    skipped."""
-    missing = [name for name in ("racebeam_evaluation", *modules) if importlib.util.find_spec(name) is None]
-    python = VENV / "bin/python"
-    if missing and python.exists() and sys.executable != str(python):
-        os.execv(python, [str(python), "-B", *sys.argv])
-    if missing:
-        print(f"SKIPPED: not installed: {' and '.join(missing)} (scripts/evaluation)")
-        sys.exit(SKIPPED)
-
-
-def main():
-    unittest.main(module="__main__", verbosity=2)
+    """Skips the calling file if the package or one of the modules is not installed."""
+    for name in ("racebeam_evaluation", *modules):
+        pytest.importorskip(
+            name, reason=f"not installed: {name} (scripts/evaluation, build/evaluation/venv/bin/pytest)"
+        )

@@ -257,7 +257,3 @@ class Untested(unittest.TestCase):
         self.assertEqual((status, output), (0, []))
         self.assertIn("basic and bass are compared in 1 game; only one of them has played boxing.", report)
         self.assertIn("Not every agent has played boxing: not aggregated.", report)
-
-
-if __name__ == "__main__":
-    package.main()

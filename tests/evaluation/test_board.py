@@ -272,7 +272,3 @@ class BadInput(Folder):
             done = self.board(*arguments)
             self.assertEqual(done.returncode, 2)
             self.assertIn(sentence, done.stderr)
-
-
-if __name__ == "__main__":
-    package.main()

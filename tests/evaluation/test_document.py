@@ -44,7 +44,3 @@ class Document(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("70 rows confirmed, 0 wrong, 0 could not be checked", done.stdout)
         self.assertRegex(done.stdout, r"(?m)^0 +basic +-?\d+\.\d+")
-
-
-if __name__ == "__main__":
-    package.main()

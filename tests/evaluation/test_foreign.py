@@ -125,7 +125,3 @@ class Frames(Folder):
     def test_a_folder_without_training_has_no_curves(self):
         found = load(str(write(self.root / "a", results_of({("uct", "pong"): [[1]]}))))
         self.assertEqual((len(found.curves), list(found.curves)[:3]), (0, ["game", "agent", "trial"]))
-
-
-if __name__ == "__main__":
-    package.main()

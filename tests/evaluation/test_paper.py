@@ -157,7 +157,3 @@ def printed_table(text, name):
         (title, [re.sub(r"\\textbf\s*\{|\}", "", cell).strip() for cell in cells.split("&")])
         for title, cells in re.findall(r"\\gamename\{(.*?)\} &(.*)\\\\", body)
     ]
-
-
-if __name__ == "__main__":
-    package.main()

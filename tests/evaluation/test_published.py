@@ -169,7 +169,3 @@ class Data(unittest.TestCase):
         self.assertAlmostEqual(low, 2 - 4.302653 / 3**0.5, places=5)
         self.assertAlmostEqual(high, 2 + 4.302653 / 3**0.5, places=5)
         self.assertTrue(np.isnan(interval(np.array([1.0]))).all())
-
-
-if __name__ == "__main__":
-    package.main()

@@ -274,7 +274,3 @@ class Paper(unittest.TestCase):
             header = files[f"tables/{group}-aggregates.csv"].decode().splitlines()[2]
             self.assertIn(",IQM over game means,", header)
             self.assertNotIn(",IQM,", header)
-
-
-if __name__ == "__main__":
-    package.main()

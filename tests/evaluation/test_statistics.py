@@ -403,7 +403,3 @@ class Curves(unittest.TestCase):
         for frames, count in ((9_990, 1), (9_980, 0)):  # of 1,000 episodes: 10,000 and 20,000 short of 10 million
             episodes = [("pong", "basic", 0, number, 1, frames) for number in range(1000)]
             self.assertEqual(machado2018.checkpoints(curves_of(episodes)).iloc[0]["10 M trials"], count)
-
-
-if __name__ == "__main__":
-    package.main()

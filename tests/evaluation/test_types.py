@@ -27,7 +27,3 @@ class Types(unittest.TestCase):
             text=True,
         )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-
-
-if __name__ == "__main__":
-    package.main()

@@ -1,12 +1,14 @@
 """States that one process exports are continued by another: golden --save-states, --play-states."""
 
+import os
 import pathlib
 import subprocess
-import sys
 import tempfile
 import unittest
 
-GOLDEN = sys.argv.pop()
+GOLDEN = os.environ.get(
+    "RACEBEAM_GOLDEN", pathlib.Path(__file__).resolve().parents[2] / "build/release/tests/golden/golden"
+)
 
 
 def golden(*options):
@@ -54,7 +56,3 @@ class States(unittest.TestCase):
         status, _, errors = golden("--play-states", altered)
         self.assertEqual(status, 1)
         self.assertRegex(errors, f"^golden: {altered}/0.state: .*altered")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -15,7 +15,7 @@ sys.path.insert(0, str(SOURCE / "tests/support"))
 
 from commands import output_of as run  # noqa: E402
 
-BUILD = pathlib.Path(sys.argv.pop()).resolve()  # is kept, so that the next run compiles only what has changed
+BUILD = SOURCE / "build/release/without_program"  # is kept, so that the next run compiles only what has changed
 ABSENT = ("Boost", "OpenSSL", "PNG", "spdlog", "nlohmann_json", "Catch2")
 PYTHON = SOURCE / "build/python"
 PLAY = """
@@ -86,7 +86,3 @@ class WithoutProgram(unittest.TestCase):
         score, sentence = run(player, "-B", "-c", PLAY, env={**plain, "PYTHONPATH": package, "PATH": ""}).splitlines()
         self.assertEqual(score, SCORE)
         self.assertRegex(sentence, "the program racebeam is neither .*; install a wheel that has it")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -77,7 +77,3 @@ class Servers(unittest.TestCase):
         for arguments in ({"n": 0}, {"n": "two"}, {"n": 1, "image": "/nonexistent"}):
             with self.subTest(**arguments), self.assertRaises(racebeam.InvalidInput):
                 SlurmServers(**arguments)
-
-
-if __name__ == "__main__":
-    package.main()

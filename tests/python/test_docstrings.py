@@ -52,7 +52,3 @@ class Docstrings(unittest.TestCase):
                 if ">>> " not in (kind.__doc__ or ""):
                     missing.append(f"{module.__name__}.{name}")
         self.assertEqual(missing, [])
-
-
-if __name__ == "__main__":
-    package.main()

@@ -11,6 +11,7 @@ import itertools
 import sys
 
 import package
+import pytest
 
 package.require("ale_py", "gymnasium", "numpy")
 
@@ -27,7 +28,7 @@ parser.add_argument(
 parser.add_argument(
     "--part", type=int, default=datetime.date.today().toordinal(), help="which one (default: by the day)"
 )
-options = parser.parse_args()
+options = parser.parse_args([])
 
 ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
 
@@ -43,21 +44,37 @@ def check(name, obs_type, seed):
         env.close()
 
 
-names = sorted(spec.name for spec in gymnasium.registry.values() if spec.namespace == "ALE")
-if set(names) - {spec.name for spec in gymnasium.registry.values() if spec.namespace == "racebeam"}:
-    sys.exit("FAILED: racebeam has fewer ids than ALE")
-if not package.roms():
-    print("SKIPPED: no cartridge images were found")
-    sys.exit(package.SKIPPED)
-runs = list(itertools.product(names, ("rgb", "grayscale", "ram"), range(options.seeds)))[
-    options.part % options.parts :: options.parts
-]
-failures = 0
-for run in runs:
-    try:
-        check(*run)
-    except AssertionError as difference:
-        failures += 1
-        print(f"FAILED: {run}: {str(difference)[:200]}")
-print(f"{len(runs)} runs of {options.steps} steps: {failures} differ")
-sys.exit(failures > 0)
+def differences():
+    """Plays the runs of a part. Returns a line for each that differs, and the number of runs."""
+    runs = list(itertools.product(names(), ("rgb", "grayscale", "ram"), range(options.seeds)))[
+        options.part % options.parts :: options.parts
+    ]
+    found = []
+    for run in runs:
+        try:
+            check(*run)
+        except AssertionError as difference:
+            found.append(f"{run}: {str(difference)[:200]}")
+    return found, len(runs)
+
+
+def names(namespace="ALE"):
+    return sorted(spec.name for spec in gymnasium.registry.values() if spec.namespace == namespace)
+
+
+def test_racebeam_has_each_id_of_ale():
+    assert set(names()) - set(names("racebeam")) == set()
+
+
+@pytest.mark.needs_roms
+def test_no_run_of_today_differs():
+    found, count = differences()
+    assert count
+    assert found == []
+
+
+if __name__ == "__main__":
+    options = parser.parse_args()
+    found, count = differences()
+    print(*(f"FAILED: {line}" for line in found), f"{count} runs: {len(found)} differ", sep="\n")
+    sys.exit(bool(found) or not count)

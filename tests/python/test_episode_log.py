@@ -65,7 +65,3 @@ class Logs(unittest.TestCase):
         self.assertEqual((len(one.hashes), len(other.hashes)), (2, 2))
         self.assertEqual(one.hashes[0], other.hashes[0])
         self.assertNotEqual(one.hashes[1], other.hashes[1])
-
-
-if __name__ == "__main__":
-    package.main()

@@ -8,9 +8,11 @@ all.
 
 import argparse
 import datetime
+import itertools
 import sys
 
 import package
+import pytest
 
 package.require("ale_py", "gymnasium", "numpy")
 
@@ -29,7 +31,7 @@ parser.add_argument("--games", help="A,B: only these")
 parser.add_argument(
     "--parts", type=int, default=2, help="number of parts of the games; one part is played, by --first (default 2)"
 )
-options = parser.parse_args()
+options = parser.parse_args([])
 
 ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
 WITHOUT_SCORE = ("combat", "joust", "maze_craze", "warlords")  # ale_py registers no id for them
@@ -97,23 +99,40 @@ def settings_of(number, run):
     return SETTINGS[0 if options.defaults else (number + run) % len(SETTINGS)]
 
 
-games = options.games.split(",") if options.games else [game for game in package.roms() if game not in WITHOUT_SCORE]
-indices = range(len(games)) if options.games else range(options.first % options.parts, len(games), options.parts)
-if not games:
-    print("SKIPPED: no cartridge images were found")
-    sys.exit(package.SKIPPED)
-failures = runs = 0
-for number in indices:
-    game = games[number]
-    for run in range(options.first, options.first + options.runs):
+def runs():
+    """The runs of a part: game, seed and settings."""
+    games = (
+        options.games.split(",") if options.games else [game for game in package.roms() if game not in WITHOUT_SCORE]
+    )
+    indices = range(len(games)) if options.games else range(options.first % options.parts, len(games), options.parts)
+    for number, run in itertools.product(indices, range(options.first, options.first + options.runs)):
         settings = settings_of(number, run)
-        if game == "video_cube" and "max_num_frames_per_episode" in settings:
+        if games[number] == "video_cube" and "max_num_frames_per_episode" in settings:
             settings = SETTINGS[0]  # the reference never comes back (tests/conformance/not_comparable.py)
+        yield games[number], 1000 * run + number, settings
+
+
+def differences():
+    """Plays the runs of a part. Returns a line for each that differs, and the number of runs."""
+    found, count = [], 0
+    for game, seed, settings in runs():
+        count += 1
         try:
-            play(game, 1000 * run + number, settings)
+            play(game, seed, settings)
         except Different as difference:
-            failures += 1
-            print(f"FAILED: {game}, seed {1000 * run + number}, {settings}: {difference}")
-        runs += 1
-print(f"{len(indices)} of {len(games)} games, {runs} runs of {options.steps} steps: {failures} differ")
-sys.exit(failures > 0)
+            found.append(f"{game}, seed {seed}, {settings}: {difference}")
+    return found, count
+
+
+@pytest.mark.needs_roms
+def test_no_run_of_today_differs():
+    found, count = differences()
+    assert count
+    assert found == []
+
+
+if __name__ == "__main__":
+    options = parser.parse_args()
+    found, count = differences()
+    print(*(f"FAILED: {line}" for line in found), f"{count} runs: {len(found)} differ", sep="\n")
+    sys.exit(bool(found) or not count)

@@ -1,15 +1,17 @@
-"""The examples of the documents run: all whose packages are installed, or those that import a module of --importing."""
+"""The examples of the documents run: all whose packages are installed.
 
-import argparse
+RACEBEAM_IMPORTING names a module: then only those that import it run, and it must be installed."""
+
 import importlib.util
+import os
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
-import unittest
 
 import package
+import pytest
 
 package.require("numpy")
 
@@ -17,9 +19,7 @@ DOCUMENTS = (package.SOURCE / "README.md", *sorted((package.SOURCE / "docs/pytho
 OPTIONAL = ("gymnasium", "ale_py", "stable_baselines3", "jax", "torch", "torchrl", "tianshou")
 EXAMPLE = re.compile(r"(?ms)^```python\n(.*?)^```")
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--importing", metavar="MODULE", help="only the examples that import it; it must be installed")
-options, rest = parser.parse_known_args()
+IMPORTING = os.environ.get("RACEBEAM_IMPORTING")
 
 
 def imports(example, module):
@@ -48,22 +48,22 @@ def run(example):
         return subprocess.run([sys.executable, "-c", example], cwd=folder, capture_output=True, text=True)
 
 
-class Examples(unittest.TestCase):
-    def test_they_run(self):
-        count = 0
-        for document in DOCUMENTS:
-            for number, example in enumerate(EXAMPLE.findall(document.read_text())):
-                if options.importing and not imports(example, options.importing):
-                    continue
-                with self.subTest(document=document.name, example=number):
-                    if options.importing or is_playable(example):
-                        done = run(example)
-                        self.assertEqual((done.returncode, done.stderr), (0, ""))
-                        count += 1
-        self.assertGreater(count, 0)
-        print(f"{count} examples ran", end=" ")
+EXAMPLES = [
+    pytest.param(example, id=f"{document.stem}-{number}")
+    for document in DOCUMENTS
+    for number, example in enumerate(EXAMPLE.findall(document.read_text()))
+    if not IMPORTING or imports(example, IMPORTING)
+]
 
 
-if __name__ == "__main__":
-    sys.argv[1:] = rest
-    package.main()
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_it_runs(example):
+    if not IMPORTING and not is_playable(example):
+        pytest.skip("it needs a package or an image that is not here")
+    done = run(example)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_there_are_examples():
+    assert EXAMPLES
+    assert IMPORTING or any(is_playable(*example.values) for example in EXAMPLES)

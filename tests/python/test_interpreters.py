@@ -67,7 +67,3 @@ except RuntimeError as error:
             self.output_of(f"in_second({IMPORT!r})\nin_second({IMPORT!r})\nexec({IMPORT!r})"),
             [REFUSED, REFUSED, "ALEInterface"],
         )
-
-
-if __name__ == "__main__":
-    package.main()

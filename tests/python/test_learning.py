@@ -177,7 +177,3 @@ class Examples(unittest.TestCase):
             results = (folder / "results.csv").read_text()
             (folder / "results.csv").write_text(results.replace(",terminated,", ",truncated,", 1))
             self.assertEqual(self.verify(folder).returncode, 1)
-
-
-if __name__ == "__main__":
-    package.main()

@@ -207,7 +207,3 @@ class Program(unittest.TestCase):
             PATH="/nowhere",
         )
         self.assertIn("the program racebeam is neither beside this package nor on the PATH", done.stdout)
-
-
-if __name__ == "__main__":
-    package.main()

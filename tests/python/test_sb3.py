@@ -183,7 +183,3 @@ class Interface(unittest.TestCase):
 
     def test_it_learns(self):
         PPO("CnnPolicy", VecEnv("beamfall", 2, seed=1), n_steps=16, batch_size=16, n_epochs=1).learn(64)
-
-
-if __name__ == "__main__":
-    package.main()

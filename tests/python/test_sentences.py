@@ -155,4 +155,3 @@ if __name__ == "__main__":
     if "--write" in sys.argv:
         GOLDEN.write_text(with_current_sentences(GOLDEN.read_text()))
         sys.exit()
-    package.main()

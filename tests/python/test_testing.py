@@ -213,7 +213,3 @@ class Broken(unittest.TestCase):
         self.assertFalse(equal(np.zeros(2), np.zeros(2, int)))
         self.assertFalse(equal({"a": 1}, {"b": 1}))
         self.assertFalse(equal([1, 2], [1]))
-
-
-if __name__ == "__main__":
-    package.main()

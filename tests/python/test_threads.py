@@ -193,7 +193,3 @@ class Memory(unittest.TestCase):
         for words in ((0, float("nan"), 1), (0, float("inf"), 1), (99, 1.0, 1), (0, 1.0, 0), (0, 1.0, -5)):
             with self.subTest(words=words), self.assertRaises(ValueError):
                 ale.step(*words, racebeam._core.View.RGB)
-
-
-if __name__ == "__main__":
-    package.main()

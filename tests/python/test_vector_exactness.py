@@ -10,6 +10,7 @@ which has --patience seconds.
 import argparse
 import contextlib
 import datetime
+import itertools
 import mmap
 import os
 import signal
@@ -17,6 +18,7 @@ import sys
 import threading
 
 import package
+import pytest
 
 package.require("ale_py", "gymnasium", "numpy")
 
@@ -39,7 +41,7 @@ parser.add_argument(
     "--parts", type=int, default=4, help="number of parts of the games; one part is played, by --first (default 4)"
 )
 parser.add_argument("--patience", type=float, default=120, help="seconds of a run at most (default 120)")
-options = parser.parse_args()
+options = parser.parse_args([])
 
 ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
 WITHOUT_SCORE = ("combat", "joust", "maze_craze", "warlords")  # ale_py registers no id for them
@@ -155,36 +157,51 @@ def play_apart(game, seed, settings):
     return int(outcome)
 
 
-games = options.games.split(",") if options.games else [game for game in package.roms() if game not in WITHOUT_SCORE]
-indices = range(len(games)) if options.games else range(options.first % options.parts, len(games), options.parts)
-if not games:
-    print("SKIPPED: no cartridge images were found")
-    sys.exit(package.SKIPPED)
-failures = runs = ended = never_back = 0
-for number in indices:
-    game = games[number]
-    for run in range(options.first, options.first + options.runs):
-        settings = SETTINGS[0 if options.defaults else (number + run) % len(SETTINGS)]
-        if NEVER_BACK.get(game) in settings:
-            settings = SETTINGS[0]
-        try:
-            ended += play_apart(game, 1000 * run + number, settings)
-        except Different as difference:
-            failures += 1
-            print(f"FAILED: {game}, seed {1000 * run + number}, {settings}: {difference}", flush=True)
-        except TimeoutError:
-            never_back += awaits_the_reference[0]
-            failures += 1 - awaits_the_reference[0]
-            late = "the reference" if awaits_the_reference[0] else "FAILED: racebeam"
-            print(f"{late} did not come back: {game}, seed {1000 * run + number}, {settings}", flush=True)
-        runs += 1
-print(
-    (
-        f"{len(indices)} of {len(games)} games, {runs} runs of {options.steps} steps, {ended} episodes that ended: "
-        f"{failures} differ"
+def runs():
+    """The runs of a part: game, seed and settings."""
+    games = (
+        options.games.split(",") if options.games else [game for game in package.roms() if game not in WITHOUT_SCORE]
     )
-    + (f"; in {never_back}, the reference did not come back" if never_back else "")
-)
-if never_back > max(1, runs // 100):
-    sys.exit("that is too often: what is compared is too little")
-sys.exit(failures > 0)
+    indices = range(len(games)) if options.games else range(options.first % options.parts, len(games), options.parts)
+    for number, run in itertools.product(indices, range(options.first, options.first + options.runs)):
+        settings = SETTINGS[0 if options.defaults else (number + run) % len(SETTINGS)]
+        yield games[number], 1000 * run + number, SETTINGS[0] if NEVER_BACK.get(games[number]) in settings else settings
+
+
+def differences():
+    """Plays the runs of a part. Returns a line for each that differs, the number of runs, the number of episodes that
+    ended, and the number of runs in which the reference did not come back."""
+    found, count, ended, never_back = [], 0, 0, 0
+    for game, seed, settings in runs():
+        count += 1
+        try:
+            ended += play_apart(game, seed, settings)
+        except Different as difference:
+            found.append(f"{game}, seed {seed}, {settings}: {difference}")
+        except TimeoutError:
+            if awaits_the_reference[0]:
+                never_back += 1
+                print(f"the reference did not come back: {game}, seed {seed}, {settings}", flush=True)
+            else:
+                found.append(f"{game}, seed {seed}, {settings}: racebeam did not come back")
+    return found, count, ended, never_back
+
+
+def compares_too_little(count, never_back):
+    return never_back > max(1, count // 100)
+
+
+@pytest.mark.needs_roms
+def test_no_run_of_today_differs():
+    found, count, _, never_back = differences()
+    assert count
+    assert found == []
+    assert not compares_too_little(count, never_back)
+
+
+if __name__ == "__main__":
+    options = parser.parse_args()
+    found, count, ended, never_back = differences()
+    print(*(f"FAILED: {line}" for line in found), sep="\n")
+    print(f"{count} runs, {ended} episodes that ended: {len(found)} differ; {never_back} without the reference")
+    sys.exit(bool(found) or not count or compares_too_little(count, never_back))

@@ -289,7 +289,3 @@ class Interface(unittest.TestCase):
                 text=True,
             )
         self.assertEqual(done.returncode, 0, done.stderr)
-
-
-if __name__ == "__main__":
-    package.main()

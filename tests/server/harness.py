@@ -1,7 +1,7 @@
 """Shared by tests of the running server: starts it, talks to it over four transports, and waits for its end.
 
-RACEBEAM_BINARY names the executable. RACEBEAM_ROMS (or an ale-py in .venv) has the commercial images; tests
-that need one are skipped without it.
+RACEBEAM_BINARY names the executable. RACEBEAM_ROMS has the commercial images, or else an ale-py in .venv or in the
+environment that runs the tests. Tests that need one are skipped without it.
 """
 
 import glob
@@ -35,7 +35,8 @@ for _number in (signal.SIGINT, signal.SIGHUP):
 def rom(name):
     """The path of a commercial image, or None."""
     folders = [os.environ.get("RACEBEAM_ROMS", "")]
-    folders += glob.glob(os.path.join(SOURCE, ".venv", "lib", "python*", "site-packages", "ale_py", "roms"))
+    for environment in (os.path.join(SOURCE, ".venv"), sys.prefix):
+        folders += glob.glob(os.path.join(environment, "lib", "python*", "site-packages", "ale_py", "roms"))
     found = [os.path.join(folder, name + ".bin") for folder in folders if folder]
     return next((path for path in found if os.path.exists(path)), None)
 

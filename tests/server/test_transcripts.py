@@ -5,10 +5,12 @@ import os
 import re
 import unittest
 
-from harness import SOURCE, TRANSPORTS, Session, main, rom
+import pytest
+from harness import SOURCE, TRANSPORTS, Session, rom
 
 FOLDER = os.path.join(SOURCE, "docs", "spec", "transcripts")
 TETRIS = rom("tetris")
+pytestmark = pytest.mark.needs_roms("tetris")
 FIXED = ("--seed", "123", "--sticky", "0")
 TRANSCRIPTS = {
     "tetris-rle-ram-rl.txt": (),
@@ -101,7 +103,3 @@ class Transcripts(unittest.TestCase):
 
     def test_they_are_reproduced_when_all_is_sent_ahead_in_one_write(self):
         self.check(ahead)
-
-
-if __name__ == "__main__":
-    main(("image of tetris", TETRIS))

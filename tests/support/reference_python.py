@@ -1,12 +1,14 @@
 """Runs a test with the Python that has the reference and its companions: this one, or that of
 scripts/reference. Without one, it skips the test."""
 
+import ctypes
 import importlib.util
 import os
 import pathlib
 import sys
 
 SKIPPED = 77  # the exit status that ctest reads as "skipped"
+M_PERTURB = -6  # malloc.h
 ZEROS = "255"  # MALLOC_PERTURB_ (mallopt(3)): new memory holds the complement of this byte
 OF_SCRIPTS_REFERENCE = pathlib.Path(__file__).resolve().parents[2] / ".venv/bin/python"
 
@@ -25,8 +27,7 @@ def require(*modules):
 
 
 def zero_new_memory():
-    """Returns if the C library of this process fills new memory with zeros; else the program begins again so that it
-    does.
+    """Has the C library fill new memory with zeros, in this process and those that it starts.
 
     The reference reads memory that it never set: averaging looks up an unset entry of its table wherever an index is
     odd, as in PAL pictures that lost their colour (docs/spec/palette.md, "Colour averaging"). Fresh memory happens to
@@ -34,4 +35,4 @@ def zero_new_memory():
     """
     if os.environ.get("MALLOC_PERTURB_") != ZEROS:
         os.environ["MALLOC_PERTURB_"] = ZEROS
-        os.execv(sys.executable, [sys.executable, "-B", *sys.argv])
+        ctypes.CDLL(None).mallopt(M_PERTURB, int(ZEROS))

@@ -10,9 +10,11 @@ SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path
 PROBE = os.environ.get("RACEBEAM_BATCH_PROBE", os.path.join(SOURCE, "build/release/tests/environment/batch_probe"))
 
 sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
-import reference_python  # noqa: E402
+import pytest  # noqa: E402
 
-reference_python.require("numpy", "ale_py", "gymnasium")
+pytest.importorskip("numpy")
+pytest.importorskip("ale_py")
+pytest.importorskip("gymnasium")
 
 import numpy as np  # noqa: E402
 from ale_py import roms  # noqa: E402

@@ -1,15 +1,12 @@
 """racebeam.ale_py differs from ale_py as its docstring lists."""
 
 import copy
-import os
 import pathlib
 import pickle
 import re
-import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("ale_py", "gymnasium", "numpy")
@@ -269,7 +266,3 @@ class Differences(unittest.TestCase):
             one, other = (envs.step(np.full(2, step % 3))[0].astype(int) for envs in (ours, theirs))
             far = max(far, np.abs(one - other).max())
         self.assertLessEqual(far, 1)
-
-
-if __name__ == "__main__":
-    package.main()

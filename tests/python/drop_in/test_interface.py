@@ -1,14 +1,11 @@
 """ALEInterface of racebeam.ale_py returns and raises what that of ale_py does."""
 
 import inspect
-import os
 import pathlib
 import pickle
-import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("ale_py", "gymnasium", "numpy")
@@ -216,7 +213,3 @@ class Interface(unittest.TestCase):
                 ale.act(1)
                 ale.saveScreenPNG(file)
             self.assertEqual(pixels(files[0]), pixels(files[1]))
-
-
-if __name__ == "__main__":
-    package.main()

@@ -1,12 +1,10 @@
 """racebeam.ale_py has the names of ale_py, and code for ale_py runs on it."""
 
 import inspect
-import os
 import re
 import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("ale_py", "gymnasium", "numpy")
@@ -152,7 +150,3 @@ class Names(unittest.TestCase):
         )
         self.assertEqual(ours.stdout, theirs.stdout)
         self.assertEqual(ours.stdout.count("'repeat_action_probability'"), 352)
-
-
-if __name__ == "__main__":
-    package.main()

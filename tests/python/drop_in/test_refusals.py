@@ -1,11 +1,8 @@
 """Code that catches the exceptions of ale_py catches those of racebeam.ale_py."""
 
-import os
-import sys
 import unittest
 import warnings
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("ale_py", "gymnasium", "numpy")
@@ -108,7 +105,3 @@ class Refusals(unittest.TestCase):
         env = getattr(module, name)(*(["pong", 2] if name == "AtariVectorEnv" else ["pong"]))
         env.reset(seed=1)
         return env
-
-
-if __name__ == "__main__":
-    package.main()

@@ -1,10 +1,7 @@
 """Many environments of racebeam.ale_py show what those of ale_py show."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("ale_py", "gymnasium", "numpy")
@@ -111,7 +108,3 @@ class Vectors(unittest.TestCase):
                     _, info = envs.reset(seed=seed)
                     self.assertEqual(info["env_id"].shape, (batch_size,))
                     envs.send(np.zeros(batch_size, np.int64))
-
-
-if __name__ == "__main__":
-    package.main()

@@ -11,7 +11,6 @@ import tempfile
 import unittest
 import unittest.mock
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")
@@ -234,7 +233,3 @@ class BadInput(unittest.TestCase):
             racebeam.InvalidInput, "the state is of", racebeam.AtariEnv("updraft").restore_state, env.clone_state()
         )
         self.assertEqual(env.clone_state().serialize(), whole)
-
-
-if __name__ == "__main__":
-    package.main()

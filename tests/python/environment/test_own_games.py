@@ -2,17 +2,14 @@
 
 import contextlib
 import copy
-import os
 import pathlib
 import pickle
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
 import warnings
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")
@@ -157,7 +154,3 @@ class Own(unittest.TestCase):
             envs = racebeam.AtariVectorEnv("my_game", 2, server=address)
             self.assertEqual(envs.reset()[0].shape[0], 2)
             process.kill()
-
-
-if __name__ == "__main__":
-    package.main()

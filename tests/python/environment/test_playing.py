@@ -1,12 +1,9 @@
 """AtariEnv: seeds, states, copies, presets and rules."""
 
 import copy
-import os
 import pickle
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")
@@ -295,7 +292,3 @@ class Playing(unittest.TestCase):
         self.assertEqual(
             (result[0].tobytes(), result[1], result[4]), (parts.ale.getScreenRGB().tobytes(), reward, parts._get_info())
         )
-
-
-if __name__ == "__main__":
-    package.main()

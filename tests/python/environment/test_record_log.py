@@ -6,14 +6,12 @@ import os
 import pathlib
 import resource
 import subprocess
-import sys
 import tempfile
 import unittest
 import unittest.mock
-import warnings
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -36,6 +34,16 @@ def play_games(env, games, seed=None):
             over = terminated or truncated
         remaining -= env.unwrapped.ale.game_over()
     return env
+
+
+pytestmark = pytest.mark.filterwarnings("always")
+
+
+@pytest.fixture(autouse=True)
+def plain_umask():
+    before = os.umask(0o022)
+    yield
+    os.umask(before)
 
 
 class Submissions(unittest.TestCase):
@@ -185,9 +193,3 @@ class Submissions(unittest.TestCase):
         with self.assertRaises(FileExistsError):
             self.record(1)
         self.assertEqual(self.verify()[0], 0)
-
-
-if __name__ == "__main__":
-    warnings.simplefilter("always")
-    os.umask(0o022)
-    package.main()

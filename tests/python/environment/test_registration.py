@@ -1,7 +1,6 @@
 """The ids of Gymnasium that racebeam registers."""
 
 import importlib.util
-import os
 import pathlib
 import subprocess
 import sys
@@ -9,7 +8,6 @@ import tempfile
 import unittest
 import warnings
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")
@@ -117,7 +115,3 @@ class Registration(unittest.TestCase):
         done = subprocess.run([sys.executable, "-W", "error", "-c", script], capture_output=True, text=True, check=True)
         self.assertEqual(done.stdout.split(), ["220", "352", "ALE/Adventure-v5", "True", "False"])
         self.assertEqual(done.stderr, "")
-
-
-if __name__ == "__main__":
-    package.main()

@@ -6,7 +6,6 @@ import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")
@@ -154,7 +153,3 @@ class Window(unittest.TestCase):
             SDL_VIDEODRIVER="x11",
             DISPLAY="",
         )
-
-
-if __name__ == "__main__":
-    package.main()

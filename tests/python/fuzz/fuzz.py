@@ -10,7 +10,6 @@ scripts/check/python-fuzz runs it under AddressSanitizer.
 
 import argparse
 import faulthandler
-import os
 import pickle
 import random
 import re
@@ -19,11 +18,6 @@ import sys
 import threading
 import time
 import traceback
-
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-import package
-
-package.require("numpy", "gymnasium")
 
 import fuzz_servers
 import numpy as np

@@ -1,13 +1,10 @@
 """AtariVectorEnv, made and called with random arguments, many of them senseless: each call returns or raises what is
 documented."""
 
-import argparse
-import os
 import random
-import sys
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -16,11 +13,8 @@ import racebeam
 from gymnasium.error import Error
 from racebeam import AtariVectorEnv
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--calls", type=int, default=1500, help="calls per run (default 1500)")
-parser.add_argument("--seed", type=int, default=1, help="seed of the first run; the next has one more (default 1)")
-parser.add_argument("--runs", type=int, default=24, help="default 24; scripts/check/python-fuzz draws others each time")
-options = parser.parse_args()
+CALLS = 1500
+SEEDS = range(1, 25)  # scripts/check/python-fuzz draws others each time
 
 DOCUMENTED = (TypeError, IndexError, racebeam.InvalidInput, Error)
 chance = random.Random()
@@ -109,7 +103,7 @@ def run():
     """How many calls returned, and how many were refused."""
     returned = refusals = 0
     envs, states = None, []
-    for _ in range(options.calls):
+    for _ in range(CALLS):
         try:
             if envs is None or chance.random() < 0.03:
                 envs = make()
@@ -132,10 +126,9 @@ def run():
     return returned, refusals
 
 
-for seed in range(options.seed, options.seed + options.runs):
+@pytest.mark.parametrize("seed", SEEDS)
+def test_each_call_returns_or_is_refused(seed):
     chance.seed(seed)
-    print(f"seed {seed}", flush=True)
     returned, refused = run()
-    print(f"{returned} calls returned, {refused} were refused")
-    if not returned or not refused:
-        sys.exit(1)
+    assert returned
+    assert refused

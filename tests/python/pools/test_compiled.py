@@ -1,10 +1,7 @@
 """racebeam.envpool: programs that JAX compiles."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -89,7 +86,3 @@ class Compiled(unittest.TestCase):
         envs.close()
         with self.assertRaisesRegex(jax.errors.JaxRuntimeError, "closed"):
             jax.block_until_ready(step(handle, np.ones(3, np.int32)))
-
-
-if __name__ == "__main__":
-    package.main()

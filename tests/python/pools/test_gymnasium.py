@@ -1,12 +1,10 @@
 """racebeam.envpool with the interface of Gymnasium."""
 
-import os
 import subprocess
 import sys
 import time
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -250,7 +248,3 @@ class OldGymnasium(unittest.TestCase):
             "AtariVectorEnv needs Gymnasium 1.1 or later, and this is .*; install it with: pip install",
             done.stderr,
         )
-
-
-if __name__ == "__main__":
-    package.main()

@@ -1,13 +1,11 @@
 """racebeam.envpool: what programs import, and specs."""
 
 import copy
-import os
 import pickle
 import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -169,7 +167,3 @@ class Spec(unittest.TestCase):
         self.assertRaises(racebeam.UnknownGame, envpool.make_spec, "Nope-v5")
         self.assertRaises(InvalidInput, envpool.make_spec, "Beamfall-v5", foo=1)
         self.assertRaises(InvalidInput, envpool.make_spec, "Beamfall-v5", max_num_players=2)
-
-
-if __name__ == "__main__":
-    package.main()

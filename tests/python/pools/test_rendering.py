@@ -1,10 +1,7 @@
 """racebeam.envpool: pictures, and results that depend on the interface."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -81,7 +78,3 @@ class Rendering(unittest.TestCase):
         envs = make("dm")
         self.assertEqual(envs.reward_spec(), specs.Array((), float, "reward"))
         self.assertEqual(envs.discount_spec(), specs.BoundedArray((), float, 0.0, 1.0, "discount"))
-
-
-if __name__ == "__main__":
-    package.main()

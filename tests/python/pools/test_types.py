@@ -1,13 +1,11 @@
 """racebeam.envpool with the interfaces of Gym and dm_env, and its bad input."""
 
-import os
 import sys
 import types
 import unittest
 import unittest.mock
 import warnings
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -207,7 +205,3 @@ class Found(unittest.TestCase):
         envs.reset()
         with self.assertRaisesRegex(InvalidInput, "one must be 'action'"):
             envs.step({"env_id": np.arange(3, dtype=np.int32)})
-
-
-if __name__ == "__main__":
-    package.main()

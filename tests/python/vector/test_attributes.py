@@ -2,12 +2,9 @@
 
 import dataclasses
 import inspect
-import os
 import re
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -137,7 +134,3 @@ class Gymnasium(unittest.TestCase):
         self.assertEqual(infos[2][1]["final_obs"].shape, (4, 84, 84))
         self.assertEqual(infos[2][1]["final_info"]["episode_frame_number"], 13)
         self.assertNotIn("final_obs", infos[1][1])
-
-
-if __name__ == "__main__":
-    package.main()

@@ -1,11 +1,9 @@
 """AtariVectorEnv refuses bad input."""
 
-import os
 import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -261,7 +259,3 @@ class Found(unittest.TestCase):
             (TypeError, lambda: envs.reset(np.ones((2, 2)), [1, 2])),
         ):
             self.assertRaises(error, call)
-
-
-if __name__ == "__main__":
-    package.main()

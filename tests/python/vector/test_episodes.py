@@ -1,10 +1,7 @@
 """AtariVectorEnv: seeds, and how episodes begin and end."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -178,7 +175,3 @@ class Episodes(unittest.TestCase):
                 AtariVectorEnv(*arguments)
         with self.assertRaisesRegex(Error, "^there are 2 games"):
             AtariVectorEnv(["beamfall", "updraft"], rom=b"", full_action_space=True)
-
-
-if __name__ == "__main__":
-    package.main()

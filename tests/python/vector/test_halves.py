@@ -1,10 +1,7 @@
 """AtariVectorEnv: send and recv, the halves of a step."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -76,7 +73,3 @@ class Halves(unittest.TestCase):
         envs.send([0, 0])
         after = envs.reset(options={"reset_mask": np.array([True, False])})[1]["frame_number"]
         self.assertEqual(after[1], before[1] + 4)  # it has made its step
-
-
-if __name__ == "__main__":
-    package.main()

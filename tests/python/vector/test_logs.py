@@ -1,16 +1,13 @@
 """The argument `log` of AtariVectorEnv leaves a submission that `racebeam verify` confirms."""
 
 import csv
-import os
 import pathlib
 import subprocess
-import sys
 import tempfile
 import unittest
-import warnings
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -19,6 +16,9 @@ import racebeam.program
 from racebeam import AtariVectorEnv, InvalidInput
 
 PLAIN = {"noop_max": 0, "use_fire_reset": False, "max_num_frames_per_episode": 600}
+
+
+pytestmark = pytest.mark.filterwarnings("always")
 
 
 class Logs(unittest.TestCase):
@@ -149,8 +149,3 @@ class Logs(unittest.TestCase):
         self.make()
         with self.assertRaises(FileExistsError):
             self.make()
-
-
-if __name__ == "__main__":
-    warnings.simplefilter("always")
-    package.main()

@@ -1,10 +1,7 @@
 """AtariVectorEnv: what it shows, and who owns it."""
 
-import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -138,7 +135,3 @@ class Observations(unittest.TestCase):
         envs = AtariVectorEnv("beamfall", 1, stack_start="repeats")
         stack = envs.reset(seed=1)[0][0]
         self.assertTrue(all(np.array_equal(stack[0], screen) for screen in stack) and stack.any())
-
-
-if __name__ == "__main__":
-    package.main()

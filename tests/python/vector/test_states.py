@@ -1,12 +1,9 @@
 """AtariVectorEnv: states of its environments, saved and restored."""
 
 import copy
-import os
 import pickle
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -164,7 +161,3 @@ class States(unittest.TestCase):
         for carry in (pickle.dumps, copy.copy, copy.deepcopy):
             with self.assertRaisesRegex(TypeError, "^AtariVectorEnv "):
                 carry(envs)
-
-
-if __name__ == "__main__":
-    package.main()

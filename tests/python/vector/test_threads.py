@@ -1,6 +1,5 @@
 """AtariVectorEnv: threads, forks and signals."""
 
-import os
 import pathlib
 import resource
 import signal
@@ -10,7 +9,6 @@ import threading
 import time
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy", "gymnasium")
@@ -117,7 +115,3 @@ class Interrupts(unittest.TestCase):
     def test_a_signal_handler_that_uses_the_environments(self):
         envs = AtariVectorEnv("beamfall", **self.LONG)
         self.interrupt(lambda: envs.step([1] * 500), RuntimeError, lambda *_: envs.save(0))
-
-
-if __name__ == "__main__":
-    package.main()

@@ -4,11 +4,9 @@ import asyncio
 import gc
 import os
 import pathlib
-import sys
 import unittest
 import unittest.mock
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy")
@@ -193,7 +191,3 @@ class Ends(unittest.IsolatedAsyncioTestCase):
                 await aio.connect(address)
         with self.assertRaises(OSError):
             await aio.connect("unix:/nowhere")
-
-
-if __name__ == "__main__":
-    package.main()

@@ -11,7 +11,6 @@ import time
 import unittest
 import unittest.mock
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")
@@ -286,7 +285,3 @@ class Shared(unittest.TestCase):
                 thread.join(PATIENCE)
             self.assertEqual((failures, [thread for thread in threads if thread.is_alive()]), ([], []))
             self.assertEqual(env.ale.getFrameNumber(), 4 * 40)
-
-
-if __name__ == "__main__":
-    package.main()

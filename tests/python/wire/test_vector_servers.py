@@ -4,12 +4,10 @@ import contextlib
 import os
 import pathlib
 import signal
-import sys
 import tempfile
 import threading
 import time
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")
@@ -309,7 +307,3 @@ class Lost(Servers):
         for call in (lambda: there.step([0] * COUNT), there.reset, there.show):
             with self.assertRaisesRegex(ConnectionError, "no server is left for environments 0 to 2"):
                 call()
-
-
-if __name__ == "__main__":
-    package.main()

@@ -3,12 +3,10 @@
 import os
 import pickle
 import select
-import sys
 import threading
 import unittest
 import unittest.mock
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")
@@ -330,7 +328,3 @@ class Lost(unittest.TestCase):
                 os._exit(9)
             self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 7)
             envs.step([0, 0])
-
-
-if __name__ == "__main__":
-    package.main()

@@ -14,7 +14,6 @@ import time
 import unittest
 import zlib
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")
@@ -344,7 +343,3 @@ class Sessions(unittest.TestCase):
                 env={**os.environ, "PATH": path},
             )
             self.assertEqual(done.stdout, "1\n", done.stderr)
-
-
-if __name__ == "__main__":
-    package.main()

@@ -1,7 +1,7 @@
 """The program answers the conversations of earlier versions as those versions did. VERSION.txt has them.
 
 A reply may have keys that the recorded one lacks. To record the conversations of clients/conformance with this version:
-  RACEBEAM_BINARY=... tests/server/recorded/test_recorded.py record >tests/server/recorded/VERSION.txt
+  RACEBEAM_BINARY=... tests/server/recorded/test_recorded.py >tests/server/recorded/VERSION.txt
 """
 
 import base64
@@ -14,7 +14,7 @@ import zlib
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent))
-from harness import SOURCE, main, run  # noqa: E402
+from harness import SOURCE, run  # noqa: E402
 
 CONVERSATION = pathlib.Path(SOURCE) / "clients/conformance/conversation.txt"
 IMAGE = base64.b64encode((pathlib.Path(SOURCE) / "games/homebrew/updraft.bin").read_bytes()).decode()
@@ -128,7 +128,4 @@ class Recorded(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["record"]:
-        record()
-    else:
-        main()
+    record()

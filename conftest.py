@@ -1,0 +1,91 @@
+"""What all tests in Python share: where they find the program and each other's modules, and what skips them.
+
+HACKING.md, "Add a test", says how pytest is started.
+"""
+
+import contextlib
+import importlib.util
+import os
+import pathlib
+import shutil
+import sys
+
+import pytest
+
+SOURCE = pathlib.Path(__file__).resolve().parent
+SKIPPED = 77  # the exit status that ctest reads as "skipped"
+
+os.environ.setdefault("RACEBEAM_BINARY", str(SOURCE / "build/release/racebeam"))
+sys.path[:0] = [str(SOURCE / folder) for folder in ("tests/server", "tests/support", "scripts/measure")]
+
+
+def _has_module(name):
+    return importlib.util.find_spec(name) is not None
+
+
+def _missing_roms(games):
+    import harness
+
+    return [f"an image of {game}" for game in games or ("pong",) if not harness.rom(game)]
+
+
+# A marker, and what its arguments name that is not here.
+NEEDS = {
+    "needs_roms": _missing_roms,
+    "needs_jax": lambda _: [] if _has_module("jax") else ["JAX"],
+    "needs_modules": lambda names: [name for name in names if not _has_module(name)],
+    "needs_programs": lambda names: [name for name in names if shutil.which(name) is None],
+}
+
+
+def pytest_collectstart(collector):
+    """Lets a file import what is beside it, also if a file of another folder imported a module of the same name."""
+    if isinstance(collector, pytest.Module):
+        folder = collector.path.parent
+        sys.path.insert(0, str(folder))
+        for name in {path.stem for path in folder.glob("*.py")} & sys.modules.keys():
+            if getattr(sys.modules[name], "__file__", None) != str(folder / f"{name}.py"):
+                del sys.modules[name]
+
+
+def pytest_runtest_setup(item):
+    """Skips a test whose markers name something that is not here."""
+    missing = [what for mark in item.iter_markers() if mark.name in NEEDS for what in NEEDS[mark.name](mark.args)]
+    if missing:
+        pytest.skip(f"not found: {', '.join(missing)}")
+
+
+@pytest.fixture
+def cleanup():
+    """cleanup(FUNCTION, ARGUMENT...) has the function called at the end of the test. The last one is called first."""
+    with contextlib.ExitStack() as stack:
+        yield stack.callback
+
+
+def pytest_make_parametrize_id(val, argname):
+    """Long texts are named by their length."""
+    return f"{argname}-of-{len(val)}" if isinstance(val, (str, bytes)) and len(val) > 60 else None
+
+
+def _counts(config):
+    """How many tests passed, failed and were skipped."""
+    found = {kind: len(reports) for kind, reports in config.pluginmanager.get_plugin("terminalreporter").stats.items()}
+    return found.get("passed", 0), found.get("failed", 0) + found.get("error", 0), found.get("skipped", 0)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session):
+    """Ends with a status of its own if every test was skipped."""
+    passed, failed, skipped = _counts(session.config)
+    if skipped and not passed and not failed:
+        session.exitstatus = SKIPPED
+
+
+def pytest_addoption(parser):
+    parser.addoption("--counts", action="store_true", help="end with a line that counts, as scripts of this tree do")
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_unconfigure(config):
+    if config.getoption("--counts"):
+        print("{} passed, {} failed, {} skipped".format(*_counts(config)), flush=True)
