@@ -2,7 +2,6 @@
 
 import pathlib
 import tempfile
-import unittest
 
 import citations
 
@@ -33,15 +32,15 @@ def problems(source, name="part.cpp"):
         return citations.faults(root)
 
 
-class TheCheck(unittest.TestCase):
+class TestTheCheck:
     def refuses(self, source, sentence, name="part.cpp"):
         count, wrong = problems(source, name)
-        self.assertEqual(count, 1)
-        self.assertEqual(len(wrong), 1)
-        self.assertIn(sentence, wrong[0])
+        assert count == 1
+        assert len(wrong) == 1
+        assert sentence in wrong[0]
 
     def accepts(self, source, name="part.cpp", count=1):
-        self.assertEqual(problems(source, name), (count, []))
+        assert problems(source, name) == (count, [])
 
     def test_it_accepts_what_exists(self):
         self.accepts("// A chip (docs/spec/chip.md).\n")
@@ -81,12 +80,8 @@ class TheCheck(unittest.TestCase):
         self.refuses('evidence = "docs/spec/chip.md, 9."\n', "has no section 9", "game.toml")
 
 
-class ThisTree(unittest.TestCase):
+class TestThisTree:
     def test_every_citation_leads_somewhere(self):
         count, wrong = citations.faults()
-        self.assertGreater(count, 100)
-        self.assertEqual(wrong, [], "\n".join(wrong))
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert count > 100
+        assert wrong == [], "\n".join(wrong)

@@ -8,17 +8,14 @@ import pathlib
 import re
 import socket
 import subprocess
-import sys
 import tempfile
-import unittest
 
+import pytest
 import tomllib
+from harness import Server
 from markdown import prose
 from test_numbers import page, table
 from tree import ROOT
-
-sys.path.insert(0, str(ROOT / "tests/server"))
-from harness import Server  # noqa: E402
 
 UNIVERSAL = re.compile(r"\b(all|every|only|always|never)\b", re.IGNORECASE)
 BINARY = os.environ.get("RACEBEAM_BINARY", str(ROOT / "build/release/racebeam"))
@@ -51,51 +48,52 @@ def universal_sentences(text):
                 yield sentence
 
 
-class Ledger(unittest.TestCase):
-    def setUp(self):
+class TestLedger:
+    @pytest.fixture(autouse=True)
+    def set_up(self):
         self.claims = tomllib.loads(page("tests/docs/test_claims.toml"))
 
-    def test_each_universal_sentence_is_listed_with_what_holds_it(self):
+    def test_each_universal_sentence_is_listed_with_what_holds_it(self, subtests):
         for name, listed in self.claims.items():
             for sentence in universal_sentences(page(name)):
-                with self.subTest(page=name):
+                with subtests.test(page=name):
                     held = any(words in sentence for words in listed)
-                    self.assertTrue(held, f"tests/docs/test_claims.toml lacks a sentence of {name}: {sentence}")
+                    assert held, f"tests/docs/test_claims.toml lacks a sentence of {name}: {sentence}"
 
-    def test_each_claim_is_in_its_page_and_what_holds_it_in_the_tree(self):
+    def test_each_claim_is_in_its_page_and_what_holds_it_in_the_tree(self, subtests):
         for name, listed in self.claims.items():
             text = " ".join(page(name).split())
             for words, holder in listed.items():
-                with self.subTest(page=name, claim=words):
-                    self.assertTrue(words in text, "the page lacks these words")
+                with subtests.test(page=name, claim=words):
+                    assert words in text, "the page lacks these words"
                     file, _, test = holder.partition(": ")
                     if file != "says":
-                        self.assertIn(test, page(file), f"{file} lacks the test")
+                        assert test in page(file), f"{file} lacks the test"
 
 
-class Program(unittest.TestCase):
+class TestProgram:
     def subcommands(self):
         names = re.findall(r"^\| `racebeam (\w+)", page("README.md"), re.MULTILINE)
-        self.assertEqual(len(names), 17)
+        assert len(names) == 17
         return names
 
-    def test_a_usage_error_has_status_2_except_that_of_classic(self):
+    def test_a_usage_error_has_status_2_except_that_of_classic(self, subtests):
         for name in self.subcommands():
-            with self.subTest(subcommand=name):
+            with subtests.test(subcommand=name):
                 done = run(name, "--no-such-option")
-                self.assertEqual((done.returncode, done.stdout), (1 if name == "classic" else 2, ""), done.stderr)
-                self.assertRegex(done.stderr, r"^racebeam: .*--no-such-option.*\n$")
+                assert (done.returncode, done.stdout) == (1 if name == "classic" else 2, ""), done.stderr
+                assert re.search(r"^racebeam: .*--no-such-option.*\n$", done.stderr)
 
     def test_the_readme_lists_the_subcommands_of_the_program(self):
         accepted = re.search(r"accepted: (.*) \(see", run("moon").stderr)[1]
-        self.assertEqual(sorted(accepted.split(", ")), sorted(self.subcommands()))
+        assert sorted(accepted.split(", ")) == sorted(self.subcommands())
 
     def test_the_server_has_one_pair_of_pipes_for_each_address(self):
         done = run("serve", "--pipes", "a", "--pipes", "b")
-        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        assert (done.returncode, done.stdout) == (2, "")
 
 
-class Protocol(unittest.TestCase):
+class TestProtocol:
     def test_frame_begins_at_power_on_which_a_seed_causes(self):
         replies = talk(
             "load beamfall seed=1 sticky=0",
@@ -107,20 +105,20 @@ class Protocol(unittest.TestCase):
             "act 0*4",
         )
         frames = [(found["frame"], found["episode_frame"]) for found in map(values, replies) if "frame" in found]
-        self.assertEqual(frames, [("10", "10"), ("10", "0"), ("15", "5"), ("0", "0"), ("4", "4")])
+        assert frames == [("10", "10"), ("10", "0"), ("15", "5"), ("0", "0"), ("4", "4")]
 
     def test_an_idle_classic_client_is_closed_without_die(self):
         command = ["serve", "--classic", "--rom", "builtin:beamfall", "--listen", "tcp://127.0.0.1:0", "--idle", "1"]
         with Server(*command) as server:
             with socket.create_connection(("127.0.0.1", server.port())) as client, client.makefile("rb") as lines:
                 client.sendall(b"0,0,0,1\n")
-                self.assertEqual(lines.read(), b"160-210\n0,0:\n")
+                assert lines.read() == b"160-210\n0,0:\n"
 
     def test_only_requests_for_frames_run_frames(self):
         idle = ["settings", "stats", "actions", "names", "modes", "save a", "export a", "drop a", "peek 0", "poke 9 00"]
         replies = talk("load beamfall seed=1", "act 0*7", "look frame", *idle, "look frame")
-        self.assertEqual([words[0] for words in replies], ["ok"] * (4 + len(idle)))
-        self.assertEqual((replies[2], replies[-1]), (["ok", "frame=7"], ["ok", "frame=7"]))
+        assert [words[0] for words in replies] == ["ok"] * (4 + len(idle))
+        assert (replies[2], replies[-1]) == (["ok", "frame=7"], ["ok", "frame=7"])
 
     def test_each_generator_draws_by_its_own_seed(self):
         """That of no-ops goes on where a restored state has that of sticky actions; docs/architecture.md lists both."""
@@ -132,33 +130,31 @@ class Protocol(unittest.TestCase):
             return talk(load, "save s generator=1", reset[1], *acts, "restore s", *acts, *reset, "restore s", *reset)
 
         first = played("seed=1")
-        self.assertEqual(first, played("seed=1"))
-        self.assertNotEqual(first[2:], played("seed=2")[2:])
-        self.assertEqual(first[4], first[7])  # the state has the generator of sticky actions
-        self.assertNotEqual(first[9], first[12])  # and lacks that of no-ops
+        assert first == played("seed=1")
+        assert first[2:] != played("seed=2")[2:]
+        assert first[4] == first[7]  # the state has the generator of sticky actions
+        assert first[9] != first[12]  # and lacks that of no-ops
         same = [played("seed=1", f"system_seed={seed}")[2:] for seed in (1, 2)]
-        self.assertEqual(same[0][0], same[1][0])  # the seed of the system decides no no-ops
+        assert same[0][0] == same[1][0]  # the seed of the system decides no no-ops
 
     def test_a_state_is_refused_under_other_rules_where_they_differ(self):
         """tests/protocol/load/load_test.cpp has a game in which they differ; in Beamfall, they do not."""
         state = values(talk("load beamfall seed=1", "save a", "export a")[-1])["data"]
-        self.assertEqual(talk("load beamfall rules=fixed", f"import b {state}", "restore b")[2][0], "ok")
+        assert talk("load beamfall rules=fixed", f"import b {state}", "restore b")[2][0] == "ok"
 
 
-class Presets(unittest.TestCase):
-    def test_the_python_page_has_the_presets_of_the_protocol(self):
+class TestPresets:
+    def test_the_python_page_has_the_presets_of_the_protocol(self, subtests):
         rows = {name.strip("`"): row for name, *row in table(page("docs/python/reference.md"), "| preset | frames |")}
-        self.assertEqual(set(rows), set(values(talk("hello")[0])["presets"].split(",")))
+        assert set(rows) == set(values(talk("hello")[0])["presets"].split(","))
         for name, (frames, sticky, actions, limit, *besides) in rows.items():
-            with self.subTest(preset=name):
+            with subtests.test(preset=name):
                 loaded = values(talk(f"load beamfall preset={name}")[0])
-                self.assertEqual([loaded["frame_skip"], loaded["sticky"]], [frames, sticky])
-                self.assertEqual(loaded["action_set"], {"all": "full"}.get(actions, actions))
-                self.assertEqual(loaded["max_episode_frames"], limit.replace(",", ""))
+                assert [loaded["frame_skip"], loaded["sticky"]] == [frames, sticky]
+                assert loaded["action_set"] == {"all": "full"}.get(actions, actions)
+                assert loaded["max_episode_frames"] == limit.replace(",", "")
                 others = [loaded["life_loss"], loaded["noop_max"], loaded["reward_min"], loaded["reward_max"]]
-                self.assertEqual(
-                    others, ["restart", "30", "-1", "1"] if any(besides) else ["ignored", "0", "none", "none"]
-                )
+                assert others == (["restart", "30", "-1", "1"] if any(besides) else ["ignored", "0", "none", "none"])
 
     def test_the_page_on_experiments_has_the_presets_of_plans(self):
         rows = table(page("docs/experiments.md"), "| Preset | Frames of a decision |")
@@ -166,10 +162,10 @@ class Presets(unittest.TestCase):
             preset["name"]: preset["sets"]
             for preset in tomllib.loads(page("protocol/protocol.toml"))["evaluation_preset"]
         }
-        self.assertEqual([name.strip("`") for name, *_ in rows], list(listed))
+        assert [name.strip("`") for name, *_ in rows] == list(listed)
         for name, frames, sticky, actions, noops, longest, *_ in rows:
             words = f"frame_skip={frames} sticky={sticky} action_set={actions} max_episode_frames={longest}"
-            self.assertEqual(listed[name.strip("`")], words.replace(",", "") + f" noop_max={noops}")
+            assert listed[name.strip("`")] == words.replace(",", "") + f" noop_max={noops}"
 
     def test_random_and_perturb_decide_on_every_frame_and_other_agents_as_the_preset_says(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -180,17 +176,17 @@ class Presets(unittest.TestCase):
             )
             output = run("experiment", str(plan), "--dry-run", "--unmeasured").stdout
         decisions = dict(re.findall(r"^(\w+) +1?\d units +(\d+) decisions", output, re.MULTILINE))
-        self.assertEqual(decisions, {"random": "100", "perturb": "1800", "const": "360", "basic": "20"})
+        assert decisions == {"random": "100", "perturb": "1800", "const": "360", "basic": "20"}
 
 
-class Lists(unittest.TestCase):
+class TestLists:
     def test_the_page_on_fuzzing_has_each_target(self):
         targets = page("fuzz/README.md").partition("## Attacks")[0]
         listed = re.findall(r"^\| `(\w+)` \|", targets, re.MULTILINE)
         built = re.findall(r"^fuzz_target\((\w+) ", page("fuzz/CMakeLists.txt"), re.MULTILINE)
         run_by_script = re.findall(r'^    "(\w+)": \d+,$', page("scripts/fuzz"), re.MULTILINE)
-        self.assertEqual(sorted(set(listed)), sorted(built))
-        self.assertEqual(sorted(run_by_script), sorted(built))
+        assert sorted(set(listed)) == sorted(built)
+        assert sorted(run_by_script) == sorted(built)
         named = re.search(r"Fuzz targets cover (.*?) \(\[", " ".join(page("SECURITY.md").split()))[1]
         subjects = {
             "both protocols": "line_session classic_session",
@@ -208,42 +204,38 @@ class Lists(unittest.TestCase):
             "announce files": "announce",
             "and encodings": "encodings",
         }
-        self.assertEqual(named, ", ".join(subjects))
-        self.assertEqual(set(built) - set(" ".join(subjects.values()).split()), {"media"})  # made here
+        assert named == ", ".join(subjects)
+        assert set(built) - set(" ".join(subjects.values()).split()) == {"media"}  # made here
 
     def test_the_architecture_lists_three_generators_with_their_seeds(self):
         rows = table(page("docs/architecture.md"), "| generator | seeded with |")
-        self.assertEqual([row[1] for row in rows], ["`--system-seed`", "`--seed`", "`--seed`"])
+        assert [row[1] for row in rows] == ["`--system-seed`", "`--seed`", "`--seed`"]
 
     def test_the_service_of_systemd_is_sandboxed_as_its_page_says(self):
         lines = page("packages/systemd/racebeam.service.in").splitlines()
         claim = "writes only to `/var/lib/racebeam` and to a private `/tmp`, and has no capabilities"
-        self.assertIn(claim, " ".join(page("packages/README.md").split()))
+        assert claim in " ".join(page("packages/README.md").split())
         fences = {"ProtectHome=yes", "ProtectSystem=strict", "StateDirectory=racebeam", "PrivateTmp=yes"}
-        self.assertEqual((fences | {"CapabilityBoundingSet="}) - set(lines), set())
-        self.assertEqual([line for line in lines if line.startswith(("ReadWritePaths", "BindPaths"))], [])
+        assert (fences | {"CapabilityBoundingSet="}) - set(lines) == set()
+        assert [line for line in lines if line.startswith(("ReadWritePaths", "BindPaths"))] == []
 
     def test_each_error_of_the_python_page_is_one_that_a_test_expects(self):
         tests = "".join(path.read_text() for path in (ROOT / "tests/python").rglob("*.*") if path.suffix != ".pyc")
         rows = table(page("docs/python/reference.md"), "| error | when |")
         names = {name for row in rows for name in re.findall(r"`[\w.]*?(\w+)`", " ".join(row))} - {"render"}
-        self.assertGreater(len(names), 12)
-        forms = r"(?:Raises(?:Regex)?\(.*|except .*|    |socket\.|\")"  # of a test, or of sentences.txt
+        assert len(names) > 12
+        forms = r"(?:[Rr]aises(?:Regex)?\(.*|except .*|    |socket\.|\")"  # of a test, or of sentences.txt
         expected = {name for name in names if re.search(rf"{forms}{name}\b", tests)}
-        self.assertEqual(names - expected - {"AtariEnv", "AtariVectorEnv", "render_mode"}, set())
+        assert names - expected - {"AtariEnv", "AtariVectorEnv", "render_mode"} == set()
 
     def test_hooks_call_what_is_in_the_tree(self):
         entries = re.findall(r"entry: (\S+) ?(\S*)", page(".pre-commit-config.yaml"))
         for program, script in entries:
             name = script if program == ".venv/bin/pytest" else program
             if "/" in name:
-                self.assertTrue((ROOT / name).is_file(), name)
+                assert (ROOT / name).is_file(), name
 
     def test_every_client_of_the_line_protocol_reads_the_address_of_its_environment(self):
         for folder in ("python/racebeam", "java/src/main", "lua/racebeam", "cpp/racebeam", "js/src", "shell"):
             files = [path for path in (ROOT / "clients" / folder).rglob("*") if path.is_file()]
-            self.assertTrue(any(b"RACEBEAM_ADDRESS" in path.read_bytes() for path in files), folder)
-
-
-if __name__ == "__main__":
-    unittest.main()
+            assert any(b"RACEBEAM_ADDRESS" in path.read_bytes() for path in files), folder

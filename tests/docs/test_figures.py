@@ -1,13 +1,10 @@
 """The speeds in README.md are those of the last run of scripts/bench core, which docs/performance.md has."""
 
 import re
-import sys
-import unittest
 
+import bench_picture
+import pytest
 from tree import ROOT
-
-sys.path.insert(0, str(ROOT / "scripts/measure"))
-import bench_picture  # noqa: E402
 
 SETTINGS = ("Screen of every frame", "Frame skip 4, screen of the last", "Rewards and RAM only")
 
@@ -25,25 +22,19 @@ def last_run():
     return {name: means[name] for name in SETTINGS}, games, processor
 
 
-class Readme(unittest.TestCase):
-    def setUp(self):
+class TestReadme:
+    @pytest.fixture(autouse=True)
+    def set_up(self):
         self.means, self.games, self.processor = last_run()
 
     def test_the_speeds_of_the_readme_are_those_of_the_last_run(self):
         text = " ".join((ROOT / "README.md").read_text().split())
         every, last, none = (f"{mean:.1f}" for mean in self.means.values())
-        self.assertIn(
+        assert (
             f"runs {every} times as many frames a second as ALE with the screen of every frame, "
             f"{last} times as many with frame skip 4, and {none} times as many with rewards and RAM only. "
-            f"These are means of {self.games} games on an {self.processor};",
-            text,
-        )
+            f"These are means of {self.games} games on an {self.processor};"
+        ) in text
 
     def test_the_chart_of_the_readme_is_that_of_the_last_run(self):
-        self.assertEqual(
-            (ROOT / "docs/performance/summary.svg").read_text(), bench_picture.draw_summary(self.means, self.games)
-        )
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert (ROOT / "docs/performance/summary.svg").read_text() == bench_picture.draw_summary(self.means, self.games)

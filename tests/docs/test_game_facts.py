@@ -6,8 +6,8 @@ The program reads its own game files (games/catalogue), so that the two can be c
 import json
 import os
 import subprocess
-import unittest
 
+import pytest
 from tree import ROOT
 
 BINARY = os.environ.get("RACEBEAM_BINARY", str(ROOT / "build/release/racebeam"))
@@ -24,28 +24,25 @@ def catalogue():
     return {game["name"]: game for game in json.loads(output)}
 
 
-class Facts(unittest.TestCase):
+class TestFacts:
+    @pytest.fixture(scope="class", autouse=True)
     @classmethod
-    def setUpClass(cls):
+    def set_up_class(cls):
         cls.specified, cls.catalogue = specified(), catalogue()
 
     def test_every_game_of_the_specification_is_offered(self):
-        self.assertEqual(len(self.specified), 104)
-        self.assertEqual(self.specified.keys() - self.catalogue.keys(), set())
+        assert len(self.specified) == 104
+        assert self.specified.keys() - self.catalogue.keys() == set()
 
-    def test_images_actions_modes_and_difficulties_are_the_same(self):
+    def test_images_actions_modes_and_difficulties_are_the_same(self, subtests):
         for name, game in self.specified.items():
             ours = self.catalogue[name]
-            with self.subTest(game=name):
+            with subtests.test(game=name):
                 recognised = [image["md5"] for image in ours["images"] if image["recognised"]]
-                self.assertEqual(recognised, game["md5"])
-                self.assertEqual(ours["minimal_actions"], game["minimal_actions"])
-                self.assertEqual(ours["legal_actions"], game.get("legal_actions", ours["legal_actions"]))
+                assert recognised == game["md5"]
+                assert ours["minimal_actions"] == game["minimal_actions"]
+                assert ours["legal_actions"] == game.get("legal_actions", ours["legal_actions"])
                 if "legal_actions" not in game:
-                    self.assertEqual(len(ours["legal_actions"]), ALL_ACTIONS)
+                    assert len(ours["legal_actions"]) == ALL_ACTIONS
                 for fact in ("modes", "default_mode", "difficulties"):
-                    self.assertEqual(ours[fact], game[fact], fact)
-
-
-if __name__ == "__main__":
-    unittest.main()
+                    assert ours[fact] == game[fact], fact

@@ -3,7 +3,6 @@
 import importlib.util
 import re
 import shlex
-import unittest
 
 import tomllib
 import tree
@@ -44,12 +43,12 @@ def packages():
     return {NAME.match(requirement)[0] for requirement in requirements} - {"racebeam"}
 
 
-class InstallLines(unittest.TestCase):
+class TestInstallLines:
     def test_the_check_refuses_what_pip_cannot_install(self):
         for word in ("racebeam", "racebeam[jax]", "./clients/python", ".[unknown]", "./evaluation[jax]"):
-            self.assertIsNotNone(fault(word), word)
+            assert fault(word) is not None, word
         for word in (".", ".[jax]", ".[jax,human]", "./evaluation", "gymnasium>=1.1", "dm-env"):
-            self.assertIsNone(fault(word), word)
+            assert fault(word) is None, word
 
     def test_each_line_of_the_tree_works(self):
         wrong, count = [], 0
@@ -59,8 +58,8 @@ class InstallLines(unittest.TestCase):
             for command in commands((tree.ROOT / path).read_text()):
                 count += 1
                 wrong += [f"{path}: {word} {fault(word)}" for word in command if fault(word)]
-        self.assertFalse(wrong, "\n".join(wrong))
-        self.assertGreater(count, 10)
+        assert not wrong, "\n".join(wrong)
+        assert count > 10
 
     def test_the_hints_of_errors_are_the_requirements_of_the_extras(self):
         spec = importlib.util.spec_from_file_location("extras", tree.ROOT / "clients/python/racebeam/extras.py")
@@ -69,12 +68,8 @@ class InstallLines(unittest.TestCase):
         required = {requirement.partition(";")[0] for extra in extras(tree.ROOT).values() for requirement in extra}
         for requirement in module.REQUIREMENTS.values():
             if requirement.startswith("."):
-                self.assertIsNone(fault(requirement), requirement)
+                assert fault(requirement) is None, requirement
             else:
-                self.assertIn(requirement, required)
+                assert requirement in required
         for name, requirement in module.REQUIREMENTS.items():
-            self.assertEqual(module.install_hint(name), f'install it with: pip install "{requirement}"')
-
-
-if __name__ == "__main__":
-    unittest.main()
+            assert module.install_hint(name) == f'install it with: pip install "{requirement}"'

@@ -2,7 +2,6 @@
 
 import pathlib
 import tempfile
-import unittest
 
 import layout
 
@@ -21,18 +20,18 @@ def problems(text):
         return wrong
 
 
-class TheCheck(unittest.TestCase):
+class TestTheCheck:
     def refuses(self, text, sentence):
         wrong = problems(text)
-        self.assertEqual(len(wrong), 1, wrong)
-        self.assertIn(sentence, wrong[0])
+        assert len(wrong) == 1, wrong
+        assert sentence in wrong[0]
 
     def test_it_accepts_links_that_lead_somewhere(self):
         for text in (
             "# One\n\n[a](other.md) [b](other.md#1-one-thing-and-more) [c](#one) [d](../docs)\n",
             "[a page](https://example.org/x) and `[no](link.md)`\n\n```\n[no](code.md)\n```\n",
         ):
-            self.assertEqual(problems(text), [])
+            assert problems(text) == []
 
     def test_it_refuses_links_that_do_not(self):
         self.refuses("[a](another.md)\n", "docs/one.md:1: another.md does not exist")
@@ -44,24 +43,20 @@ class TheCheck(unittest.TestCase):
 
     def test_it_refuses_paths_of_the_tree_that_are_not_there(self):
         self.refuses("See `docs/three.md` and `docs/other.md`.\n", "docs/one.md:1: docs/three.md does not exist")
-        self.assertEqual(problems("`docs/NAME.md`, `elsewhere/a.md`, and `docs/*.md`\n"), [])
+        assert problems("`docs/NAME.md`, `elsewhere/a.md`, and `docs/*.md`\n") == []
 
     def test_it_refuses_wide_lines_but_not_tables_and_code(self):
         self.refuses("word " * 21 + "\n", "docs/one.md:1: 105 columns")
-        self.assertEqual(problems("| a |\n|---|\n| " + "word " * 21 + "|\n"), [])
-        self.assertEqual(problems("```\n" + "word " * 21 + "\n```\n"), [])
+        assert problems("| a |\n|---|\n| " + "word " * 21 + "|\n") == []
+        assert problems("```\n" + "word " * 21 + "\n```\n") == []
 
     def test_it_refuses_tables_without_headings(self):
         self.refuses("| a | |\n|---|---|\n| 1 | 2 |\n", "docs/one.md:1: a column of the table has no heading")
-        self.assertEqual(problems("| a | b |\n|---|---:|\n| 1 | |\n"), [])
+        assert problems("| a | b |\n|---|---:|\n| 1 | |\n") == []
 
 
-class ThisTree(unittest.TestCase):
+class TestThisTree:
     def test_every_document_keeps_to_it(self):
         count, wrong = layout.faults()
-        self.assertGreater(count, 10)
-        self.assertEqual(wrong, [], "\n".join(wrong))
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert count > 10
+        assert wrong == [], "\n".join(wrong)

@@ -2,7 +2,9 @@
 
 test_numbers.toml says of each section with numbers whether a script writes it, a test reads it, or why neither does.
 
-    test_numbers.py --counts    prints how many numbers there are of each kind, and why some are left
+    PYTHONPATH=scripts/measure .venv/bin/python tests/docs/test_numbers.py
+
+prints how many numbers there are of each kind, and why some are left.
 """
 
 import ast
@@ -16,7 +18,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import unittest
 import zlib
 
 import tomllib
@@ -57,36 +58,36 @@ def listed_sections():
                 yield name, section.heading, count, listed.get(section.heading, listed.get("*", ""))
 
 
-class Sections(unittest.TestCase):
-    def test_each_section_with_numbers_says_what_holds_them(self):
+class TestSections:
+    def test_each_section_with_numbers_says_what_holds_them(self, subtests):
         for name, heading, _, holder in listed_sections():
-            with self.subTest(page=name, section=heading):
+            with subtests.test(page=name, section=heading):
                 kind, _, rest = holder.partition(": ")
-                self.assertIn(kind, ("generated", "tested", "left"), "tests/docs/test_numbers.toml lacks the section")
+                assert kind in ("generated", "tested", "left"), "tests/docs/test_numbers.toml lacks the section"
                 if kind != "left":
                     file, _, test = rest.partition(": ")
-                    self.assertIn(test, page(file))
+                    assert test in page(file)
 
     def test_each_page_is_there_and_each_listed_section_has_numbers(self):
         listed = tomllib.loads(page("tests/docs/test_numbers.toml"))
         pages = {path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").rglob("*.md")}
-        self.assertEqual({name for name in pages if not name.startswith("docs/spec/")} - set(listed), set())
+        assert {name for name in pages if not name.startswith("docs/spec/")} - set(listed) == set()
         found = {(name, heading) for name, heading, *_ in listed_sections()}
         headings = {(name, heading) for name, held in listed.items() for heading in held if heading != "*"}
-        self.assertEqual(headings - found, set())
+        assert headings - found == set()
 
 
-class Numbers(unittest.TestCase):
+class TestNumbers:
     def test_the_limits_of_a_server_have_their_defaults(self):
         output = subprocess.run([BINARY, "config"], capture_output=True, text=True, check=True).stdout
         defaults = dict(re.findall(r"(?m)^(\w+) = (\S+) +# default$", output))
         rows = table(page("server/README.md"), "| option | default | beyond the limit |")
-        self.assertEqual(len(rows), 13)
+        assert len(rows) == 13
         for name, default, _ in rows:
             if name != "`--max-memory`":
                 key = name.strip("`-").replace("-", "_")
-                self.assertEqual(re.match(r"\d+", default)[0], defaults[key], name)
-        self.assertIn(f"microseconds (default {defaults['busy_poll']})", " ".join(page("server/README.md").split()))
+                assert re.match(r"\d+", default)[0] == defaults[key], name
+        assert f"microseconds (default {defaults['busy_poll']})" in " ".join(page("server/README.md").split())
 
     def state(self, *words):
         """The bytes of an export, and a function that returns the bytes of the row that begins so in docs/states.md."""
@@ -105,22 +106,18 @@ class Numbers(unittest.TestCase):
     def test_an_export_has_the_bytes_of_the_table(self):
         number = functools.partial(int.from_bytes, byteorder="little")
         data, part = self.state()
-        self.assertEqual(part("`RBSTATE`"), b"RBSTATE\n")
+        assert part("`RBSTATE`") == b"RBSTATE\n"
         version = re.search(r"kSnapshotVersion = (\d+)", page("environment/saved/saved_state_format.hpp"))[1]
-        self.assertEqual(number(part("version")), int(version))
-        self.assertEqual(number(part("CRC-32")), zlib.crc32(data[24:]))
-        self.assertEqual((part("MD5"), part("the game's name").rstrip(b"\0")), (BEAMFALL, b"beamfall"))
-        self.assertEqual(
-            [number(part(name)) for name in ("rows", "1 if the generator", "size of the cart")], [210, 1, 0]
-        )
-        self.assertEqual(number(part("size of the whole")), len(data))
-        self.assertEqual(len(data), 132 + number(part("size of the values")) + 2 * 160 * 210 + 2500)
+        assert number(part("version")) == int(version)
+        assert number(part("CRC-32")) == zlib.crc32(data[24:])
+        assert (part("MD5"), part("the game's name").rstrip(b"\0")) == (BEAMFALL, b"beamfall")
+        assert [number(part(name)) for name in ("rows", "1 if the generator", "size of the cart")] == [210, 1, 0]
+        assert number(part("size of the whole")) == len(data)
+        assert len(data) == 132 + number(part("size of the values")) + 2 * 160 * 210 + 2500
         slot, part = self.state("episode=1")
-        self.assertEqual(part("`RBSLOT`"), b"RBSLOT\r\n")
-        self.assertEqual(
-            (number(part("size of the whole")), number(part("CRC-32"))), (len(slot), zlib.crc32(slot[20:]))
-        )
-        self.assertEqual(slot[-number(part("size of the machine's state")) :][:8], b"RBSTATE\n")
+        assert part("`RBSLOT`") == b"RBSLOT\r\n"
+        assert (number(part("size of the whole")), number(part("CRC-32"))) == (len(slot), zlib.crc32(slot[20:]))
+        assert slot[-number(part("size of the machine's state")) :][:8] == b"RBSTATE\n"
 
     def test_a_log_has_the_bytes_of_the_table(self):
         requests = ["load beamfall max_episode_frames=600", "log inline", "reset", "act 1*700", "log last", ""]
@@ -129,58 +126,56 @@ class Numbers(unittest.TestCase):
         rows = table(page("docs/episodes.md"), "| Offset | Bytes | Meaning |")
         magic, version, size, checksum = (data[int(at) :][: int(bytes)] for at, bytes, _ in rows[:4])
         sealed = data[int(rows[4][0]) :]
-        self.assertEqual((magic, int.from_bytes(version, "little")), (b"RBEPISOD", 1))
-        self.assertEqual(int.from_bytes(checksum, "little"), zlib.crc32(data[:20] + sealed))
+        assert (magic, int.from_bytes(version, "little")) == (b"RBEPISOD", 1)
+        assert int.from_bytes(checksum, "little") == zlib.crc32(data[:20] + sealed)
         contents = zlib.decompress(sealed)
-        self.assertEqual(int.from_bytes(size, "little"), len(contents))
+        assert int.from_bytes(size, "little") == len(contents)
         lines, _, rest = contents.partition(b"\n\n")
-        self.assertEqual([line.split()[0] for line in lines.splitlines()], [b"load", b"image", b"from", b"ended"])
+        assert [line.split()[0] for line in lines.splitlines()] == [b"load", b"image", b"from", b"ended"]
         decisions = int(re.search(rb" decisions=(\d+) ", lines)[1])
-        self.assertEqual(decisions, 600)
-        self.assertEqual((len(rest), rest[-decisions:]), (8 * (decisions // 256 + 1) + decisions, b"\1" * decisions))
+        assert decisions == 600
+        assert (len(rest), rest[-decisions:]) == (8 * (decisions // 256 + 1) + decisions, b"\1" * decisions)
 
     def test_instructions_of_a_frame_are_those_of_the_baseline(self):
         counts = json.loads(page("tests/bench/instructions/baseline.json"))["translator"]
         rounded = {game: f"{round(counts[game], -3):,}" for game in ("seaquest", "pong")}
         text = " ".join(page("docs/performance.md").split())
-        self.assertIn(f"Seaquest takes {rounded['seaquest']} instructions a frame, and Pong {rounded['pong']} (", text)
+        assert f"Seaquest takes {rounded['seaquest']} instructions a frame, and Pong {rounded['pong']} (" in text
 
     def test_the_results_are_what_their_script_writes(self):
         with tempfile.TemporaryDirectory() as folder:
             written = pathlib.Path(folder, "results.md")
             script = ROOT / "scripts/measure/paper_results.py"
             subprocess.run([sys.executable, "-B", script, "--into", written], check=True)
-            self.assertEqual(written.read_text(), page("docs/results.md"))
+            assert written.read_text() == page("docs/results.md")
 
     def test_the_title_of_the_readme_rounds_the_speed_of_the_last_run(self):
         means, _, _ = last_run()
         [listed] = re.findall(r"\(ALE\), (\d+) times as\s+fast", page("README.md"))
-        self.assertEqual(int(listed), int(means["Screen of every frame"]))
+        assert int(listed) == int(means["Screen of every frame"])
 
     def test_the_readme_names_the_packages_of_this_version(self):
         [version] = re.findall(r"project\(racebeam VERSION ([0-9.]+)", page("CMakeLists.txt"))
         versions = re.findall(r"racebeam-(\d+\.\d+\.\d+)", page("README.md"))
-        self.assertEqual(set(versions), {version})
+        assert set(versions) == {version}
 
     def test_clients_have_about_as_many_lines_as_their_page_says(self):
         lines = {client.language: client.lines_of_code() for client in clients.CLIENTS}
         rows = table(page("clients/README.md"), "| language | connects over |")
-        self.assertEqual(len(rows), len(HEADINGS))
+        assert len(rows) == len(HEADINGS)
         for name, *_, claim in rows:
             count = lines[HEADINGS[name.split()[0]]]
-            self.assertLess(
-                abs(int(claim) - count), MOST_WRONG * count, f"{name}: scripts/clients counts {count} lines"
-            )
+            assert abs(int(claim) - count) < MOST_WRONG * count, f"{name}: scripts/clients counts {count} lines"
 
     def test_the_python_page_names_the_extras_and_the_oldest_versions(self):
         project = tomllib.loads(page("pyproject.toml"))["project"]
         text = " ".join(page("docs/python/reference.md").split())
         [listed] = re.findall(r"Each of the extras (.*?) brings", text)
-        self.assertEqual(set(re.findall(r"`([\w-]+)`", listed)), set(project["optional-dependencies"]))
+        assert set(re.findall(r"`([\w-]+)`", listed)) == set(project["optional-dependencies"])
         python = project["requires-python"].removeprefix(">=")
-        self.assertIn(f"runs on Linux with Python {python} or later", text)
+        assert f"runs on Linux with Python {python} or later" in text
         gymnasium = re.search(r"gymnasium>=([\d.]+)", project["optional-dependencies"]["gymnasium"][0])[1]
-        self.assertIn(f"brings Gymnasium {gymnasium} or later", text)
+        assert f"brings Gymnasium {gymnasium} or later" in text
 
     def test_the_python_page_has_the_limits_of_vectors(self):
         source = ast.parse(page("clients/python/racebeam/vector_options.py"))
@@ -194,7 +189,7 @@ class Numbers(unittest.TestCase):
             name.strip("`"): takes for name, takes in table(page("docs/python/reference.md"), "| argument | takes |")
         }
         for name in ("stack_num", "noop_max", "frameskip"):
-            self.assertEqual(figures[name].replace(" to ", ", "), limits[name].strip("()"))
+            assert figures[name].replace(" to ", ", ") == limits[name].strip("()")
 
 
 def print_counts():
@@ -209,4 +204,4 @@ def print_counts():
 
 
 if __name__ == "__main__":
-    print_counts() if "--counts" in sys.argv else unittest.main()
+    print_counts()

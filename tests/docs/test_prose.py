@@ -1,7 +1,6 @@
 """Comments, messages and documents avoid forms that hide who does what. CONTRIBUTING.md, "Prose", has the rules."""
 
 import re
-import unittest
 
 from tree import ROOT, files
 
@@ -47,14 +46,14 @@ def faults(path, text):
                 yield f"{path}:{number}: {line.strip()[:100]} ({advice})"
 
 
-class Prose(unittest.TestCase):
+class TestProse:
     def test_this_tree_has_no_forbidden_form(self):
         wrong = []
         for path in files():
             name = path.as_posix()
             if (path.suffix in ENDINGS or name.startswith("scripts/")) and not name.startswith(NOT_READ):
                 wrong += faults(name, (ROOT / path).read_text(errors="replace"))
-        self.assertEqual(wrong, [], "\n".join(wrong))
+        assert wrong == [], "\n".join(wrong)
 
     def test_each_form_is_found(self):
         for line in (
@@ -75,7 +74,7 @@ class Prose(unittest.TestCase):
             'TEST_CASE("a folder is no image") {',
             "    def test_mypy_is_content(self):",
         ):
-            self.assertEqual(len(list(faults("a", line))), 1, line)
+            assert len(list(faults("a", line))) == 1, line
         for line in (
             "\"unknown game 'x'; accepted: a, b\"",
             "// Lines for which there is no room wait here.",
@@ -86,8 +85,4 @@ class Prose(unittest.TestCase):
             'TEST_CASE("A request is over only if none of its acts was played") {',
             "    def test_machines_are_told_apart(self):",
         ):
-            self.assertEqual(list(faults("a", line)), [], line)
-
-
-if __name__ == "__main__":
-    unittest.main()
+            assert list(faults("a", line)) == [], line

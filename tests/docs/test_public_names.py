@@ -2,7 +2,6 @@
 
 import ast
 import re
-import unittest
 
 import tree
 
@@ -50,7 +49,7 @@ def code(text):
     return "\n".join((*BLOCK.findall(text), *SPAN.findall(BLOCK.sub("", text))))
 
 
-class PublicNames(unittest.TestCase):
+class TestPublicNames:
     def test_each_name_is_in_a_page(self):
         text = "\n".join(code(page.read_text()) for page in sorted(PAGES.rglob("*.md")))
         missing = [
@@ -59,16 +58,12 @@ class PublicNames(unittest.TestCase):
             for name in public_names(module)
             if not re.search(rf"\b{name}\b", text)
         ]
-        self.assertEqual(missing, [])
+        assert missing == []
 
     def test_each_method_of_a_session_is_in_the_document_with_its_arguments(self):
         section = (PAGES / "python/reference.md").read_text().split("## Sessions")[1].split("\n| address |")[0]
         calls = dict(CALL.findall(section))
         for module, name in (("wire/commands", "Commands"), ("wire/session", "Session")):
             for method, arguments in methods(module, name).items():
-                self.assertEqual(calls.pop(method, None), arguments, method)
-        self.assertEqual(calls, {}, "a session lacks these methods")
-
-
-if __name__ == "__main__":
-    unittest.main()
+                assert calls.pop(method, None) == arguments, method
+        assert calls == {}, "a session lacks these methods"

@@ -4,7 +4,6 @@ import os
 import re
 import subprocess
 import sys
-import unittest
 
 from tree import ROOT
 
@@ -31,27 +30,27 @@ def simulate(*words):
     return done.stdout.splitlines()[-1].split()
 
 
-class Memory(unittest.TestCase):
+class TestMemory:
     def test_the_prose_has_the_largest_session_of_one_game_of_the_table(self):
         table = TEXT.partition("<!-- scripts/check/memory --write: begin -->")[2].partition("<!-- end -->")[0]
         rows = re.findall(r"^\| (\S.*?) \| ([\d,]+) \| ([\d,]+) \|", table, re.MULTILINE)
-        self.assertEqual(len(rows), 7)
+        assert len(rows) == 7
         largest = max(number(resident) for name, _, resident in rows if "open" not in name)
         rounded = -(-largest // 10) * 10
         for page in (TEXT, (ROOT / "server/README.md").read_text()):
-            self.assertIn(f"A session of one game takes up to {rounded} KiB", " ".join(page.split()))
-        self.assertIn(f"10,000 acting sessions take up to {rounded / 100:.1f} GB", " ".join(TEXT.split()))
+            assert f"A session of one game takes up to {rounded} KiB" in " ".join(page.split())
+        assert f"10,000 acting sessions take up to {rounded / 100:.1f} GB" in " ".join(TEXT.split())
 
     def test_counted_and_resident_memory_differ_by_less_than_the_factor_of_the_check(self):
         table = TEXT.partition("<!-- scripts/check/memory --write: begin -->")[2].partition("<!-- end -->")[0]
         for counted, resident in re.findall(r"\| ([\d,]+) \| ([\d,]+) \| [\d,]+ \| [\d,]+ \|$", table, re.MULTILINE):
-            self.assertTrue(1 / 1.5 <= number(counted) / number(resident) <= 1.5, (counted, resident))
+            assert 1 / 1.5 <= number(counted) / number(resident) <= 1.5, (counted, resident)
 
 
-class Paper(unittest.TestCase):
+class TestPaper:
     def claim(self, pattern):
         found = re.search(pattern, PAPER)
-        self.assertIsNotNone(found, f"docs/scale.md has no longer: {pattern}")
+        assert found is not None, f"docs/scale.md has no longer: {pattern}"
         return found
 
     def test_the_units_and_their_hours_are_those_of_the_dry_run(self):
@@ -64,25 +63,23 @@ class Paper(unittest.TestCase):
         }
         units, hours = found["all"]
         claim = self.claim(r"counts ([\d,]+) units and ([\d,]+) core-hours")
-        self.assertEqual((number(claim[1]), number(claim[2])), (units, round(hours)))
-        self.assertEqual(number(self.claim(r"24 hours of ([\d,]+) cores")[1]), -(-hours // 24))
+        assert (number(claim[1]), number(claim[2])) == (units, round(hours))
+        assert number(self.claim(r"24 hours of ([\d,]+) cores")[1]) == -(-hours // 24)
         longest = found["ram"][1] / found["ram"][0]
         claim = self.claim(r"the agent `ram` takes ([\d.]+) hours, and ([\d.]+) on a straggler")
-        self.assertEqual((claim[1], claim[2]), (f"{longest:.1f}", f"{2 * longest:.1f}"))
+        assert (claim[1], claim[2]) == (f"{longest:.1f}", f"{2 * longest:.1f}")
 
-    def test_the_nodes_are_those_of_the_simulation(self):
+    def test_the_nodes_are_those_of_the_simulation(self, subtests):
         table = TEXT.partition("## The paper in a day\n")[2].partition("### From a pilot")[0]
         rows = ROW.findall(table)
-        self.assertEqual(len(rows), 5)
+        assert len(rows) == 5
         for options, nodes, cores, busy in rows:
-            with self.subTest(options=options):
+            with subtests.test(options=options):
                 found = simulate("--within", "24", *(options.strip("`").split() if options != "none" else []))
                 if found is None:
-                    self.assertEqual((nodes, cores), ("not possible", "-"))
+                    assert (nodes, cores) == ("not possible", "-")
                 else:
-                    self.assertEqual(
-                        (number(nodes), number(cores), f"{busy}%"), (int(found[0]), int(found[1]), found[4])
-                    )
+                    assert (number(nodes), number(cores), f"{busy}%") == (int(found[0]), int(found[1]), found[4])
 
     def test_what_failures_cost_is_what_the_simulation_says(self):
         claim = self.claim(
@@ -92,8 +89,4 @@ class Paper(unittest.TestCase):
         )
         for words, hours, waste in (((), claim[2], claim[3]), (("--checkpoint", "3600"), claim[4], claim[5])):
             found = simulate("--longest-first", "--failures", "365", "--nodes", claim[1], *words)
-            self.assertEqual((hours, int(waste)), (found[2], round(float(found[5]))))
-
-
-if __name__ == "__main__":
-    unittest.main()
+            assert (hours, int(waste)) == (found[2], round(float(found[5])))

@@ -5,7 +5,6 @@ import os
 import re
 import subprocess
 import tempfile
-import unittest
 
 from tree import ROOT
 
@@ -69,24 +68,24 @@ def nightly_steps():
     return dict(line.split(maxsplit=1) for line in output.splitlines())
 
 
-class Workflow(unittest.TestCase):
+class TestWorkflow:
     def names(self, pattern):
         found = [name for file in FILES for name in re.findall(pattern, read(file))]
-        self.assertTrue(found, pattern)
+        assert found, pattern
         return set(found)
 
     def test_its_presets_exist(self):
-        self.assertEqual(self.names(r"--preset ([\w-]+)") - presets(), set())
+        assert self.names(r"--preset ([\w-]+)") - presets() == set()
 
     def test_its_scripts_exist(self):
         names = self.names(r"(?<![\w/])((?:scripts|\.ci|tests)/[\w./-]*\w)")
-        self.assertEqual({name for name in names if not (ROOT / name).is_file()}, set())
+        assert {name for name in names if not (ROOT / name).is_file()} == set()
 
     def test_its_jobs_are_the_steps_of_the_night(self):
         jobs = re.findall(r"^ {10}- ([a-z -]+)$", read(WORKFLOW), re.MULTILINE)
-        self.assertEqual(sorted(" ".join(jobs).split()), sorted(nightly_steps()))
+        assert sorted(" ".join(jobs).split()) == sorted(nightly_steps())
 
-    def test_what_makes_packages_has_its_version_pinned(self):
+    def test_what_makes_packages_has_its_version_pinned(self, subtests):
         builders = {
             "scripts/wheel": "build wheel auditwheel scikit-build-core nanobind",
             "scripts/evaluation": "hatchling",
@@ -95,10 +94,10 @@ class Workflow(unittest.TestCase):
         for script, packages in builders.items():
             lines = re.findall(r"^.*\b(?:bring|need) .*$", read(script), re.MULTILINE)
             for package in packages.split():
-                with self.subTest(script=script, package=package):
-                    self.assertTrue(any(re.search(rf"(?<![\w-]){package}==\d", line) for line in lines))
-        self.assertIn("npm ci", read("scripts/viewer"))
-        self.assertIn("ruff==$version", read("scripts/format"))
+                with subtests.test(script=script, package=package):
+                    assert any(re.search(rf"(?<![\w-]){package}==\d", line) for line in lines)
+        assert "npm ci" in read("scripts/viewer")
+        assert "ruff==$version" in read("scripts/format")
 
     def scripts(self):
         folders = (
@@ -122,19 +121,19 @@ class Workflow(unittest.TestCase):
                 words = [word.strip("'\"") for word in WORD.findall(re.split(r" (?:\|\||&&|>&2|\{)", line)[0])]
                 packages = [word for word in words if PACKAGE.match(word) and "/" not in word]
                 unpinned |= {name for word in packages if "==" not in re.sub(r";.*", "", word)}
-        self.assertEqual(unpinned, set(UNPINNED))
+        assert unpinned == set(UNPINNED)
 
     def test_scripts_load_nothing_by_address(self):
-        self.assertEqual([name for name, text in self.scripts() if LOADER.search(text)], [])
+        assert [name for name, text in self.scripts() if LOADER.search(text)] == []
 
     def test_actions_are_named_by_their_commit(self):
         uses = re.findall(r"uses: (.*)", read(WORKFLOW))
-        self.assertTrue(uses)
+        assert uses
         for action in uses:
-            self.assertRegex(action, r"^[\w/-]+@[0-9a-f]{40} # v[\d.]+$")
+            assert re.search(r"^[\w/-]+@[0-9a-f]{40} # v[\d.]+$", action)
 
 
-class Nightly(unittest.TestCase):
+class TestNightly:
     def test_it_runs_every_program_or_says_why_not(self):
         programs = {
             path.relative_to(ROOT).as_posix()
@@ -144,14 +143,14 @@ class Nightly(unittest.TestCase):
         }
         run = set(re.findall(r"scripts/[\w/-]+", " ".join(nightly_steps().values())))
         run |= {"scripts/check/pythons"}  # by a function
-        self.assertEqual(programs - run, set(LEFT_OUT))
+        assert programs - run == set(LEFT_OUT)
 
     def test_a_step_that_is_not_there_is_refused(self):
         run = subprocess.run([ROOT / ".ci/nightly", "moon"], capture_output=True, text=True)
-        self.assertEqual((run.returncode, run.stderr), (2, "nightly: unknown step 'moon'; --list has the steps\n"))
+        assert (run.returncode, run.stderr) == (2, "nightly: unknown step 'moon'; --list has the steps\n")
 
 
-class Steps(unittest.TestCase):
+class TestSteps:
     def end_of(self, *lines):
         script = "set -euo pipefail\nsource .ci/steps.bash\n" + "\n".join(lines) + "\nfinish"
         run = subprocess.run(["bash", "-c", script], cwd=ROOT, capture_output=True, text=True)
@@ -164,39 +163,36 @@ class Steps(unittest.TestCase):
             "run three bash -c 'exit 77'",
             "run four echo well",
         )
-        self.assertEqual(status, 1)
-        self.assertEqual(
-            lines[-4:],
-            [
-                "ci: left out: three",
-                "ci: failed: two",
-                "ci: 4 steps in N s: 2 passed, 1 failed, 1 left out",
-                "7 passed, 1 failed, 1 skipped",
-            ],
-        )
-        self.assertIn("ci: the end of two:", lines)
+        assert status == 1
+        assert lines[-4:] == [
+            "ci: left out: three",
+            "ci: failed: two",
+            "ci: 4 steps in N s: 2 passed, 1 failed, 1 left out",
+            "7 passed, 1 failed, 1 skipped",
+        ]
+        assert "ci: the end of two:" in lines
 
     def test_it_is_green_if_nothing_failed(self):
         status, lines = self.end_of("run one echo well", "run two bash -c 'exit 77'")
-        self.assertEqual((status, lines[-1]), (0, "0 passed, 0 failed, 0 skipped"))
+        assert (status, lines[-1]) == (0, "0 passed, 0 failed, 0 skipped")
 
 
-class Subjects(unittest.TestCase):
+class TestSubjects:
     def refusal(self, subject):
         with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
             file.write(f"{subject}\n\nThe reason. It may be long, and end with a stop.\n")
             file.flush()
             command = [ROOT / ".ci/subjects", "--message", file.name]
             run = subprocess.run(command, capture_output=True, text=True)
-        self.assertEqual(run.returncode, 1 if run.stdout else 0)
+        assert run.returncode == (1 if run.stdout else 0)
         return run.stdout
 
     def test_a_component_and_72_characters(self):
         for subject in ("tia: x", "docs/spec, tests: HMOVE in the last cycle", "a: " + "x" * 69):
-            self.assertEqual(self.refusal(subject), "", subject)
-        self.assertIn("it has 73 characters, more than 72", self.refusal("a: " + "x" * 70))
+            assert self.refusal(subject) == "", subject
+        assert "it has 73 characters, more than 72" in self.refusal("a: " + "x" * 70)
         for subject in ("Mend the TIA", "tia:x", "Tia: x", "tia: ", "tia: an end."):
-            self.assertIn("it is not 'component: what it does'", self.refusal(subject), subject)
+            assert "it is not 'component: what it does'" in self.refusal(subject), subject
 
 
 def alternatives(pattern):
@@ -208,38 +204,30 @@ def alternatives(pattern):
     return [path for word in group[1].split("|") for path in alternatives(before + word + after)]
 
 
-class Changed(unittest.TestCase):
+class TestChanged:
     def touched(self, table, *files):
         script = f"source .ci/changed.bash; most_touched {table} otherwise"
         run = subprocess.run(["bash", "-c", script], cwd=ROOT, input="\n".join(files), capture_output=True, text=True)
         return run.stdout.strip()
 
     def test_the_paths_select_the_step(self):
-        self.assertEqual(self.touched("step_paths", "server/server.cpp", "docs/a.md"), "thread")
-        self.assertEqual(
-            self.touched("step_paths", "recording/gif.cpp", "server/server.cpp", "recording/a.cpp"), "address"
-        )
-        self.assertEqual(self.touched("step_paths", "emulator/cpu/cpu.cpp"), "clang")
-        self.assertEqual(self.touched("step_paths", "docs/a.md"), "otherwise")
-        self.assertEqual(self.touched("step_paths"), "otherwise")
+        assert self.touched("step_paths", "server/server.cpp", "docs/a.md") == "thread"
+        assert self.touched("step_paths", "recording/gif.cpp", "server/server.cpp", "recording/a.cpp") == "address"
+        assert self.touched("step_paths", "emulator/cpu/cpu.cpp") == "clang"
+        assert self.touched("step_paths", "docs/a.md") == "otherwise"
+        assert self.touched("step_paths") == "otherwise"
 
     def test_every_fuzz_target_has_its_paths(self):
         targets = {path.name for path in (ROOT / "fuzz/corpora").iterdir()}
         table = re.findall(r"^  \[(\w+)\]='", read(".ci/changed.bash").split("fuzz_paths=(")[1], re.MULTILINE)
-        self.assertEqual(set(table), targets)
-        self.assertEqual(self.touched("fuzz_paths", "recording/gif.cpp"), "media")
+        assert set(table) == targets
+        assert self.touched("fuzz_paths", "recording/gif.cpp") == "media"
 
     def test_every_alternative_of_the_paths_exists(self):
         files = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True).stdout
         for pattern in re.findall(r"\]='(.*)'$", read(".ci/changed.bash"), re.MULTILINE):
             for path in alternatives(pattern):
-                self.assertRegex(files, f"(?m){path}" if files else "")
+                assert re.search(f"(?m){path}" if files else "", files)
 
     def test_alternatives_are_those_of_nested_groups(self):
-        self.assertEqual(
-            alternatives("^a/(b|c(d|e))/|^f"), ["^a/b/", "^f", "^a/cd/", "^f", "^a/b/", "^f", "^a/ce/", "^f"]
-        )
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert alternatives("^a/(b|c(d|e))/|^f") == ["^a/b/", "^f", "^a/cd/", "^f", "^a/b/", "^f", "^a/ce/", "^f"]

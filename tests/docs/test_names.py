@@ -4,8 +4,8 @@ diagnostic."""
 import collections
 import pathlib
 import re
-import tempfile
-import unittest
+
+import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = (
@@ -50,18 +50,17 @@ def defined_twice(root):
     return {name: where for name, where in files.items() if len(where) > 1}
 
 
-class Names(unittest.TestCase):
+class TestNames:
     def test_no_type_is_defined_twice(self):
-        self.assertEqual(defined_twice(ROOT), {})
+        assert defined_twice(ROOT) == {}
 
 
-class Check(unittest.TestCase):
+class TestCheck:
     """Tests of the check itself."""
 
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = pathlib.Path(folder.name)
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.root = tmp_path
 
     def write(self, path, *lines):
         (self.root / path).parent.mkdir(exist_ok=True)
@@ -70,15 +69,11 @@ class Check(unittest.TestCase):
     def test_two_types_of_one_name_are_found(self):
         self.write("emulator/a.hpp", "struct Drawing {", "};")
         self.write("environment/b.hpp", "enum class Drawing { kOne };")
-        self.assertEqual(defined_twice(self.root), {"racebeam::Drawing": ["emulator/a.hpp", "environment/b.hpp"]})
+        assert defined_twice(self.root) == {"racebeam::Drawing": ["emulator/a.hpp", "environment/b.hpp"]}
 
     def test_others_may_have_the_name(self):
         self.write("emulator/a.hpp", "class Drawing : public Base {", "};")
         self.write("emulator/b.hpp", "class Drawing;", "struct Drawing::Impl {", "};")
         self.write("emulator/c.cpp", "namespace {", "struct Drawing {", "};", "}  // namespace")
         self.write("emulator/d.cpp", "namespace inner {", "struct Drawing {", "};", "}  // namespace inner")
-        self.assertEqual(defined_twice(self.root), {})
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert defined_twice(self.root) == {}

@@ -2,7 +2,6 @@
 
 import ast
 import collections
-import sys
 
 from tree import ROOT, files
 
@@ -21,12 +20,13 @@ def hidden(path):
         )
 
 
-def main():
+def test_no_test_hides_another_of_its_name():
     sources = [path for path in files() if path.suffix == ".py"]
-    found = [line for path in sources for line in hidden(path)]
-    print("\n".join(found or [f"{len(sources)} files, no name is hidden"]))
-    return int(bool(found) or not sources)
+    assert sources
+    assert [line for path in sources for line in hidden(path)] == []
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def test_a_name_that_is_defined_twice_is_found(tmp_path):
+    path = tmp_path / "test_x.py"
+    path.write_text("class A:\n    def a(self):\n        pass\n\n    def a(self):\n        pass\n")
+    assert list(hidden(path)) == [f"{path}: a is defined 2 times, and the last hides the others"]

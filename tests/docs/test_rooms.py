@@ -4,8 +4,8 @@ import os
 import pathlib
 import shutil
 import subprocess
-import tempfile
-import unittest
+
+import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_SUBJECTS = 25
@@ -65,30 +65,29 @@ def arrows_back(root):
     ]
 
 
-class Tree(unittest.TestCase):
+class TestTree:
     def test_no_room_uses_one_above_it(self):
-        self.assertEqual(arrows_back(ROOT), [])
+        assert arrows_back(ROOT) == []
 
     def test_no_folder_has_too_many_subjects(self):
-        self.assertEqual(crowded(ROOT), {})
+        assert crowded(ROOT) == {}
 
-    @unittest.skipUnless((ROOT / ".git").exists() and shutil.which("git"), "this is not a checkout")
+    @pytest.mark.skipif(not ((ROOT / ".git").exists() and shutil.which("git")), reason="this is not a checkout")
     def test_nothing_that_is_ignored_is_in_the_tree(self):
         command = ["git", "ls-files", "--cached", "--ignored", "--exclude-standard"]
         output = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
-        self.assertEqual(output.splitlines(), [])
+        assert output.splitlines() == []
 
     def test_no_link_leads_out(self):
-        self.assertEqual(leaving_links(ROOT), [])
+        assert leaving_links(ROOT) == []
 
 
-class Checks(unittest.TestCase):
+class TestChecks:
     """Tests of the two checks themselves."""
 
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = pathlib.Path(folder.name)
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.root = tmp_path
 
     def fill(self, name, count):
         (self.root / name).mkdir(parents=True)
@@ -101,13 +100,13 @@ class Checks(unittest.TestCase):
         self.fill("crowded", MOST_SUBJECTS + 1)
         self.fill("fuzz/corpora/image", MOST_SUBJECTS + 1)
         self.fill("build", MOST_SUBJECTS + 1)
-        self.assertEqual(crowded(self.root), {"crowded": MOST_SUBJECTS + 1})
+        assert crowded(self.root) == {"crowded": MOST_SUBJECTS + 1}
 
     def test_an_arrow_back_is_named(self):
         self.fill("protocol/line/commands", 1)
         for name, include in (("good", "words"), ("bad", "commands/help")):
             (self.root / f"protocol/line/{name}.cpp").write_text(f'#include "protocol/line/{include}.hpp"\n')
-        self.assertEqual(arrows_back(self.root), ["protocol/line/bad.cpp"])
+        assert arrows_back(self.root) == ["protocol/line/bad.cpp"]
 
     def test_a_link_that_leaves_is_named(self):
         self.fill("room", 1)
@@ -117,8 +116,4 @@ class Checks(unittest.TestCase):
             ("outside", "../../elsewhere"),
         ):
             (self.root / "room" / name).symlink_to(target)
-        self.assertEqual(sorted(leaving_links(self.root)), ["room/absolute", "room/outside"])
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert sorted(leaving_links(self.root)) == ["room/absolute", "room/outside"]
