@@ -3,43 +3,46 @@ played."""
 
 import gzip
 import os
+import re
 import tempfile
-import unittest
 
-from harness import GAME, main, run
+import pytest
+from harness import GAME, run
 
 MACHINES = (("trace", "--actions", "-"), ("bench", "--frames", "1"))
 LARGEST = 524288
 
 
-class Case(unittest.TestCase):
+class Case:
     def check_refusal(self, status, complaint, *words, data=b""):
         ended, printed, errors = run(*words, data=data)
         errors = [line for line in errors if "is not in the catalogue" not in line]  # a warning about any strange image
-        self.assertEqual((ended, len(errors)), (status, 1), errors)
-        self.assertRegex(errors[0], "^racebeam: .*" + complaint)
+        assert (ended, len(errors)) == (status, 1), errors
+        assert re.search("^racebeam: .*" + complaint, errors[0])
         return printed
 
 
-class ControlCharacters(Case):
+class TestControlCharacters(Case):
     """A terminal would execute them. They are printed as bytes, and a message remains one line."""
 
     NAME = "red\x1b[31m\nnext\x9b1m"
     SHOWN = r"red\\x1b\[31m\\x0anext\\xc2\\x9b1m"
 
-    def test_in_what_was_given(self):
-        for status, words in (
-            (1, ("trace", "--actions", "-", "--rom", self.NAME)),
-            (1, ("trace", "--rom", GAME, "--actions", self.NAME)),
-            (1, ("bench", "--rom", GAME, "--game-file", self.NAME)),
-            (1, ("roms", self.NAME)),
-            (2, ("config", "--stdio", "--config", self.NAME)),
-            (2, ("serve", "--stdio", "--seed", self.NAME)),
-            (2, ("serve", "--stdio", "--" + self.NAME)),
-            (2, (self.NAME,)),
-        ):
-            with self.subTest(words=words):
-                self.check_refusal(status, self.SHOWN, *words)
+    @pytest.mark.parametrize(
+        "status, words",
+        (
+            (1, ("trace", "--actions", "-", "--rom", NAME)),
+            (1, ("trace", "--rom", GAME, "--actions", NAME)),
+            (1, ("bench", "--rom", GAME, "--game-file", NAME)),
+            (1, ("roms", NAME)),
+            (2, ("config", "--stdio", "--config", NAME)),
+            (2, ("serve", "--stdio", "--seed", NAME)),
+            (2, ("serve", "--stdio", "--" + NAME)),
+            (2, (NAME,)),
+        ),
+    )
+    def test_in_what_was_given(self, status, words):
+        self.check_refusal(status, self.SHOWN, *words)
 
     def test_in_a_warning_about_an_image(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -47,15 +50,18 @@ class ControlCharacters(Case):
             with open(path, "wb") as file:
                 file.write(bytes(range(256)) * 16)
             _, _, errors = run("trace", "--rom", path, "--actions", "-")
-            self.assertEqual(len(errors), 1, errors)
-            self.assertRegex(errors[0], self.SHOWN)
+            assert len(errors) == 1, errors
+            assert re.search(self.SHOWN, errors[0])
 
 
-class Images(Case):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+class TestImages(Case):
+    @pytest.fixture(autouse=True)
+    def keep_subtests(self, subtests):
+        self.subtests = subtests
+
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.folder = str(tmp_path)
 
     def image(self, data, name="x.bin"):
         path = os.path.join(self.folder, name)
@@ -65,8 +71,8 @@ class Images(Case):
 
     def refuses(self, path, complaint):
         for command, *words in MACHINES:
-            with self.subTest(command=command):
-                self.assertEqual(self.check_refusal(1, complaint, command, "--rom", path, *words), b"")
+            with self.subtests.test(command=command):
+                assert self.check_refusal(1, complaint, command, "--rom", path, *words) == b""
 
     def test_a_missing_image(self):
         self.refuses(os.path.join(self.folder, "missing.bin"), r"missing\.bin.*no such file")
@@ -94,7 +100,7 @@ class Images(Case):
         self.refuses("builtin:beamfal", "beamfal.*beamfall")
 
 
-class Options(Case):
+class TestOptions(Case):
     def test_an_unknown_game_is_answered_with_similar_names(self):
         for command, *words in MACHINES:
             self.check_refusal(1, "brekout.*breakout", command, "--rom", GAME, "--game", "brekout", *words)
@@ -107,16 +113,17 @@ class Options(Case):
         for command, *words in MACHINES:
             self.check_refusal(1, "no difficulty 9; it offers 0", command, "--rom", GAME, "--difficulty", "9", *words)
 
-    def test_flags_that_are_not_numbers(self):
+    def test_flags_that_are_not_numbers(self, subtests):
         for command, *words in MACHINES:
             for option in ("--seed", "--frame-skip", "--sticky", "--mode", "--difficulty"):
-                with self.subTest(command=command, option=option):
+                with subtests.test(command=command, option=option):
                     self.check_refusal(2, option + ".*many", command, "--rom", GAME, *words, option, "many")
         self.check_refusal(2, "--max-frames.*many", "trace", "--rom", GAME, "--actions", "-", "--max-frames", "many")
         self.check_refusal(2, "--frames.*many", "bench", "--rom", GAME, "--frames", "many")
 
-    def test_numbers_that_are_out_of_range(self):
-        for option, value in (
+    @pytest.mark.parametrize(
+        "option, value",
+        (
             ("--frame-skip", "0"),
             ("--frame-skip", "-4"),
             ("--frame-skip", "99999999999"),
@@ -124,11 +131,12 @@ class Options(Case):
             ("--sticky", "nan"),
             ("--max-frames", "-1"),
             ("--seed", "-1"),
-        ):
-            with self.subTest(option=option, value=value):
-                self.check_refusal(2, option, "trace", "--rom", GAME, "--actions", "-", option + "=" + value)
+        ),
+    )
+    def test_numbers_that_are_out_of_range(self, option, value):
+        self.check_refusal(2, option, "trace", "--rom", GAME, "--actions", "-", option + "=" + value)
 
-    def test_what_the_console_of_an_image_does_not_take(self):
+    def test_what_the_console_of_an_image_does_not_take(self, subtests):
         for command, *words in MACHINES:
             for option, value, reason in (
                 ("--scheme", "4A50", "unsupported cartridge scheme '4A50'"),
@@ -138,7 +146,7 @@ class Options(Case):
                 ("--height", "99", "from 100 to 256"),
                 ("--ystart", "51", "from 0 to 50"),
             ):
-                with self.subTest(command=command, option=option):
+                with subtests.test(command=command, option=option):
                     self.check_refusal(2, option + ".*" + reason, command, "--rom", GAME, *words, option, value)
             self.check_refusal(
                 1, "scheme F8 needs an image of at least 8192", command, "--rom", GAME, *words, "--scheme", "F8"
@@ -150,7 +158,7 @@ class Options(Case):
         self.check_refusal(2, "DIR is required", "roms")
         self.check_refusal(2, "OUT.png is required", "png")
 
-    def test_an_unknown_option_is_answered_with_similar_names(self):
+    def test_an_unknown_option_is_answered_with_similar_names(self, subtests):
         for meant, given, *words in (
             ("--frames", "--frams", "bench", "--rom", GAME, "--frams"),
             ("--frame-skip", "--frameskip=4", "bench", "--rom", GAME, "--frameskip=4"),
@@ -158,7 +166,7 @@ class Options(Case):
             ("--strict", "--stict", "connect", "tcp://127.0.0.1:1", "--stict"),
             ("--actions", "--action=-", "trace", "--rom", GAME, "--action=-"),
         ):
-            with self.subTest(words=words):
+            with subtests.test(words=words):
                 self.check_refusal(2, f"unknown argument: {given}; did you mean {meant}", *words)
         self.check_refusal(2, r"unknown argument: --colour \(see", "bench", "--rom", GAME, "--colour")
 
@@ -173,21 +181,17 @@ class Options(Case):
         self.check_refusal(2, "", *[])
 
 
-class Help(unittest.TestCase):
-    def test_every_subcommand_explains_itself(self):
+class TestHelp:
+    def test_every_subcommand_explains_itself(self, subtests):
         _, overview, _ = run("--help")
         for command in ("serve", "trace", "bench", "games", "roms", "png"):
-            with self.subTest(command=command):
-                self.assertIn(command, overview.decode())
+            with subtests.test(command=command):
+                assert command in overview.decode()
                 status, text, errors = run(command, "--help")
-                self.assertEqual((status, errors), (0, []))
-                self.assertGreater(len(text.splitlines()), 8)
+                assert (status, errors) == (0, [])
+                assert len(text.splitlines()) > 8
 
     def test_the_version_is_printed(self):
         status, text, errors = run("--version")
-        self.assertEqual((status, errors), (0, []))
-        self.assertRegex(text.decode(), r"^racebeam \d+\.\d+\.\d+\n$")
-
-
-if __name__ == "__main__":
-    main()
+        assert (status, errors) == (0, [])
+        assert re.search(r"^racebeam \d+\.\d+\.\d+\n$", text.decode())

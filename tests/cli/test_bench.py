@@ -1,9 +1,9 @@
 """racebeam bench: its report, and the effect of its settings."""
 
 import json
-import unittest
 
-from harness import GAME, main, run
+import pytest
+from harness import GAME, run
 
 FIELDS = {
     "game",
@@ -40,99 +40,94 @@ def work(figures):
     return [figures[key] for key in ("frames", "reward", "resets", "last_screen_crc", "last_ram_crc")]
 
 
-class Bench(unittest.TestCase):
+class TestBench:
     def test_it_reports_what_was_done_and_how_long_it_took(self):
         figures = bench("--frames", "600")
-        self.assertEqual(set(figures), FIELDS)
-        self.assertEqual((figures["frames"], figures["acts"], figures["screens"]), (600, 600, 600))
-        self.assertGreater(figures["cpu_seconds"], 0)
-        self.assertAlmostEqual(figures["frames_per_second"], 600 / figures["cpu_seconds"], delta=1)
+        assert set(figures) == FIELDS
+        assert (figures["frames"], figures["acts"], figures["screens"]) == (600, 600, 600)
+        assert figures["cpu_seconds"] > 0
+        assert abs(figures["frames_per_second"] - 600 / figures["cpu_seconds"]) <= 1
 
     def test_all_kinds_of_screens_come_from_the_same_play(self):
         every, last, none = (
             bench("--frames", "600", "--frame-skip", "4", "--screen", screen) for screen in ("every", "last", "none")
         )
-        self.assertEqual([every["screens"], last["screens"], none["screens"]], [600, 150, 0])
-        self.assertEqual(work(every), work(last))
-        self.assertEqual(work(every), work(none))
+        assert [every["screens"], last["screens"], none["screens"]] == [600, 150, 0]
+        assert work(every) == work(last)
+        assert work(every) == work(none)
 
     def test_the_actions_of_a_file_are_those_that_trace_plays(self):
         actions = b"1 1 3 3 11 11 4 4 12 2 10 5"
         figures = bench("--frames", "12", "--actions", "-", data=actions)
         _, lines, _ = run("trace", "--rom", GAME, "--actions", "-", data=actions)
         last = lines.decode().splitlines()[-1].split()
-        self.assertEqual([figures["last_ram_crc"], figures["last_screen_crc"]], last[-2:])
+        assert [figures["last_ram_crc"], figures["last_screen_crc"]] == last[-2:]
 
     def test_actions_start_over_when_they_run_out(self):
-        self.assertEqual(
-            work(bench("--frames", "24", "--actions", "-", data=b"1 3 4")),
-            work(bench("--frames", "24", "--actions", "-", data=b"1 3 4" + b" 1 3 4" * 7)),
+        assert work(bench("--frames", "24", "--actions", "-", data=b"1 3 4")) == work(
+            bench("--frames", "24", "--actions", "-", data=b"1 3 4" + b" 1 3 4" * 7)
         )
 
     def test_snapshots_are_timed_when_asked_for(self):
         figures = bench("--frames", "10", "--save-restore")
-        self.assertLessEqual(figures["machine_state_bytes"], 2048)
-        self.assertGreater(figures["client_save_restore_ns"], figures["machine_save_restore_ns"])
+        assert figures["machine_state_bytes"] <= 2048
+        assert figures["client_save_restore_ns"] > figures["machine_save_restore_ns"]
 
     def test_commands_are_answered_line_by_line(self):
         play, check, reset, save = commands("play 1 3 3 4", "check 4 4", "reset 2", "save 10")
-        self.assertEqual((play["frames"], play["resets"]), (4, 0))
-        self.assertGreater(play["seconds"], 0)
-        self.assertEqual((check["frames"], set(check) >= {"digest", "reward"}), (2, True))
-        self.assertGreater(reset["seconds"], 0)
-        self.assertGreater(min(save["seconds"], save["machine_seconds"]), 0)
+        assert (play["frames"], play["resets"]) == (4, 0)
+        assert play["seconds"] > 0
+        assert (check["frames"], set(check) >= {"digest", "reward"}) == (2, True)
+        assert reset["seconds"] > 0
+        assert min(save["seconds"], save["machine_seconds"]) > 0
 
     def test_what_is_checked_is_what_is_played(self):
         actions = "1 3 3 4 11 11 " * 300  # resets included
         played, checked = commands("play " + actions)[0], commands("check " + actions, "play 0")
         for key in ("frames", "reward", "resets"):
-            self.assertEqual(played[key], checked[0][key])
-        self.assertEqual(commands("play " + actions, "play 0")[1]["ram"], checked[1]["ram"])
+            assert played[key] == checked[0][key]
+        assert commands("play " + actions, "play 0")[1]["ram"] == checked[1]["ram"]
 
     def test_the_checksum_is_of_every_act(self):
         def digest(actions, *words):
             return commands("check " + actions, *words)[0]["digest"]
 
-        self.assertEqual(digest("1 3 3 4"), digest("1 3 3 4"))
-        self.assertNotEqual(digest("1 3 3 4 0"), digest("1 3 3 4"))
+        assert digest("1 3 3 4") == digest("1 3 3 4")
+        assert digest("1 3 3 4 0") != digest("1 3 3 4")
         _, printed, _ = run("bench", "--rom", GAME, "--commands", "--screen", "none", data=b"check 1 3 3 4")
-        self.assertNotEqual(json.loads(printed)["digest"], digest("1 3 3 4"))
+        assert json.loads(printed)["digest"] != digest("1 3 3 4")
 
-    def test_unknown_commands_are_refused(self):
+    def test_unknown_commands_are_refused(self, subtests):
         for line in ("dance 1", "play", "play left", "reset 0", "save 1 2"):
-            with self.subTest(line=line):
+            with subtests.test(line=line):
                 status, _, errors = run("bench", "--rom", GAME, "--commands", data=line.encode())
-                self.assertEqual((status, len(errors)), (1, 1), errors)
-                self.assertIn(
-                    f"unknown command '{line}'; accepted: play A..., check A..., reset N and save N", errors[0]
-                )
+                assert (status, len(errors)) == (1, 1), errors
+                assert f"unknown command '{line}'; accepted: play A..., check A..., reset N and save N" in errors[0]
         status, _, errors = run("bench", "--rom", GAME, "--commands", "--frame-skip", "4", data=b"play 1")
-        self.assertEqual(status, 1)
-        self.assertIn("give --screen last or none with --frame-skip 4", errors[0])
+        assert status == 1
+        assert "give --screen last or none with --frame-skip 4" in errors[0]
 
     def test_the_text_names_the_same_figures(self):
         status, printed, errors = run("bench", "--rom", GAME, "--frames", "60", "--audio")
-        self.assertEqual((status, errors), (0, []))
+        assert (status, errors) == (0, [])
         lines = dict(line.split(None, 1) for line in printed.decode().splitlines())
-        self.assertEqual((lines["game"], lines["audio"]), ("beamfall", "yes"))
+        assert (lines["game"], lines["audio"]) == ("beamfall", "yes")
 
     def test_steps_of_very_many_frames_are_counted(self):
         status, _, errors = run(
             "bench", "--rom", GAME, "--batch", "4", "--threads", "1", "--frame-skip", str(2**30), "--frames", "10"
         )
-        self.assertEqual((status, errors), (0, []))
+        assert (status, errors) == (0, [])
 
-    def test_no_actions_and_wrong_ones_are_refused(self):
-        for data, complaint in (
+    @pytest.mark.parametrize(
+        "data, complaint",
+        (
             (b"", "'-' has no actions"),
             (b"x", "line 1: 'x' is not a number"),
             (b"99", "99"),
-        ):
-            with self.subTest(data=data):
-                status, printed, errors = run("bench", "--rom", GAME, "--actions", "-", data=data)
-                self.assertEqual((status, printed, len(errors)), (1, b"", 1), errors)
-                self.assertIn(complaint, errors[0])
-
-
-if __name__ == "__main__":
-    main()
+        ),
+    )
+    def test_no_actions_and_wrong_ones_are_refused(self, data, complaint):
+        status, printed, errors = run("bench", "--rom", GAME, "--actions", "-", data=data)
+        assert (status, printed, len(errors)) == (1, b"", 1), errors
+        assert complaint in errors[0]

@@ -2,17 +2,16 @@
 
 import os
 import subprocess
-import tempfile
-import unittest
+
+import pytest
 
 BINARY = os.environ.get("RACEBEAM_BINARY", "build/release/racebeam")
 
 
-class Config(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+class TestConfig:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.folder = str(tmp_path)
 
     def file(self, text):
         path = os.path.join(self.folder, "settings.toml")
@@ -33,59 +32,58 @@ class Config(unittest.TestCase):
 
     def settings(self, *words, **variables):
         done = self.run_racebeam("config", *words, **variables)
-        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        assert (done.returncode, done.stderr) == (0, b"")
         lines = [line.rsplit("  # ", 1) for line in done.stdout.decode().splitlines()]
         return {line.split(" =")[0]: (line.split("=", 1)[1].strip(), source) for line, source in lines}
 
-    def test_threads_are_as_many_as_the_processors_that_may_be_used(self):
+    def test_threads_are_as_many_as_the_processors_that_may_be_used(self, cleanup):
         allowed = os.sched_getaffinity(0)
-        self.addCleanup(os.sched_setaffinity, 0, allowed)
+        cleanup(os.sched_setaffinity, 0, allowed)
         for processors in (allowed, {min(allowed)}):
             os.sched_setaffinity(0, processors)  # a child has it too
             found = self.settings("--stdio")["threads"]
-            self.assertLessEqual(int(found[0]), len(processors))  # a quota may allow fewer
-            self.assertEqual(found[1], "default")
+            assert int(found[0]) <= len(processors)  # a quota may allow fewer
+            assert found[1] == "default"
 
     def test_memory_is_given_in_bytes_or_with_a_unit(self):
         for text, bytes_of in (("123456789", 123456789), ("512M", 512 << 20), ("2G", 2 << 30), ("64 kb", 64 << 10)):
-            self.assertEqual(
-                self.settings("--stdio", "--max-memory", text)["max_memory"], (str(bytes_of), "command line")
-            )
+            assert self.settings("--stdio", "--max-memory", text)["max_memory"] == (str(bytes_of), "command line")
         default = int(self.settings("--stdio")["max_memory"][0])
         physical = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-        self.assertLessEqual(default, physical * 3 // 4)
-        self.assertGreater(default, 1 << 26)
-        self.assertEqual(self.run_racebeam("config", "--stdio", "--max-memory", "much").returncode, 2)
+        assert default <= physical * 3 // 4
+        assert default > 1 << 26
+        assert self.run_racebeam("config", "--stdio", "--max-memory", "much").returncode == 2
 
     def test_options_win_over_variables_over_the_file_over_defaults(self):
         path = self.file("max_states = 1\nmax_machines = 2\nmax_sessions = 3\n")
         found = self.settings("--config", path, "--max-states", "9", RACEBEAM_MAX_STATES="8", RACEBEAM_MAX_MACHINES="7")
-        self.assertEqual(found["max_states"], ("9", "command line"))
-        self.assertEqual(found["max_machines"], ("7", "environment"))
-        self.assertEqual(found["max_sessions"], ("3", "file"))
-        self.assertEqual(found["grace"], ("5", "default"))
+        assert found["max_states"] == ("9", "command line")
+        assert found["max_machines"] == ("7", "environment")
+        assert found["max_sessions"] == ("3", "file")
+        assert found["grace"] == ("5", "default")
 
     def test_the_file_may_be_named_by_a_variable(self):
         path = self.file("grace = 77\n")
-        self.assertEqual(self.settings(RACEBEAM_CONFIG=path)["grace"], ("77", "file"))
+        assert self.settings(RACEBEAM_CONFIG=path)["grace"] == ("77", "file")
 
     def test_lists_and_flags(self):
         path = self.file('listen = ["unix:a", "unix:b"]\nclassic = true\n')
         found = self.settings("--config", path)
-        self.assertEqual((found["listen"][0], found["classic"][0]), ('["unix:a", "unix:b"]', "true"))
+        assert (found["listen"][0], found["classic"][0]) == ('["unix:a", "unix:b"]', "true")
         found = self.settings("--config", path, RACEBEAM_LISTEN="unix:c  unix:d", RACEBEAM_CLASSIC="0")
-        self.assertEqual(found["listen"], ('["unix:c", "unix:d"]', "environment"))
-        self.assertEqual(found["classic"][1], "environment")
+        assert found["listen"] == ('["unix:c", "unix:d"]', "environment")
+        assert found["classic"][1] == "environment"
 
     def test_what_it_prints_can_be_read_again(self):
         words = ("--listen", "tcp://127.0.0.1:0", "--rom", 'a "quoted" \\ name', "--sticky", "0.5", "--classic")
         output = self.run_racebeam("config", *words).stdout.decode()
         again = self.settings("--config", self.file(output))
         for key, (value, _) in self.settings(*words).items():
-            self.assertEqual(again[key][0], value, key)
+            assert again[key][0] == value, key
 
-    def test_numbers_and_texts_that_look_like_them_are_kept_as_they_are(self):
-        for option, value in (
+    @pytest.mark.parametrize(
+        "option, value",
+        (
             ("--sticky", ".5"),
             ("--sticky", "1."),
             ("--sticky", "0.123456789012"),
@@ -101,25 +99,26 @@ class Config(unittest.TestCase):
             ("--rom", "\x9b1m L\u00f6we"),
             ("--rom", "true"),
             ("--record-limit", str(1 << 60)),
-        ):
-            with self.subTest(option=option, value=value):
-                key = option[2:].replace("-", "_")
-                output = self.run_racebeam("config", option, value).stdout.decode()
-                again = self.run_racebeam("config", "--config", self.file(output)).stdout.decode()
-                line = next(line for line in output.splitlines() if line.startswith(key + " "))
-                self.assertIn(line.replace("# command line", "# file"), again.splitlines())
+        ),
+    )
+    def test_numbers_and_texts_that_look_like_them_are_kept_as_they_are(self, option, value):
+        key = option[2:].replace("-", "_")
+        output = self.run_racebeam("config", option, value).stdout.decode()
+        again = self.run_racebeam("config", "--config", self.file(output)).stdout.decode()
+        line = next(line for line in output.splitlines() if line.startswith(key + " "))
+        assert line.replace("# command line", "# file") in again.splitlines()
 
     def test_the_server_obeys(self):
         path = self.file("max_states = 5\nstdio = true\n")
         done = self.run_racebeam("serve", "--config", path, data=b"hello\n", RACEBEAM_MAX_LINE="999")
-        self.assertIn(b" max_line=999 ", done.stdout)
-        self.assertIn(b" max_states=5 ", done.stdout)
+        assert b" max_line=999 " in done.stdout
+        assert b" max_states=5 " in done.stdout
 
     def refuse(self, text, *hints, **variables):
         done = self.run_racebeam("serve", "--stdio", *(["--config", self.file(text)] if text else []), **variables)
-        self.assertEqual((done.returncode, done.stdout, done.stderr.count(b"\n")), (2, b"", 1), done.stderr)
+        assert (done.returncode, done.stdout, done.stderr.count(b"\n")) == (2, b"", 1), done.stderr
         for hint in hints:
-            self.assertIn(hint, done.stderr)
+            assert hint in done.stderr
 
     def test_invalid_settings_are_refused_and_named(self):
         self.refuse("max_state = 5\n", b"unknown setting 'max_state'; did you mean max_states", b"max_states, ")
@@ -134,7 +133,3 @@ class Config(unittest.TestCase):
         self.refuse("", b"RACEBEAM_GRACE", b"'soon' is not a whole number", RACEBEAM_GRACE="soon")
         self.refuse("", b"this is a directory, not a file", RACEBEAM_CONFIG=self.folder)
         self.refuse("", b"nothing.toml", RACEBEAM_CONFIG="nothing.toml")
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

@@ -1,12 +1,12 @@
 """scripts/demo with the program that was built: its status, and the files that it leaves."""
 
 import os
+import re
 import shutil
 import subprocess
-import tempfile
-import unittest
 
-from harness import BINARY, PATIENCE, SOURCE, main
+import pytest
+from harness import BINARY, PATIENCE, SOURCE
 
 EPISODE = "docs/results/own-games/logs/updraft-uct-1/1.episode"
 
@@ -15,11 +15,10 @@ def run_program(*command):
     return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, timeout=PATIENCE).returncode
 
 
-class Demo(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root, self.scratch = os.path.join(folder.name, "tree"), os.path.join(folder.name, "scratch")
+class TestDemo:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.root, self.scratch = os.path.join(tmp_path, "tree"), os.path.join(tmp_path, "scratch")
         os.mkdir(self.scratch)
         for name in ("scripts/demo", "clients/shell/play", EPISODE):
             os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
@@ -44,42 +43,38 @@ class Demo(unittest.TestCase):
             env={**os.environ, "TMPDIR": self.scratch},
         )
 
-    def test_one_that_works_ends_with_status_0_and_leaves_only_its_results(self):
+    def test_one_that_works_ends_with_status_0_and_leaves_only_its_results(self, subtests):
         os.makedirs(self.path("build/release"))
         os.symlink(BINARY, self.path("build/release/racebeam"))
         for redirection in ("</dev/null", "<&-"):
-            with self.subTest(redirection=redirection):
+            with subtests.test(redirection=redirection):
                 done = self.run_demo(redirection)
-                self.assertEqual(done.returncode, 0, done)
+                assert done.returncode == 0, done
                 self.check_text(done.stdout.decode())
-                self.assertEqual(sorted(os.listdir(self.path("build/demo"))), ["beamfall.png", "updraft.gif"])
+                assert sorted(os.listdir(self.path("build/demo"))) == ["beamfall.png", "updraft.gif"]
                 shutil.rmtree(self.path("build/demo"))
-                self.assertEqual(os.listdir(self.scratch), [])
+                assert os.listdir(self.scratch) == []
 
     def check_text(self, text):
         """It tells of a score, a film and a speed, and ends with three commands that the program has."""
-        self.assertRegex(
-            text,
+        assert re.search(
             r"(?s)Score \d+ in \d+ frames.*updraft\.gif: \d+ frames\n.*"
             r"runs at \d+ frames a second on one processor, \d+ times as fast as a console\n\nTry next:\n",
+            text,
         )
         commands = [line.split("#")[0].split() for line in text.partition("Try next:\n")[2].splitlines()]
-        self.assertEqual(len(commands), 3)
+        assert len(commands) == 3
         for program, command, *options in commands:
-            self.assertEqual(run_program(program, command, *options, "--help"), 0)
+            assert run_program(program, command, *options, "--help") == 0
 
     def test_a_build_is_announced_before_it_begins(self):
         self.script("scripts/setup", "[[ $2 != --check ]] && exit 9 || exit 1")  # a package is missing
         done = self.run_demo("</dev/null")
-        self.assertEqual((done.returncode, done.stderr), (9, b""))
-        self.assertRegex(done.stdout.decode(), r"^demo: racebeam is built first, which takes about \w+ minutes on two")
+        assert (done.returncode, done.stderr) == (9, b"")
+        assert re.search(r"^demo: racebeam is built first, which takes about \w+ minutes on two", done.stdout.decode())
 
     def test_one_whose_server_fails_says_so_and_ends_the_player(self):
         self.script("build/release/racebeam", "exit 7")
         done = self.run_demo("</dev/null")  # which returns once the player has closed its standard output
-        self.assertEqual(done.returncode, 7, done)
-        self.assertEqual(os.listdir(self.scratch), [])
-
-
-if __name__ == "__main__":
-    main()
+        assert done.returncode == 7, done
+        assert os.listdir(self.scratch) == []

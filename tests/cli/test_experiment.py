@@ -8,11 +8,10 @@ import re
 import resource
 import signal
 import subprocess
-import tempfile
 import time
-import unittest
 
-from harness import BINARY, PATIENCE, main
+import pytest
+from harness import BINARY, PATIENCE
 from terminal import Terminal
 
 os.environ.pop("RACEBEAM_ROMS", None)
@@ -49,11 +48,10 @@ def files(folder):
     }
 
 
-class Experiment(unittest.TestCase):
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.place = pathlib.Path(place.name)
+class TestExperiment:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.place = tmp_path
         self.plan = self.place / "plan.toml"
         self.plan.write_text(PLAN)
 
@@ -62,16 +60,16 @@ class Experiment(unittest.TestCase):
 
     def test_a_line_a_unit_and_all_rows_confirmed(self):
         status, printed, errors = self.experiment("results")
-        self.assertEqual((status, errors), (0, ""))
-        self.assertEqual(len(printed.splitlines()), 1 + 18 + 3 + 2)
-        self.assertRegex(printed, r"(?m)^\d+/24 beamfall-basic-1: 3 episodes, mean score [0-9.]+$")
+        assert (status, errors) == (0, "")
+        assert len(printed.splitlines()) == 1 + 18 + 3 + 2
+        assert re.search(r"(?m)^\d+/24 beamfall-basic-1: 3 episodes, mean score [0-9.]+$", printed)
         status, printed, errors = run("verify", str(self.place / "results"))
-        self.assertEqual((status, errors), (0, ""))
-        self.assertRegex(printed, r"^68 rows confirmed, 0 wrong, 0 could not be checked; \d+ frames in ")
-        self.assertEqual(self.experiment("results"), (0, "", ""))  # nothing is run again
+        assert (status, errors) == (0, "")
+        assert re.search(r"^68 rows confirmed, 0 wrong, 0 could not be checked; \d+ frames in ", printed)
+        assert self.experiment("results") == (0, "", "")  # nothing is run again
 
     def test_killed_at_any_moment_the_end_is_the_same(self):
-        self.assertEqual(self.experiment("whole", "--threads", "1")[0], 0)
+        assert self.experiment("whole", "--threads", "1")[0] == 0
         chance = random.Random(5)
         kills = 0
         command = [
@@ -90,11 +88,9 @@ class Experiment(unittest.TestCase):
             time.sleep(chance.uniform(0.01, 0.25))
             process.send_signal(signal.SIGKILL)
             kills += process.wait() == -signal.SIGKILL
-        self.assertGreater(kills, 0)
-        self.assertEqual(
-            self.experiment("parts", "--cpu", "interpreter", env=os.environ | {"RACEBEAM_SIMD": "plain"})[0], 0
-        )
-        self.assertEqual(files(self.place / "parts"), files(self.place / "whole"))
+        assert kills > 0
+        assert self.experiment("parts", "--cpu", "interpreter", env=os.environ | {"RACEBEAM_SIMD": "plain"})[0] == 0
+        assert files(self.place / "parts") == files(self.place / "whole")
 
     def test_a_signal_ends_it_with_a_sentence_and_all_that_is_finished_is_in_the_tables(self):
         self.plan.write_text(PLAN.replace("training_episodes = 8", "training_episodes = 80000"))
@@ -110,16 +106,16 @@ class Experiment(unittest.TestCase):
                 process.stdout.readline()
             process.send_signal(number)
             _, errors = process.communicate(timeout=PATIENCE)
-            self.assertEqual(
-                (process.returncode, errors),
-                (-number, "racebeam: a signal ended the experiment; the same command goes on with it\n"),
+            assert (process.returncode, errors) == (
+                -number,
+                "racebeam: a signal ended the experiment; the same command goes on with it\n",
             )
-            self.assertEqual((into / "results.csv").read_text().count("\n"), 1 + 19 * 3)
+            assert (into / "results.csv").read_text().count("\n") == 1 + 19 * 3
 
-    def test_a_terminal_shows_progress_within_a_unit(self):
+    def test_a_terminal_shows_progress_within_a_unit(self, cleanup):
         self.plan.write_text('games = ["beamfall"]\nagents = ["uct"]\n[agent.uct]\ntrials = 1\nsimulations = 60\n')
         terminal = Terminal([BINARY, "experiment", str(self.plan), "--into", str(self.place / "results")])
-        self.addCleanup(terminal.close)
+        cleanup(terminal.close)
         terminal.wait_until(
             lambda: re.match(r"0/1 beamfall-uct-1: 0 episodes and [1-9]\d* decisions, \d+ min left", terminal.line(0)),
             "progress",
@@ -133,9 +129,9 @@ class Experiment(unittest.TestCase):
         fields[8] = str(int(fields[8]) + 1)
         table.write_text("".join([lines[0], ",".join(fields), *lines[2:]]))
         status, printed, _ = run("verify", str(self.place / "results"))
-        self.assertEqual(status, 1)
-        self.assertRegex(
-            printed, r"results.csv:2 \(beamfall-random-1, episode 1\): not confirmed: score is '\d+'; its log has"
+        assert status == 1
+        assert re.search(
+            r"results.csv:2 \(beamfall-random-1, episode 1\): not confirmed: score is '\d+'; its log has", printed
         )
 
     def test_tables_say_what_they_were_made_from(self):
@@ -143,33 +139,33 @@ class Experiment(unittest.TestCase):
         report = self.place / "report.md"
         report.write_text("made from results.csv sha256:0000")
         status, printed, _ = run("verify", str(self.place / "results"), "--table", str(report))
-        self.assertEqual(status, 1)
-        self.assertIn("was not made from these results: it lacks their digest, ", printed)
+        assert status == 1
+        assert "was not made from these results: it lacks their digest, " in printed
         digest = subprocess.run(
             ["sha256sum", str(self.place / "results" / "results.csv")], capture_output=True, text=True
         )
         report.write_text("made from results.csv sha256:" + digest.stdout.split()[0])
         status, printed, _ = run("verify", str(self.place / "results"), "--table", str(report))
-        self.assertEqual(status, 0, printed)
-        self.assertIn("report.md says that it was made from these results\n", printed)
+        assert status == 0, printed
+        assert "report.md says that it was made from these results\n" in printed
         curves = hashlib.sha256((self.place / "results" / "curves.csv").read_bytes()).hexdigest()
         report.write_text("made from curves.csv sha256:" + curves)
         status, printed, _ = run("verify", str(self.place / "results"), "--table", str(report))
-        self.assertEqual(status, 0, printed)
-        self.assertIn("report.md says that it was made from the curves.csv of these results\n", printed)
+        assert status == 0, printed
+        assert "report.md says that it was made from the curves.csv of these results\n" in printed
 
     def test_a_disk_that_is_full_loses_nothing_that_is_finished(self):
-        self.assertEqual(self.experiment("whole")[0], 0)
+        assert self.experiment("whole")[0] == 0
 
         def few_bytes():
             signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python ignores it
             resource.setrlimit(resource.RLIMIT_FSIZE, (1200, 1200))
 
         status, _, errors = self.experiment("parts", preexec_fn=few_bytes)
-        self.assertEqual(status, 1)
-        self.assertRegex(errors, r"^racebeam: cannot write .*: File too large\n$")
-        self.assertEqual(self.experiment("parts")[0], 0)
-        self.assertEqual(files(self.place / "parts"), files(self.place / "whole"))
+        assert status == 1
+        assert re.search(r"^racebeam: cannot write .*: File too large\n$", errors)
+        assert self.experiment("parts")[0] == 0
+        assert files(self.place / "parts") == files(self.place / "whole")
 
     def test_bad_input_is_named_and_nothing_is_written(self):
         for words, status, sentence in (
@@ -188,18 +184,18 @@ class Experiment(unittest.TestCase):
             (["smoke", "--threads", "-1"], 2, "--threads: '-1' is not a whole number from 0 to 1024"),
         ):
             found = run("experiment", *words, "--into", str(self.place / "bad"))
-            self.assertEqual(found[0], status, found)
-            self.assertTrue(found[2].startswith("racebeam: " + sentence), found[2])
-            self.assertFalse((self.place / "bad").exists())
-        self.assertEqual(run("experiment", "smoke")[0], 2)
+            assert found[0] == status, found
+            assert found[2].startswith("racebeam: " + sentence), found[2]
+            assert not (self.place / "bad").exists()
+        assert run("experiment", "smoke")[0] == 2
         status, _, errors = run("verify", str(self.place / "none"))
-        self.assertEqual(status, 1)
-        self.assertRegex(errors, "^racebeam: plan .*/none/plan.toml: no such file\n$")
+        assert status == 1
+        assert re.search("^racebeam: plan .*/none/plan.toml: no such file\n$", errors)
 
     def test_the_evaluation_knows_all_agents(self):
         self.plan.write_text('games = ["beamfall"]\nagents = ["none"]\n')
         status, _, errors = self.experiment("results")
-        self.assertEqual(status, 1)
+        assert status == 1
         agents = re.search(r"unknown agent 'none'; accepted: (.*)\n", errors)[1].split(", ")
         scores = (ROOT / "evaluation/racebeam_evaluation/scores.py").read_text()
         names = [
@@ -207,11 +203,11 @@ class Experiment(unittest.TestCase):
             for group in ("BASELINE_VIEWS", "_LEARNERS", "_PLANNERS")
             for name in re.findall(r'"(\w+)"', re.search(rf"(?m)^{group} = \((.*?)\)", scores)[1])
         ]
-        self.assertEqual(sorted(agents), sorted(names))
+        assert sorted(agents) == sorted(names)
 
     def test_verification_takes_no_memory_for_the_rows(self):
         self.plan.write_text('games = ["beamfall"]\nagents = ["random"]\nevaluation_episodes = 2\n')
-        self.assertEqual(self.experiment("results")[0], 0)
+        assert self.experiment("results")[0] == 0
         folder = self.place / "results"
         rows = (folder / "results.csv").read_text().splitlines(keepends=True)
         with (folder / "results.csv").open("w") as table:
@@ -233,8 +229,8 @@ class Experiment(unittest.TestCase):
             )
             printed.seek(0)
             last = printed.readlines()[-1]
-        self.assertEqual((done.returncode, done.stderr), (1, ""))
-        self.assertRegex(last, "^2 rows confirmed, 300000 wrong, 0 could not be checked; ")
+        assert (done.returncode, done.stderr) == (1, "")
+        assert re.search("^2 rows confirmed, 300000 wrong, 0 could not be checked; ", last)
 
     def test_too_little_memory_is_a_sentence(self):
         plan = 'games = "paper"\nagents = ["const"]\ntrials = 1\nevaluation_episodes = 1\n'
@@ -248,53 +244,49 @@ class Experiment(unittest.TestCase):
             status, _, error = run("experiment", str(self.plan), "--dry-run", preexec_fn=limit)
             if status == 1:
                 errors.add(error)
-        self.assertNotIn("racebeam: std::bad_alloc\n", errors)
+        assert "racebeam: std::bad_alloc\n" not in errors
 
     def test_one_log_is_verified_too(self):
         self.plan.write_text('games = ["beamfall"]\nagents = ["random"]\nevaluation_episodes = 2\n')
-        self.assertEqual(self.experiment("results")[0], 0)
+        assert self.experiment("results")[0] == 0
         logs = self.place / "results/logs/beamfall-random-1"
         status, printed, errors = run("verify", str(logs / "1.episode"))
-        self.assertEqual((status, errors), (0, ""))
-        self.assertRegex(printed, r"^1\.episode \(beamfall, random, score \d+\): confirmed; \d+ frames in [0-9.]+ s\n$")
+        assert (status, errors) == (0, "")
+        assert re.search(r"^1\.episode \(beamfall, random, score \d+\): confirmed; \d+ frames in [0-9.]+ s\n$", printed)
         (self.place / "cut.episode").write_bytes((logs / "1.episode").read_bytes()[:-1])
         status, printed, errors = run("verify", str(self.place / "cut.episode"))
-        self.assertEqual((status, printed), (1, ""))
-        self.assertEqual(errors, "racebeam: episode log cut.episode: its checksum is wrong; it was cut or altered\n")
+        assert (status, printed) == (1, "")
+        assert errors == "racebeam: episode log cut.episode: its checksum is wrong; it was cut or altered\n"
         status, _, errors = run("verify", str(logs / "1.episode"), "--table", str(self.plan))
-        self.assertEqual(
-            (status, errors),
-            (
-                2,
-                "racebeam: --table needs the folder of the results, and this is one log (see racebeam verify --help)\n",
-            ),
+        assert (status, errors) == (
+            2,
+            "racebeam: --table needs the folder of the results, and this is one log (see racebeam verify --help)\n",
         )
 
     def test_the_results_in_the_tree_are_confirmed(self):
         folders = [plan.parent for plan in sorted((ROOT / "docs/results").glob("*/plan.toml"))]
-        self.assertIn(ROOT / "docs/results/own-games", folders)
+        assert ROOT / "docs/results/own-games" in folders
         kept = sum(path.stat().st_size for path in (ROOT / "docs/results").rglob("*") if path.is_file())
-        self.assertLess(kept, 6 << 20)  # which a clone carries: logs of 990 units of Perturb and 60 of learners
+        assert kept < 6 << 20  # which a clone carries: logs of 990 units of Perturb and 60 of learners
         for folder in folders:
             status, printed, _ = run("verify", str(folder))
-            self.assertEqual(status, 0 if folder.name == "own-games" else 2, printed)  # 2: the image is not here
-            self.assertIn(" rows confirmed, 0 wrong, ", printed)
+            assert status == (0 if folder.name == "own-games" else 2), printed  # 2: the image is not here
+            assert " rows confirmed, 0 wrong, " in printed
 
     def test_a_dry_run_lists_cost_and_missing_images(self):
         status, printed, _ = run("experiment", "paper", "--dry-run")  # without images, nothing can be measured
-        self.assertEqual(status, 0)
-        self.assertIn("missing image: zaxxon\n", printed)
-        self.assertRegex(printed, r"(?m)^basic +1650 units +\d+ decisions +[0-9.]+ core-hours$")
-        self.assertIn(
+        assert status == 0
+        assert "missing image: zaxxon\n" in printed
+        assert re.search(r"(?m)^basic +1650 units +\d+ decisions +[0-9.]+ core-hours$", printed)
+        assert (
             "core-hours are an estimate: each episode is taken to last 18000 frames, as long as it may, and speeds are "
-            "those of a table\n",
-            printed,
-        )
-        self.assertRegex(printed, r"(?m)^memory: about \d+ MB, and \d+ MB a thread; disk: about \d+ MB; ")
+            "those of a table\n"
+        ) in printed
+        assert re.search(r"(?m)^memory: about \d+ MB, and \d+ MB a thread; disk: about \d+ MB; ", printed)
         units = re.findall(r"(?m)^unit (\S+)  [0-9.]+ core-hours$", printed)
-        self.assertEqual((len(units), units[0], units[-1]), (11385, "asterix-random-1", "zaxxon-uct-10"))
+        assert (len(units), units[0], units[-1]) == (11385, "asterix-random-1", "zaxxon-uct-10")
         _, part, _ = run("experiment", "paper", "--dry-run", "--shard", "3/1000")
-        self.assertEqual(re.findall(r"(?m)^unit (\S+) ", part), units[2::1000])
+        assert re.findall(r"(?m)^unit (\S+) ", part) == units[2::1000]
 
     def test_a_dry_run_says_how_long_a_plan_takes(self):
         for agents, more in (
@@ -304,74 +296,74 @@ class Experiment(unittest.TestCase):
         ):
             self.plan.write_text(f'games = ["beamfall", "updraft"]\nagents = {agents}\n{more}')
             status, printed, errors = run("experiment", str(self.plan), "--dry-run")
-            self.assertEqual((status, errors), (0, ""))
-            self.assertIn("core-hours are from a moment of play on this machine, in 2 of 2 games; ", printed)
+            assert (status, errors) == (0, "")
+            assert "core-hours are from a moment of play on this machine, in 2 of 2 games; " in printed
             expected = 3600 * float(re.search(r"(?m)^all +\d+ units +\d+ decisions +([0-9.]+) core-hours$", printed)[1])
             before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-            self.assertEqual(self.experiment(f"results{len(agents)}", "--threads", "1")[0], 0)
+            assert self.experiment(f"results{len(agents)}", "--threads", "1")[0] == 0
             seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
-            self.assertTrue(0.5 < expected / seconds < 2, (agents, expected, seconds))
+            assert 0.5 < expected / seconds < 2, (agents, expected, seconds)
 
     def test_units_are_played_again(self):
         self.plan.write_text('games = ["beamfall"]\nagents = ["random"]\nevaluation_episodes = 2\n')
-        self.assertEqual(self.experiment("results")[0], 0)
+        assert self.experiment("results")[0] == 0
         results = self.place / "results"
         status, printed, errors = run("verify", str(results), "--rerun", "1", "--rerun-seed", "7")
-        self.assertEqual((status, errors), (0, ""))
-        self.assertIn("units are chosen by --rerun-seed 7\n", printed)
-        self.assertIn("beamfall-random-1: played again, and all rows are the same\n", printed)
-        self.assertIn("1 units played again: 1 the same, 0 not\n", printed)
+        assert (status, errors) == (0, "")
+        assert "units are chosen by --rerun-seed 7\n" in printed
+        assert "beamfall-random-1: played again, and all rows are the same\n" in printed
+        assert "1 units played again: 1 the same, 0 not\n" in printed
         table = (results / "results.csv").read_text()
         score = table.splitlines()[1].split(",")[8]
         (results / "results.csv").write_text(table.replace(f",{score},", f",{int(score) + 1},", 1))
         status, printed, _ = run("verify", str(results), "--rerun", "1")
-        self.assertEqual(status, 1)
-        self.assertRegex(printed, r"(?m)^units are chosen by --rerun-seed \d+$")
-        self.assertIn(
+        assert status == 1
+        assert re.search(r"(?m)^units are chosen by --rerun-seed \d+$", printed)
+        assert (
             f"beamfall-random-1: not the same: results.csv, episode 1: score is {int(score) + 1}; "
-            f"played again, the agent has {score}\n",
-            printed,
-        )
+            f"played again, the agent has {score}\n"
+        ) in printed
         status, _, errors = run("verify", str(results), "--rerun", "1", "--rerun-seed", "x")
-        self.assertEqual(status, 2)
-        self.assertIn("--rerun-seed: seed is 'x'", errors)
+        assert status == 2
+        assert "--rerun-seed: seed is 'x'" in errors
         log = results / "logs/beamfall-random-1/1.episode"
         status, _, errors = run("verify", str(log), "--rerun", "1")
-        self.assertEqual(status, 2)
-        self.assertIn("--rerun needs the folder of the results, and this is one log", errors)
+        assert status == 2
+        assert "--rerun needs the folder of the results, and this is one log" in errors
 
     def test_the_set_of_57_games_is_that_of_the_evaluation(self):
         self.plan.write_text('games = "atari57"\nagents = ["random"]\n')
         status, printed, _ = run("experiment", str(self.plan), "--dry-run")
-        self.assertEqual(status, 0)
+        assert status == 0
         games = (ROOT / "evaluation/racebeam_evaluation/data/atari57.csv").read_text().splitlines()[1:]
-        self.assertEqual(re.findall(r"(?m)^missing image: (\w+)$", printed), [line.split(",")[0] for line in games])
+        assert re.findall(r"(?m)^missing image: (\w+)$", printed) == [line.split(",")[0] for line in games]
 
     def test_a_background_is_discovered_drawn_and_read_again(self):
         into = self.place / "pictures"
         words = ("background", "beamfall", "--screens", "500", "--into")
-        self.assertEqual(run(*words, str(into))[0], 0)
+        assert run(*words, str(into))[0] == 0
         for name in ("background", "secam", "tiles"):
-            self.assertTrue((into / f"beamfall-{name}.png").read_bytes().startswith(b"\x89PNG"))
+            assert (into / f"beamfall-{name}.png").read_bytes().startswith(b"\x89PNG")
         table = (into / "beamfall.csv").read_text()
-        self.assertEqual([len(line.split(",")) for line in table.splitlines()], [160] * 210)
+        assert [len(line.split(",")) for line in table.splitlines()] == [160] * 210
         again = self.place / "again"
-        self.assertEqual(run(*words, str(again), "--csv", str(into / "beamfall.csv"))[0], 0)
-        self.assertEqual((again / "beamfall.csv").read_bytes(), (into / "beamfall.csv").read_bytes())
-        self.assertNotEqual((again / "beamfall.background").read_bytes(), (into / "beamfall.background").read_bytes())
+        assert run(*words, str(again), "--csv", str(into / "beamfall.csv"))[0] == 0
+        assert (again / "beamfall.csv").read_bytes() == (into / "beamfall.csv").read_bytes()
+        assert (again / "beamfall.background").read_bytes() != (into / "beamfall.background").read_bytes()
         (into / "beamfall.csv").write_text(table + "1\n")
         status, _, errors = run(*words, str(self.place / "bad"), "--csv", str(into / "beamfall.csv"))
-        self.assertEqual(status, 1)
-        self.assertIn("beamfall.csv:211: there are more than 210 lines", errors)
-        self.assertFalse((self.place / "bad").exists())
+        assert status == 1
+        assert "beamfall.csv:211: there are more than 210 lines" in errors
+        assert not (self.place / "bad").exists()
         status, _, errors = run("background", "asterix", "--into", str(self.place / "bad"))
-        self.assertEqual(
-            (status, errors), (1, "racebeam: no image is here of 'asterix'; --roms names the folder that holds it\n")
+        assert (status, errors) == (
+            1,
+            "racebeam: no image is here of 'asterix'; --roms names the folder that holds it\n",
         )
         status, _, errors = run("background", "asterik", "--into", str(self.place / "bad"))
-        self.assertEqual(
-            (status, errors),
-            (1, "racebeam: unknown game 'asterik'; did you mean asterix? racebeam games lists them\n"),
+        assert (status, errors) == (
+            1,
+            "racebeam: unknown game 'asterik'; did you mean asterix? racebeam games lists them\n",
         )
 
     def test_an_experiment_takes_a_background_from_a_csv_file_that_its_plan_names(self):
@@ -381,41 +373,37 @@ class Experiment(unittest.TestCase):
         status, printed, errors = run(
             "background", "beamfall", "--csv", str(csv), "--into", str(self.place / "results" / "games")
         )
-        self.assertEqual((status, errors), (0, ""))
+        assert (status, errors) == (0, "")
         line = f'beamfall = "{digest}"'
-        self.assertIn(f"a plan takes this background with [backgrounds] and {line}\n", printed)
+        assert f"a plan takes this background with [backgrounds] and {line}\n" in printed
         self.plan.write_text(
             PLAN.replace('"random", "const", "basic", "disco", "lsh", "uct"', '"basic"').partition("[agent")[0]
         )
         status, _, errors = self.experiment("results")
-        self.assertEqual(status, 1)
-        self.assertRegex(errors, f"beamfall.background is of '.* csv={digest}'; wanted is '.* screens=500 ")
-        self.assertFalse((self.place / "results" / "plan.toml").exists())
+        assert status == 1
+        assert re.search(f"beamfall.background is of '.* csv={digest}'; wanted is '.* screens=500 ", errors)
+        assert not (self.place / "results" / "plan.toml").exists()
         self.plan.write_text(self.plan.read_text() + f"[backgrounds]\n{line}\n")
-        self.assertEqual(self.experiment("results")[::2], (0, ""))
-        self.assertIn(f"[backgrounds]\n{line}\n", (self.place / "results" / "plan.toml").read_text())
+        assert self.experiment("results")[::2] == (0, "")
+        assert f"[backgrounds]\n{line}\n" in (self.place / "results" / "plan.toml").read_text()
 
     def test_classes_are_discovered_and_drawn_and_an_experiment_takes_them(self):
         games = self.place / "results" / "games"
         words = ("classes", "beamfall", "--screens", "500", "--background-screens", "500", "--into")
         status, printed, errors = run(*words, str(games))
-        self.assertEqual((status, errors), (0, ""))
-        self.assertRegex(printed, r"beamfall.classes and its pictures are written: [1-9]\d* classes of \d+ shapes\n$")
+        assert (status, errors) == (0, "")
+        assert re.search(r"beamfall.classes and its pictures are written: [1-9]\d* classes of \d+ shapes\n$", printed)
         for name in ("classes", "objects"):
-            self.assertTrue((games / f"beamfall-{name}.png").read_bytes().startswith(b"\x89PNG"))
+            assert (games / f"beamfall-{name}.png").read_bytes().startswith(b"\x89PNG")
         results = files(games)
         self.plan.write_text(
             PLAN.replace('"random", "const", "basic", "disco", "lsh", "uct"', '"disco"').partition("[agent")[0]
         )
-        self.assertEqual(self.experiment("results")[0], 0)
-        self.assertEqual({name: contents for name, contents in files(games).items() if name in results}, results)
+        assert self.experiment("results")[0] == 0
+        assert {name: contents for name, contents in files(games).items() if name in results} == results
         self.plan.write_text(self.plan.read_text().replace("class_screens = 500", "class_screens = 501"))
         (self.place / "other").mkdir()
         games.rename(self.place / "other" / "games")
         status, _, errors = self.experiment("other")
-        self.assertEqual(status, 1)
-        self.assertRegex(errors, "beamfall.classes is of '.*screens=500 .*'; wanted is '.*screens=501 ")
-
-
-if __name__ == "__main__":
-    main()
+        assert status == 1
+        assert re.search("beamfall.classes is of '.*screens=500 .*'; wanted is '.*screens=501 ", errors)

@@ -4,10 +4,9 @@ import os
 import re
 import signal
 import subprocess
-import tempfile
-import unittest
 
-from harness import BINARY, GAME, PATIENCE, Server, main
+import pytest
+from harness import BINARY, GAME, PATIENCE, Server
 
 LISTEN = ("serve", "--listen", "tcp://127.0.0.1:0")
 TLS = ("serve", "--listen", "tls://127.0.0.1:0")
@@ -29,11 +28,14 @@ COMMANDS = (
 )
 
 
-class Refused(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+class TestRefused:
+    @pytest.fixture(autouse=True)
+    def keep_subtests(self, subtests):
+        self.subtests = subtests
+
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.folder = str(tmp_path)
         self.pipe = os.path.join(self.folder, "pipe")
         os.mkfifo(self.pipe)
 
@@ -45,10 +47,10 @@ class Refused(unittest.TestCase):
 
     def check(self, path, reason):
         for words, status in COMMANDS:
-            with self.subTest(words=words):
+            with self.subtests.test(words=words):
                 ended, output, errors = self.run_racebeam(*words, path)
-                self.assertEqual((ended, output, len(errors)), (status, b"", 1), errors)
-                self.assertRegex(errors[0], re.escape(path) + "'?: " + reason)
+                assert (ended, output, len(errors)) == (status, b"", 1), errors
+                assert re.search(re.escape(path) + "'?: " + reason, errors[0])
 
     def test_a_pipe_that_nobody_writes_to(self):
         self.check(self.pipe, "this is a pipe, not a file")
@@ -74,22 +76,22 @@ class Refused(unittest.TestCase):
             file.truncate(1 << 40)  # takes no room on the disk
         self.check(path, "larger than ")
 
-    def test_a_path_of_images_that_is_not_a_folder(self):
+    def test_a_path_of_images_that_is_not_a_folder(self, subtests):
         for words, expected, sentence in (
             (("roms", self.pipe), 1, "Not a directory"),
             ((*STDIO, "--roms", self.pipe), 4, "is not a folder"),
         ):
-            with self.subTest(words=words):
+            with subtests.test(words=words):
                 status, output, errors = self.run_racebeam(*words)
-                self.assertEqual((status, output, len(errors)), (expected, b"", 1), errors)
-                self.assertIn(sentence, errors[0])
+                assert (status, output, len(errors)) == (expected, b"", 1), errors
+                assert sentence in errors[0]
 
     def test_the_configuration_of_a_classic_launcher_is_passed_over(self):
         os.mkfifo(os.path.join(self.folder, "ale.cfg"))
         status, _, errors = self.run_racebeam("classic", "-config", self.pipe, "-game_controller", "fifo", GAME)
-        self.assertEqual((status, len(errors)), (0, 3), errors)
-        self.assertIn("ale.cfg: this is a pipe, not a file; it is ignored", errors[0])
-        self.assertIn(f"{self.pipe}: this is a pipe, not a file; it is ignored", errors[1])
+        assert (status, len(errors)) == (0, 3), errors
+        assert "ale.cfg: this is a pipe, not a file; it is ignored" in errors[0]
+        assert f"{self.pipe}: this is a pipe, not a file; it is ignored" in errors[1]
 
     def test_a_hangup_does_not_wait_for_a_token_file_that_became_a_pipe(self):
         path = os.path.join(self.folder, "tokens")
@@ -102,8 +104,4 @@ class Refused(unittest.TestCase):
             os.mkfifo(path)
             server.process.send_signal(signal.SIGHUP)
             server.wait_for("tokens: this is a pipe, not a file; the old token file stays in use")
-            self.assertEqual(server.stop(), 0)
-
-
-if __name__ == "__main__":
-    main()
+            assert server.stop() == 0

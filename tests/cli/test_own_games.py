@@ -6,19 +6,17 @@ import pathlib
 import re
 import signal
 import subprocess
-import tempfile
-import unittest
 
-from harness import BINARY, PATIENCE, SOURCE, main, run
+import pytest
+from harness import BINARY, PATIENCE, SOURCE, run
 
 PADDING = 4000  # a place in Beamfall's image that the game does not read
 
 
-class OwnGames(unittest.TestCase):
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.place = pathlib.Path(place.name)
+class TestOwnGames:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.place = tmp_path
         self.roms = self.place / "roms"
         self.roms.mkdir()
         image = bytearray(pathlib.Path(SOURCE, "games/homebrew/beamfall.bin").read_bytes())
@@ -43,30 +41,30 @@ class OwnGames(unittest.TestCase):
         os.link(self.file, folder / "mine.toml")
         for path in (self.file, str(folder)):
             status, output, errors = self.serve("--roms", str(self.roms), "--game-file", path)
-            self.assertEqual(status, 0, errors)
-            self.assertRegex(output.decode(), rf"(?s)^ok game=mine md5={self.md5} rule=1 .*\nok reward=[1-9]\d*\n")
+            assert status == 0, errors
+            assert re.search(rf"(?s)^ok game=mine md5={self.md5} rule=1 .*\nok reward=[1-9]\d*\n", output.decode())
 
-    def test_a_built_in_image_is_of_the_game_whose_file_lists_it(self):
+    def test_a_built_in_image_is_of_the_game_whose_file_lists_it(self, subtests):
         image = pathlib.Path(SOURCE, "games/homebrew/beamfall.bin")
         md5 = hashlib.md5(image.read_bytes()).hexdigest()
         listed = self.game_file(md5, "listed")
         lines = f"load listed\nload {md5}\nload beamfall\n".encode()
         for options in ([], ["--rom", str(image)]):
-            with self.subTest(options=options):
+            with subtests.test(options=options):
                 status, output, errors = run("serve", "--stdio", "--game-file", listed, *options, data=lines)
-                self.assertEqual(status, 0, errors)
+                assert status == 0, errors
                 games = re.findall(r"^ok game=(\w+)", output.decode(), re.MULTILINE)
-                self.assertEqual(games, ["listed", "listed", "beamfall"])
+                assert games == ["listed", "listed", "beamfall"]
 
-    def test_a_file_for_no_image_is_refused(self):
+    def test_a_file_for_no_image_is_refused(self, subtests):
         other = self.game_file("0" * 32, "other")
         for options in (["--roms", str(self.roms)], []):
             for words in (["serve", "--stdio"], ["play"], ["experiment", "smoke", "--dry-run"]):
-                with self.subTest(words=words, options=options):
+                with subtests.test(words=words, options=options):
                     status, output, errors = run(*words, *options, "--game-file", other)
-                    self.assertEqual((status, output), (1, b""), errors)
-                    self.assertIn(f"--game-file {other}: no image has an MD5 that it lists", errors[-1])
-                    self.assertIn("the program's own games", errors[-1])
+                    assert (status, output) == (1, b""), errors
+                    assert f"--game-file {other}: no image has an MD5 that it lists" in errors[-1]
+                    assert "the program's own games" in errors[-1]
 
     def test_play_begins_with_the_game_of_the_file(self):
         variables = ("DISPLAY", "WAYLAND_DISPLAY")
@@ -74,7 +72,7 @@ class OwnGames(unittest.TestCase):
         words = ["--roms", str(self.roms), "--game-file", self.file]
         with subprocess.Popen([BINARY, "play", *words], stdout=subprocess.PIPE, text=True, env=environment) as process:
             try:
-                self.assertRegex(process.stdout.readline(), r"/\?game=mine#token=")
+                assert re.search(r"/\?game=mine#token=", process.stdout.readline())
             finally:
                 process.send_signal(signal.SIGINT)
                 process.wait(PATIENCE)
@@ -85,17 +83,13 @@ class OwnGames(unittest.TestCase):
         options = ["--roms", str(self.roms), "--game-file", self.file]
         results = str(self.place / "results")
         status, _, errors = run("experiment", str(plan), "--into", results, *options)
-        self.assertEqual(status, 0, errors)
+        assert status == 0, errors
         status, output, errors = run("verify", results, *options)
-        self.assertEqual(status, 0, (output, errors))
-        self.assertTrue(re.search(r"\b2\b", output.decode()), output)
+        assert status == 0, (output, errors)
+        assert re.search(r"\b2\b", output.decode()), output
         film = str(self.place / "film.gif")
         log = f"{results}/logs/mine-random-1/1.episode"
-        self.assertEqual(run("render", log, "--to", film, *options)[0], 0)
+        assert run("render", log, "--to", film, *options)[0] == 0
         status, _, errors = run("experiment", str(plan), "--into", f"{results}2")
-        self.assertEqual(status, 1)
-        self.assertIn("unknown game 'mine'", errors[-1])
-
-
-if __name__ == "__main__":
-    main()
+        assert status == 1
+        assert "unknown game 'mine'" in errors[-1]

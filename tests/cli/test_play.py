@@ -7,12 +7,11 @@ import select
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
-import unittest
 import urllib.request
 
-from harness import BINARY, PATIENCE, SOURCE, Server, main, run
+import pytest
+from harness import BINARY, PATIENCE, SOURCE, Server, run
 from web.web_socket import WebSocket
 
 
@@ -24,11 +23,14 @@ def environment(**more):
     } | more
 
 
-class Play(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+class TestPlay:
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.folder = str(tmp_path)
 
     def start(self, *words, **more):
         process = subprocess.Popen(
@@ -38,16 +40,16 @@ class Play(unittest.TestCase):
             text=True,
             env=environment(TMPDIR=self.folder, **more),
         )
-        self.addCleanup(process.kill)
-        self.addCleanup(process.stdout.close)
-        self.addCleanup(process.stderr.close)
+        self.cleanup(process.kill)
+        self.cleanup(process.stdout.close)
+        self.cleanup(process.stderr.close)
         return process
 
     def end(self, process):
         process.send_signal(signal.SIGINT)
         output, errors = process.communicate(timeout=PATIENCE)
-        self.assertEqual((process.returncode, output, errors), (0, "", ""))
-        self.assertEqual(os.listdir(self.folder), [])
+        assert (process.returncode, output, errors) == (0, "", "")
+        assert os.listdir(self.folder) == []
 
     def test_it_serves_a_page_and_sessions_with_a_token_until_it_is_interrupted(self):
         process = self.start("beamfall")
@@ -56,11 +58,11 @@ class Play(unittest.TestCase):
         )
         port, token = int(found[1]), found[2]
         with urllib.request.urlopen(f"http://127.0.0.1:{port}/?game=beamfall", timeout=PATIENCE) as page:
-            self.assertIn(b"<html", page.read())
+            assert b"<html" in page.read()
         session = WebSocket(port, Origin=f"http://127.0.0.1:{port}")
-        self.assertTrue(session.ask(b"load beamfall").startswith(b"error unauthorized "))
-        self.assertIn(b" admitted=1 ", session.ask(b"hello token=" + token.encode()))
-        self.assertTrue(session.ask(b"load beamfall").startswith(b"ok game=beamfall "))
+        assert session.ask(b"load beamfall").startswith(b"error unauthorized ")
+        assert b" admitted=1 " in session.ask(b"hello token=" + token.encode())
+        assert session.ask(b"load beamfall").startswith(b"ok game=beamfall ")
         session.close()
         self.end(process)
 
@@ -69,7 +71,7 @@ class Play(unittest.TestCase):
         os.mkdir(image)
         shutil.copy(os.path.join(SOURCE, "games/homebrew/updraft.bin"), os.path.join(image, "mine.bin"))
         process = self.start("--rom", os.path.join(image, "mine.bin"))
-        self.assertRegex(process.stdout.readline(), r"/\?game=updraft#token=")
+        assert re.search(r"/\?game=updraft#token=", process.stdout.readline())
         shutil.rmtree(image)
         self.end(process)
 
@@ -81,8 +83,8 @@ class Play(unittest.TestCase):
         os.chmod(script.name, 0o755)
         process = self.start(DISPLAY=":0", PATH=f"{opener}:{os.environ['PATH']}")
         page = process.stdout.readline()
-        self.assertRegex(page, r"^http://127\.0\.0\.1:\d+/#token=[0-9a-f]+\n$")
-        self.assertEqual(process.stdout.readline(), "opened " + page)
+        assert re.search(r"^http://127\.0\.0\.1:\d+/#token=[0-9a-f]+\n$", page)
+        assert process.stdout.readline() == "opened " + page
         shutil.rmtree(opener)
         self.end(process)
 
@@ -97,23 +99,28 @@ class Play(unittest.TestCase):
             (["--announce", "x"], "requires racebeam serve"),
         ):
             status, output, errors = run("play", *words)
-            self.assertEqual((status, output, len(errors)), (2, b"", 1), errors)
-            self.assertIn(hint, errors[0])
+            assert (status, output, len(errors)) == (2, b"", 1), errors
+            assert hint in errors[0]
         status, _, errors = run("play", "--listen", "tcp://127.0.0.1:0")
-        self.assertEqual(status, 1)
-        self.assertIn("needs an address ws://HOST:PORT", errors[-1])
+        assert status == 1
+        assert "needs an address ws://HOST:PORT" in errors[-1]
 
 
-class Watch(unittest.TestCase):
-    def setUp(self):
+class TestWatch:
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
+    @pytest.fixture(autouse=True)
+    def set_up(self, cleanup):
         self.server = Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "ws://127.0.0.1:0", "--grace", "0")
-        self.addCleanup(self.server.__exit__)
+        cleanup(self.server.__exit__)
         self.address = f"tcp://127.0.0.1:{self.server.port()}"
         self.port = int(self.server.wait_for(r"listening on ws://127\.0\.0\.1:(\d+)$")[1])
 
     def share(self, name, game="beamfall"):
         session = WebSocket(self.port)
-        self.addCleanup(session.close)
+        self.cleanup(session.close)
         session.ask(f"load {game} seed=1".encode())
         session.ask(f"share {name}".encode())
         return session
@@ -135,22 +142,20 @@ class Watch(unittest.TestCase):
             f"http://127.0.0.1:{self.port}/",
         ):
             done = self.watch(address)
-            self.assertEqual(
-                (done.returncode, done.stdout, done.stderr), (0, f"http://127.0.0.1:{self.port}/#watch\n", "")
-            )
+            assert (done.returncode, done.stdout, done.stderr) == (0, f"http://127.0.0.1:{self.port}/#watch\n", "")
         done = self.watch(self.address)
-        self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertIn("other addresses with --terminal", done.stderr)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert "other addresses with --terminal" in done.stderr
 
     def test_without_a_terminal_one_picture_is_written(self):
         self.share("a"), self.share("b", "updraft")
         for words, status in (([], "a  game beamfall"), (["--session", "b"], "b  game updraft")):
             done = self.watch("--terminal", self.address, *words)
             lines = done.stdout.splitlines()
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
-            self.assertIn(status, lines[-1])
-            self.assertIn("score 0", lines[-1])
-            self.assertEqual({line.count("\u2580") for line in lines[:-1]}, {80})
+            assert (done.returncode, done.stderr) == (0, "")
+            assert status in lines[-1]
+            assert "score 0" in lines[-1]
+            assert {line.count("\u2580") for line in lines[:-1]} == {80}
 
     def test_without_a_terminal_a_missing_picture_is_a_failure(self):
         for words, reason in (
@@ -158,8 +163,8 @@ class Watch(unittest.TestCase):
             (["--session", "nosuch"], "unknown shared session 'nosuch'"),
         ):
             done = self.watch("--terminal", self.address, *words)
-            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done)
-            self.assertTrue(done.stderr.startswith(f"racebeam: {reason}"), done.stderr)
+            assert (done.returncode, done.stdout, done.stderr.count("\n")) == (1, "", 1), done
+            assert done.stderr.startswith(f"racebeam: {reason}"), done.stderr
 
     def test_a_terminal_shows_what_is_played_and_takes_keys(self):
         session = self.share("a")
@@ -172,14 +177,14 @@ class Watch(unittest.TestCase):
         score = re.search(rb"score=(\d+)", session.ask(b"watch a"))
         session.ask(b"act NOOP")
         screen = self.wait_for_screen(terminal, r"a  game beamfall  score [1-9]")
-        self.assertIn("\u2580", screen)
+        assert "\u2580" in screen
         os.write(terminal, b"n")
         self.wait_for_screen(terminal, "b  game updraft")
         os.write(terminal, b"p")
         self.wait_for_screen(terminal, "a  game beamfall")
         os.write(terminal, b"q")
-        self.assertEqual(os.waitpid(child, 0)[1], 0)
-        self.assertTrue(score)
+        assert os.waitpid(child, 0)[1] == 0
+        assert score
 
     def wait_for_screen(self, terminal, pattern):
         """What the terminal shows until `pattern` comes."""
@@ -187,9 +192,5 @@ class Watch(unittest.TestCase):
         while time.monotonic() < until and not re.search(pattern.encode(), text):
             if select.select([terminal], [], [], 0.1)[0]:
                 text += os.read(terminal, 65536)
-        self.assertRegex(text.decode(errors="replace"), pattern)
+        assert re.search(pattern, text.decode(errors="replace"))
         return text.decode(errors="replace")
-
-
-if __name__ == "__main__":
-    main()

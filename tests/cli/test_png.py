@@ -7,11 +7,10 @@ import resource
 import stat
 import struct
 import subprocess
-import tempfile
-import unittest
 import zlib
 
-from harness import BINARY, GAME, main, run
+import pytest
+from harness import BINARY, GAME, run
 
 WIDTH, HEIGHT = 160, 210
 NTSC = {0x00: (0, 0, 0), 0x0E: (0xEC, 0xEC, 0xEC), 0x1A: (0xD2, 0xD2, 0x40), 0x44: (0xB8, 0x32, 0x32)}
@@ -61,27 +60,26 @@ def paeth(left, up, corner):
     return (left, up, corner)[distances.index(min(distances))]
 
 
-class Png(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = os.path.join(folder.name, "screen.png")
+class TestPng:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.path = os.path.join(tmp_path, "screen.png")
         self.pixels = [list(NTSC)[(x // 10 + y) % 4] for y in range(HEIGHT) for x in range(WIDTH)]
 
     def picture(self, line, *words):
         status, printed, errors = run("png", self.path, *words, data=line.encode())
-        self.assertEqual((status, printed, errors), (0, b"", []))
+        assert (status, printed, errors) == (0, b"", [])
         with open(self.path, "rb") as file:
             return read_png(file.read())
 
     def check(self, picture, palette):
         width, height, rows = picture
-        self.assertEqual((width, height), (2 * WIDTH, HEIGHT))
+        assert (width, height) == (2 * WIDTH, HEIGHT)
         expected = [
             b"".join(bytes(palette[pixel] * 2) for pixel in self.pixels[y * WIDTH : (y + 1) * WIDTH])
             for y in range(HEIGHT)
         ]
-        self.assertEqual(rows, expected)
+        assert rows == expected
 
     def test_every_pixel_has_its_colour_twice(self):
         self.check(self.picture(run_lengths(self.pixels) + ":0,0:\n"), NTSC)
@@ -89,7 +87,7 @@ class Png(unittest.TestCase):
     def test_a_full_screen_gives_the_same(self):
         self.check(self.picture(bytes(self.pixels).hex().upper() + ":0,0:\n", "--full"), NTSC)
 
-    def test_the_screen_is_found_in_every_kind_of_line(self):
+    def test_the_screen_is_found_in_every_kind_of_line(self, subtests):
         screen = run_lengths(self.pixels)
         for line in (
             screen,
@@ -97,7 +95,7 @@ class Png(unittest.TestCase):
             "00" * 128 + ":" + screen + ":\r\n",
             "00" * 128 + ":" + screen + ":1,-20:\n",
         ):
-            with self.subTest(line=line[-20:]):
+            with subtests.test(line=line[-20:]):
                 self.check(self.picture(line, "--rle"), NTSC)
 
     def test_the_palette_is_the_one_asked_for(self):
@@ -107,82 +105,84 @@ class Png(unittest.TestCase):
 
     def test_a_screen_of_the_server_is_one(self):
         status, lines, _ = run("serve", "--classic", "--stdio", "--rom", GAME, data=b"1,1,0,1\n1,18\n")
-        self.assertEqual(status, 0)
+        assert status == 0
         width, height, rows = self.picture(lines.decode().splitlines()[2])
-        self.assertEqual((width, height), (2 * WIDTH, HEIGHT))
-        self.assertGreater(len(set(rows)), 5)
+        assert (width, height) == (2 * WIDTH, HEIGHT)
+        assert len(set(rows)) > 5
 
     def replies(self, *requests):
         """What a server answers, as bytes."""
         lines = "".join(f"{request}\n" for request in ("load beamfall seed=7 sticky=0 frame_skip=4", *requests))
         status, printed, _ = run("serve", "--stdio", data=lines.encode())
-        self.assertEqual(status, 0)
+        assert status == 0
         return printed
 
     def picture_of(self, replies, *words):
         """The picture that replies give: width, height and rows."""
         status, printed, errors = run("png", self.path, *words, data=replies)
-        self.assertEqual((status, printed, errors), (0, b"", []))
+        assert (status, printed, errors) == (0, b"", [])
         with open(self.path, "rb") as file:
             return read_png(file.read())
 
-    def test_a_reply_in_each_encoding_is_the_same_picture(self):
+    def test_a_reply_in_each_encoding_is_the_same_picture(self, subtests):
         first = self.picture_of(self.replies("act FIRE*30", "look screen"))
-        self.assertEqual(first[:2], (2 * WIDTH, HEIGHT))
-        self.assertGreater(len(set(first[2])), 5)
+        assert first[:2] == (2 * WIDTH, HEIGHT)
+        assert len(set(first[2])) > 5
         for field in ("screen", "rgb"):
             for encoding in ("hex", "rle", "base64", "zlib", "raw"):
-                with self.subTest(field=field, encoding=encoding):
+                with subtests.test(field=field, encoding=encoding):
                     replies = self.replies("act FIRE*30", f"look lives ram:raw {field}:{encoding} palette", "stats")
-                    self.assertEqual(self.picture_of(replies), first)
-                    self.assertEqual(self.picture_of(replies, "--field", field), first)
+                    assert self.picture_of(replies) == first
+                    assert self.picture_of(replies, "--field", field) == first
                     if encoding != "raw":
-                        self.assertEqual(self.picture_of(replies, "--encoding", encoding), first)
+                        assert self.picture_of(replies, "--encoding", encoding) == first
             replies = self.replies(f"observe reward {field}:delta", "act FIRE*20", "act FIRE*10")
-            self.assertEqual(self.picture_of(replies, "--encoding", "delta"), first)
+            assert self.picture_of(replies, "--encoding", "delta") == first
 
     def test_a_single_reply_without_its_load_is_enough(self):
         replies = self.replies("act FIRE*30", "look screen:zlib")
-        self.assertEqual(self.picture_of(replies.splitlines()[-1]), self.picture_of(replies))
+        assert self.picture_of(replies.splitlines()[-1]) == self.picture_of(replies)
 
-    def test_grey_and_resized_screens_keep_their_size(self):
-        for field, size in (
+    @pytest.mark.parametrize(
+        "field, size",
+        (
             ("grey", (2 * WIDTH, HEIGHT)),
             ("grey84", (84, 84)),
             ("grey84x4", (84, 4 * 84)),
             ("grey40x30x2", (40, 60)),
             ("rgb40x30x1", (40, 30)),
-        ):
-            for encoding in ("hex", "zlib", "delta", "raw"):
-                with self.subTest(field=field, encoding=encoding):
-                    replies = self.replies(f"observe {field}:{encoding}", "act FIRE*9")
-                    words = ("--encoding", "delta") if encoding == "delta" else ()
-                    width, height, rows = self.picture_of(replies, *words)
-                    self.assertEqual((width, height), size)
-                    self.assertGreater(len(set(rows)), 5)
-                    if "rgb" not in field:
-                        self.assertTrue(all(row[0::3] == row[1::3] == row[2::3] for row in rows))
+        ),
+    )
+    @pytest.mark.parametrize("encoding", ("hex", "zlib", "delta", "raw"))
+    def test_grey_and_resized_screens_keep_their_size(self, field, size, encoding):
+        replies = self.replies(f"observe {field}:{encoding}", "act FIRE*9")
+        words = ("--encoding", "delta") if encoding == "delta" else ()
+        width, height, rows = self.picture_of(replies, *words)
+        assert (width, height) == size
+        assert len(set(rows)) > 5
+        if "rgb" not in field:
+            assert all(row[0::3] == row[1::3] == row[2::3] for row in rows)
 
     def test_a_shot_is_written_as_it_came(self):
         replies = self.replies("act FIRE*30", "shot")
-        self.assertEqual(run("png", self.path, data=replies), (0, b"", []))
+        assert run("png", self.path, data=replies) == (0, b"", [])
         data = re.search(rb" data=(\S+)", replies)[1]
         with open(self.path, "rb") as file:
-            self.assertEqual(file.read(), base64.b64decode(data))
+            assert file.read() == base64.b64decode(data)
 
     def test_machines_are_told_apart(self):
         replies = self.replies("observe screen", "open 2", "step FIRE UP", "step RIGHT*1 LEFT", "step RIGHT LEFT")
         pictures = [self.picture_of(replies, *words) for words in ((), ("--machine", "0"), ("--machine", "1"))]
-        self.assertEqual(pictures[0], pictures[1])
-        self.assertNotEqual(pictures[1], pictures[2])
+        assert pictures[0] == pictures[1]
+        assert pictures[1] != pictures[2]
 
     def test_the_palette_is_that_of_the_loaded_game(self):
         lines = b"load beamfall seed=7 format=pal\nlook screen\n"
         _, printed, _ = run("serve", "--stdio", data=lines)
-        self.assertEqual(self.picture_of(printed), self.picture_of(printed.splitlines()[-1], "--palette", "pal"))
-        self.assertNotEqual(self.picture_of(printed), self.picture_of(printed, "--palette", "ntsc"))
+        assert self.picture_of(printed) == self.picture_of(printed.splitlines()[-1], "--palette", "pal")
+        assert self.picture_of(printed) != self.picture_of(printed, "--palette", "ntsc")
 
-    def test_replies_without_a_picture_are_refused(self):
+    def test_replies_without_a_picture_are_refused(self, subtests):
         for complaint, replies, *words in (
             ("no reply on standard input has a picture", self.replies("act FIRE")),
             ("the server refused a request: no-game look needs a game", b"error no-game look needs a game; load\n"),
@@ -198,22 +198,21 @@ class Png(unittest.TestCase):
             ("the input ends within the bytes", self.replies("look screen:raw")[:-9]),
             ("a reply says raw=", b"ok screen=33600 raw=999999999\n"),
         ):
-            with self.subTest(complaint=complaint):
+            with subtests.test(complaint=complaint):
                 ended, printed, errors = run("png", self.path, *words, data=replies)
-                self.assertEqual((ended, printed, len(errors)), (1, b"", 1), errors)
-                self.assertIn(complaint, errors[0])
-                self.assertFalse(os.path.exists(self.path))
+                assert (ended, printed, len(errors)) == (1, b"", 1), errors
+                assert complaint in errors[0]
+                assert not os.path.exists(self.path)
 
     def check_refusal(self, status, complaint, line, *words):
         ended, printed, errors = run("png", self.path, *words, data=line.encode())
-        self.assertEqual((ended, printed, len(errors)), (status, b"", 1), errors)
-        self.assertIn(complaint, errors[0])
-        self.assertFalse(os.path.exists(self.path))
+        assert (ended, printed, len(errors)) == (status, b"", 1), errors
+        assert complaint in errors[0]
+        assert not os.path.exists(self.path)
 
-    def test_lines_without_a_screen_are_refused(self):
-        for line in ("", "\n", "DIE\n", "0,0:\n", "00" * 128 + ":0,0:\n"):
-            with self.subTest(line=line):
-                self.check_refusal(1, "truncated" if line == "DIE\n" else "no screen", line)
+    @pytest.mark.parametrize("line", ("", "\n", "DIE\n", "0,0:\n", "00" * 128 + ":0,0:\n"))
+    def test_lines_without_a_screen_are_refused(self, line):
+        self.check_refusal(1, "truncated" if line == "DIE\n" else "no screen", line)
 
     def test_screens_that_make_no_sense_are_refused(self):
         screen = run_lengths(self.pixels)
@@ -232,8 +231,8 @@ class Png(unittest.TestCase):
     def test_a_file_that_cannot_be_written_is_named(self):
         path = os.path.join(os.path.dirname(self.path), "missing", "x.png")
         status, _, errors = run("png", path, data=run_lengths(self.pixels).encode())
-        self.assertEqual((status, len(errors)), (1, 1), errors)
-        self.assertIn(path, errors[0])
+        assert (status, len(errors)) == (1, 1), errors
+        assert path in errors[0]
 
     def test_a_file_that_may_not_grow_leaves_the_old_one(self):
         with open(self.path, "wb") as file:
@@ -245,10 +244,10 @@ class Png(unittest.TestCase):
             capture_output=True,
             preexec_fn=lambda: resource.setrlimit(*limits),
         )
-        self.assertEqual(done.returncode, 1, done.stderr)
+        assert done.returncode == 1, done.stderr
         with open(self.path, "rb") as file:
-            self.assertEqual(file.read(), b"the old picture")
-        self.assertEqual(len(os.listdir(os.path.dirname(self.path))), 1)
+            assert file.read() == b"the old picture"
+        assert len(os.listdir(os.path.dirname(self.path))) == 1
 
     def test_a_pipe_is_written_to_and_stays(self):
         os.mkfifo(self.path)
@@ -256,10 +255,6 @@ class Png(unittest.TestCase):
             writer.stdin.write(run_lengths(self.pixels).encode())
             writer.stdin.close()
             with open(self.path, "rb") as pipe:
-                self.assertEqual(pipe.read(4), b"\x89PNG")
-        self.assertEqual(writer.returncode, 0)
-        self.assertTrue(stat.S_ISFIFO(os.stat(self.path).st_mode))
-
-
-if __name__ == "__main__":
-    main()
+                assert pipe.read(4) == b"\x89PNG"
+        assert writer.returncode == 0
+        assert stat.S_ISFIFO(os.stat(self.path).st_mode)

@@ -5,13 +5,12 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import tempfile
 import time
-import unittest
 
-from harness import BINARY, main, sanitized
+import pytest
+from harness import BINARY, sanitized
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PACKAGES = SOURCE / "packages"
@@ -20,16 +19,13 @@ MARKS = {"VERSION": "1.2.3", "HOMEPAGE": "https://example.org/racebeam", "SHA256
 UNPRIVILEGED = {"user": "nobody"} if os.geteuid() == 0 else {}  # makepkg refuses root
 
 
-def needs(tool):
-    return unittest.skipUnless(shutil.which(tool), f"{tool} is not installed")
-
-
-class Recipes(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.folder.chmod(0o777)  # another user may write here
+class TestRecipes:
+    @pytest.fixture(autouse=True)
+    def set_up(self):
+        with tempfile.TemporaryDirectory() as folder:  # another user may not reach that of pytest
+            self.folder = pathlib.Path(folder)
+            self.folder.chmod(0o777)  # another user may write here
+            yield
 
     def write(self, recipe):
         """A recipe as scripts/release writes it, in its own folder."""
@@ -45,16 +41,16 @@ class Recipes(unittest.TestCase):
         done = subprocess.run(
             command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **{"cwd": self.folder, **options}
         )
-        self.assertEqual(done.returncode, 0, done.stdout)
+        assert done.returncode == 0, done.stdout
         return done.stdout
 
-    @needs("hadolint")
+    @pytest.mark.needs_programs("hadolint")
     def test_the_dockerfile(self):
-        self.assertEqual(self.output("hadolint", "--no-color", PACKAGES / "docker/Dockerfile"), "")
+        assert self.output("hadolint", "--no-color", PACKAGES / "docker/Dockerfile") == ""
 
-    @unittest.skipIf(sanitized(), "the container has no sanitizer")
-    @needs("readelf")
-    @needs("dpkg-query")
+    @pytest.mark.skipif(sanitized(), reason="the container has no sanitizer")
+    @pytest.mark.needs_programs("readelf")
+    @pytest.mark.needs_programs("dpkg-query")
     def test_the_container_has_the_libraries_that_the_program_needs(self):
         final = (PACKAGES / "docker/Dockerfile").read_text().rpartition("FROM ")[2]
         packages = set(re.findall(r"\blib[\w.+-]+|\bzlib1g\b", final))
@@ -65,30 +61,30 @@ class Recipes(unittest.TestCase):
         paths = dict(re.findall(r"(\S+) => (/\S+)", self.output("ldd", BINARY)))
         files = [str(pathlib.Path(paths[name]).resolve()).removeprefix("/usr") for name in libraries]
         found = self.output("dpkg-query", "--search", *(f"*{file}" for file in files))
-        self.assertGreater(len(files), 5)
-        self.assertLessEqual({line.partition(":")[0] for line in found.splitlines()}, has)
+        assert len(files) > 5
+        assert {line.partition(":")[0] for line in found.splitlines()} <= has
 
     def test_the_container_is_the_image_of_the_pods(self):
         lines = (PACKAGES / "docker/Dockerfile").read_text().splitlines()
         pods = "".join(path.read_text() for path in (SOURCE / "cluster/kubernetes").glob("*/*.yaml"))
         user, group = next(line for line in lines if line.startswith("USER ")).split()[1].split(":")
-        self.assertEqual(set(re.findall(r"runAsUser: (\d+)", pods)), {user})
-        self.assertEqual(set(re.findall(r"runAsGroup: (\d+)", pods)), {group})
+        assert set(re.findall(r"runAsUser: (\d+)", pods)) == {user}
+        assert set(re.findall(r"runAsGroup: (\d+)", pods)) == {group}
         exposed = next(line for line in lines if line.startswith("EXPOSE ")).split()[1:]
-        self.assertEqual(set(re.findall(r"containerPort: (\d+)", pods)), set(exposed))
-        self.assertEqual(set(re.findall(r"image: (.+)", pods)), {re.search(r"docker build .* -t (\S+)", lines[0])[1]})
-        self.assertIn('ENTRYPOINT ["racebeam"]', lines)  # the pods' commands begin with it, too
+        assert set(re.findall(r"containerPort: (\d+)", pods)) == set(exposed)
+        assert set(re.findall(r"image: (.+)", pods)) == {re.search(r"docker build .* -t (\S+)", lines[0])[1]}
+        assert 'ENTRYPOINT ["racebeam"]' in lines  # the pods' commands begin with it, too
 
-    @needs("bash")
-    def test_the_container_knows_whether_its_server_is_well(self):
+    @pytest.mark.needs_programs("bash")
+    def test_the_container_knows_whether_its_server_is_well(self, cleanup):
         [command] = re.findall(r"(?m)^  CMD (\[.*\])$", (PACKAGES / "docker/Dockerfile").read_text())
         ready = self.folder / "ready"
         options = ["--listen", f"unix:{self.folder}/socket", "--http", "127.0.0.1:0", "--ready-file", ready]
         server = subprocess.Popen([BINARY, "serve", *options], stderr=subprocess.DEVNULL)
-        self.addCleanup(server.wait)
-        self.addCleanup(server.kill)
+        cleanup(server.wait)
+        cleanup(server.kill)
         while not ready.exists():
-            self.assertIsNone(server.poll())
+            assert server.poll() is None
             time.sleep(0.01)
         port = ready.read_text().split()[-1].rpartition(":")[2]
 
@@ -96,45 +92,45 @@ class Recipes(unittest.TestCase):
             words = [word.replace("7801", port).replace(*change) for word in json.loads(command)]
             return subprocess.run(words, stderr=subprocess.DEVNULL).returncode
 
-        self.assertEqual(status("", ""), 0)
-        self.assertNotEqual(status("healthz", "nothing"), 0)
+        assert status("", "") == 0
+        assert status("healthz", "nothing") != 0
         server.kill()
         server.wait()
-        self.assertNotEqual(status("", ""), 0)
+        assert status("", "") != 0
 
     def test_the_ports_of_the_container_are_published(self):
         exposed = re.search(r"(?m)^EXPOSE (.*)$", (PACKAGES / "docker/Dockerfile").read_text())[1].split()
         published = re.findall(r'- "127.0.0.1:(\d+):(\d+)"', (PACKAGES / "docker/compose.yaml").read_text())
-        self.assertEqual(published, [(port, port) for port in exposed])
+        assert published == [(port, port) for port in exposed]
 
     def test_the_container_gets_no_image(self):
         ignored = (SOURCE / ".dockerignore").read_text().splitlines()
-        self.assertLessEqual({".git", ".venv", "build"}, set(ignored))
+        assert {".git", ".venv", "build"} <= set(ignored)
 
-    @needs("docker-compose")
+    @pytest.mark.needs_programs("docker-compose")
     def test_the_compose_file(self):
         output = self.output("docker-compose", "-f", PACKAGES / "docker/compose.yaml", "config")
-        self.assertIn("dockerfile: packages/docker/Dockerfile", output)
+        assert "dockerfile: packages/docker/Dockerfile" in output
 
-    @needs("ruby")
+    @pytest.mark.needs_programs("ruby")
     def test_the_formula(self):
-        self.assertEqual(self.output("ruby", "-wc", self.write("homebrew/racebeam.rb")), "Syntax OK\n")
+        assert self.output("ruby", "-wc", self.write("homebrew/racebeam.rb")) == "Syntax OK\n"
 
-    @needs("shellcheck")
+    @pytest.mark.needs_programs("shellcheck")
     def test_the_pkgbuild_as_a_program(self):
         unused_or_given = "SC2034,SC2154"  # variables that makepkg reads and sets
-        self.assertEqual(
-            self.output("shellcheck", "--shell=bash", f"--exclude={unused_or_given}", self.write("arch/PKGBUILD")), ""
+        assert (
+            self.output("shellcheck", "--shell=bash", f"--exclude={unused_or_given}", self.write("arch/PKGBUILD")) == ""
         )
 
-    @needs("makepkg")
+    @pytest.mark.needs_programs("makepkg")
     def test_the_pkgbuild_as_a_package(self):
         self.write("arch/PKGBUILD")
         output = self.output("makepkg", "--printsrcinfo", **UNPRIVILEGED)
-        self.assertIn("\tpkgver = 1.2.3\n", output)
-        self.assertIn("/v1.2.3/racebeam-1.2.3-source.tar.gz\n", output)
+        assert "\tpkgver = 1.2.3\n" in output
+        assert "/v1.2.3/racebeam-1.2.3-source.tar.gz\n" in output
 
-    @unittest.skipUnless((BUILD / "packages/texts/racebeam.1").exists(), "the build has no man pages")
+    @pytest.mark.skipif(not (BUILD / "packages/texts/racebeam.1").exists(), reason="the build has no man pages")
     def test_the_package_for_arch_has_the_places_of_arch(self):
         self.write("arch/PKGBUILD")
         (self.folder / "racebeam-1.2.3").symlink_to(SOURCE)
@@ -144,7 +140,7 @@ class Recipes(unittest.TestCase):
         self.output(
             "bash", "-euc", f"{installed_to_usr}; . ./PKGBUILD; package", env={**os.environ, "pkgdir": str(root)}
         )
-        self.assertEqual({path.name for path in root.iterdir()}, {"usr", "etc"})
+        assert {path.name for path in root.iterdir()} == {"usr", "etc"}
         for path in (
             "bin/racebeam",
             "lib/systemd/system/racebeam.service",
@@ -152,9 +148,5 @@ class Recipes(unittest.TestCase):
             "share/zsh/site-functions/_racebeam",
             "share/licenses/racebeam/LICENSE",
         ):
-            self.assertTrue((root / "usr" / path).is_file(), path)
-        self.assertFalse((root / "usr/share/zsh/vendor-completions").exists())
-
-
-if __name__ == "__main__":
-    main()
+            assert (root / "usr" / path).is_file(), path
+        assert not (root / "usr/share/zsh/vendor-completions").exists()

@@ -5,18 +5,15 @@ import importlib.machinery
 import importlib.util
 import json
 import pathlib
+import re
 import subprocess
-import sys
 import tarfile
-import tempfile
-import unittest
 
 import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(SOURCE / "tests/server"))
 
-from harness import BINARY  # noqa: E402
+from harness import BINARY
 
 BUILD = pathlib.Path(BINARY).parent
 
@@ -39,12 +36,12 @@ pytestmark = [
 ]
 
 
-class Release(unittest.TestCase):
+class TestRelease:
+    @pytest.fixture(scope="class", autouse=True)
     @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+    def set_up_class(cls, tmp_path_factory):
+        folder = tmp_path_factory.mktemp("release")
+        cls.folder = folder
         cls.release = script("release").Release("HEAD", 1)
         cls.release.build = cls.release.python = lambda *_: None
         cls.release.pack = lambda source, _, __, scratch, into, pack=cls.release.pack: pack(
@@ -72,18 +69,18 @@ class Release(unittest.TestCase):
             "SHA256SUMS",
         }
         names = {path.name for path in self.packages.iterdir()}
-        self.assertTrue(kinds <= names, names)
-        self.assertEqual(len(names - kinds), 1)  # that of the processor
+        assert kinds <= names, names
+        assert len(names - kinds) == 1  # that of the processor
 
     def test_two_runs_give_the_same_sums(self):
-        self.assertEqual((self.packages / "SHA256SUMS").read_text(), (self.folder / "second/SHA256SUMS").read_text())
+        assert (self.packages / "SHA256SUMS").read_text() == (self.folder / "second/SHA256SUMS").read_text()
 
     def test_the_sums_are_those_of_the_files(self):
         lines = (self.packages / "SHA256SUMS").read_text().splitlines()
-        self.assertEqual(len(lines), len(list(self.packages.iterdir())) - 1)
+        assert len(lines) == len(list(self.packages.iterdir())) - 1
         for line in lines:
             digest, name = line.split()
-            self.assertEqual(hashlib.sha256((self.packages / name).read_bytes()).hexdigest(), digest)
+            assert hashlib.sha256((self.packages / name).read_bytes()).hexdigest() == digest
 
     def test_the_program_plays_where_it_is_unpacked(self):
         program = self.unpacked("*-linux-*.tar.gz") / "bin/racebeam"
@@ -93,34 +90,33 @@ class Release(unittest.TestCase):
             capture_output=True,
             text=True,
         )
-        self.assertEqual(output.stdout.splitlines()[-1], "ok reward=21 terminated=0 truncated=0 lives=4")
+        assert output.stdout.splitlines()[-1] == "ok reward=21 terminated=0 truncated=0 lives=4"
 
     def test_the_source_is_that_of_the_commit(self):
         source = self.unpacked("*-source.tar.gz")
         output = subprocess.run(
             ["git", "ls-tree", "-r", "--name-only", "HEAD"], cwd=SOURCE, capture_output=True, text=True, check=True
         ).stdout
-        self.assertEqual(
-            {str(path.relative_to(source)) for path in source.rglob("*") if not path.is_dir()}, set(output.splitlines())
+        assert {str(path.relative_to(source)) for path in source.rglob("*") if not path.is_dir()} == set(
+            output.splitlines()
         )
 
     def test_the_texts_name_the_source(self):
         digest = hashlib.sha256(next(self.packages.glob("*-source.tar.gz")).read_bytes()).hexdigest()
         for name in ("racebeam.rb", "PKGBUILD"):
             text = (self.packages / name).read_text()
-            self.assertIn(digest, text)
-            self.assertIn(self.version, text)
-            self.assertNotRegex(text, "@[A-Z]")  # a mark that was left
+            assert digest in text
+            assert self.version in text
+            assert not re.search("@[A-Z]", text)  # a mark that was left
         subprocess.run(["bash", "-n", self.packages / "PKGBUILD"], check=True)
 
     def test_the_parts_have_versions(self):
         contents = json.loads((self.packages / "sbom.json").read_text())
-        self.assertEqual(
-            (contents["bomFormat"], contents["specVersion"], contents["metadata"]["component"]["version"]),
-            ("CycloneDX", "1.5", self.version),
+        assert (contents["bomFormat"], contents["specVersion"], contents["metadata"]["component"]["version"]) == (
+            "CycloneDX",
+            "1.5",
+            self.version,
         )
         names = {part["name"] for part in contents["components"]}
-        self.assertTrue({"libc6", "libssl3", "zlib1g", "Boost headers"} <= names, names)
-        self.assertTrue(
-            all(part["version"] and part["purl"].startswith("pkg:deb/debian/") for part in contents["components"])
-        )
+        assert {"libc6", "libssl3", "zlib1g", "Boost headers"} <= names, names
+        assert all(part["version"] and part["purl"].startswith("pkg:deb/debian/") for part in contents["components"])

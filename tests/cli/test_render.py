@@ -1,18 +1,16 @@
 """racebeam render: films and pictures of the log of an episode."""
 
 import os
-import pathlib
 import re
-import shutil
 import signal
 import stat
 import subprocess
 import tempfile
 import time
-import unittest
 import wave
 
-from harness import BINARY, PATIENCE, main
+import pytest
+from harness import BINARY, PATIENCE
 
 PLAN = """games = ["beamfall"]
 agents = ["random"]
@@ -26,12 +24,12 @@ for word; do last=$word; done
 """
 
 
-class Render(unittest.TestCase):
+class TestRender:
+    @pytest.fixture(scope="class", autouse=True)
     @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.place = pathlib.Path(folder.name)
+    def set_up_class(cls, tmp_path_factory):
+        folder = tmp_path_factory.mktemp("render")
+        cls.place = folder
         (cls.place / "plan.toml").write_text(PLAN)
         subprocess.run(
             [BINARY, "experiment", cls.place / "plan.toml", "--into", cls.place / "results"],
@@ -71,15 +69,15 @@ class Render(unittest.TestCase):
             )[1]
         )
         for name in ("a.y4m", "a.gif", "a.wav", "pictures"):
-            self.assertEqual(self.render(name), (0, f"{self.place / name}: {frames} frames\n", ""))
+            assert self.render(name) == (0, f"{self.place / name}: {frames} frames\n", "")
         size = (self.place / "a.y4m").read_bytes()
         head, _, rest = size.partition(b"\n")
-        self.assertEqual(head, b"YUV4MPEG2 W320 H210 F60:1 Ip A1:1 C444")
-        self.assertEqual(len(rest), frames * (len(b"FRAME\n") + 3 * 320 * 210))
+        assert head == b"YUV4MPEG2 W320 H210 F60:1 Ip A1:1 C444"
+        assert len(rest) == frames * (len(b"FRAME\n") + 3 * 320 * 210)
         with wave.open(str(self.place / "a.wav")) as sound:
-            self.assertEqual(sound.getnframes(), frames * 512)
-        self.assertEqual(len(list((self.place / "pictures").iterdir())), frames)
-        self.assertEqual((self.place / "a.gif").read_bytes()[:6], b"GIF89a")
+            assert sound.getnframes() == frames * 512
+        assert len(list((self.place / "pictures").iterdir())) == frames
+        assert (self.place / "a.gif").read_bytes()[:6] == b"GIF89a"
 
     def test_ffmpeg_makes_films_with_sound(self):
         tools = self.place / "tools"
@@ -88,16 +86,18 @@ class Render(unittest.TestCase):
         (tools / "ffmpeg").chmod(stat.S_IRWXU)
         path = f"{tools}:{os.environ['PATH']}"
         for name, codecs in (("b.webm", ("libvpx-vp9", "libopus")), ("b.mp4", ("libx264", "aac"))):
-            self.assertEqual(self.render(name, PATH=path)[0], 0)
+            assert self.render(name, PATH=path)[0] == 0
             words, stream = (self.place / name).read_bytes().split(b"\n", 1)
-            self.assertRegex(words.decode(), rf" -f avi -i pipe:0 .* -c:v {codecs[0]} .* -c:a {codecs[1]} ")
-            self.assertEqual(stream[:4] + stream[8:12], b"RIFFAVI ")
-        self.assertEqual(
-            self.render("c.webm", PATH=""), (1, "", "racebeam: ffmpeg is not installed: the PATH has no such program\n")
+            assert re.search(rf" -f avi -i pipe:0 .* -c:v {codecs[0]} .* -c:a {codecs[1]} ", words.decode())
+            assert stream[:4] + stream[8:12] == b"RIFFAVI "
+        assert self.render("c.webm", PATH="") == (
+            1,
+            "",
+            "racebeam: ffmpeg is not installed: the PATH has no such program\n",
         )
-        self.assertEqual([path for path in self.place.iterdir() if path.name.startswith(".")], [])
+        assert [path for path in self.place.iterdir() if path.name.startswith(".")] == []
 
-    def test_a_signal_leaves_nothing_behind(self):
+    def test_a_signal_leaves_nothing_behind(self, subtests):
         tools = self.place / "slow tools"
         tools.mkdir()
         (tools / "ffmpeg").write_text("#!/bin/sh\nexec sleep 1000\n")  # reads nothing, so the film stays unfinished
@@ -105,7 +105,7 @@ class Render(unittest.TestCase):
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             with (
                 tempfile.TemporaryDirectory() as folder,
-                self.subTest(number=number),
+                subtests.test(number=number),
                 subprocess.Popen(
                     [BINARY, "render", self.log, "--to", f"{folder}/film.webm"],
                     stderr=subprocess.PIPE,
@@ -115,15 +115,15 @@ class Render(unittest.TestCase):
                 until = time.monotonic() + PATIENCE
                 while not os.listdir(folder) and time.monotonic() < until:
                     time.sleep(0.005)
-                self.assertEqual(len(os.listdir(folder)), 1)
+                assert len(os.listdir(folder)) == 1
                 process.send_signal(number)
-                self.assertEqual((process.wait(PATIENCE), process.stderr.read()), (-number, b""))
-                self.assertEqual(os.listdir(folder), [])
+                assert (process.wait(PATIENCE), process.stderr.read()) == (-number, b"")
+                assert os.listdir(folder) == []
 
-    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    @pytest.mark.needs_programs("ffmpeg")
     def test_a_film_of_the_real_ffmpeg_plays(self):
-        self.assertEqual(self.render("real.webm")[0], 0)
-        self.assertEqual((self.place / "real.webm").read_bytes()[:4], b"\x1aE\xdf\xa3")
+        assert self.render("real.webm")[0] == 0
+        assert (self.place / "real.webm").read_bytes()[:4] == b"\x1aE\xdf\xa3"
 
     def test_what_cannot_be_made_is_refused_and_leaves_nothing(self):
         (self.place / "there.gif").write_text("mine")
@@ -141,16 +141,12 @@ class Render(unittest.TestCase):
             ("no/x.gif", None, 1, f"cannot make {self.place}/no/x.gif: the folder does not exist: {self.place}/no"),
         ):
             found, output, errors = self.render(to, log)
-            self.assertEqual((found, output, len(errors.splitlines())), (status, "", 1), (to, errors))
-            self.assertIn(hint, errors)
+            assert (found, output, len(errors.splitlines())) == (status, "", 1), (to, errors)
+            assert hint in errors
         done = subprocess.run(
             [BINARY, "render", self.log, "--to", ""], capture_output=True, text=True, timeout=PATIENCE
         )
-        self.assertEqual(done.returncode, 2, done)
-        self.assertIn("--to: '' names no file", done.stderr)
-        self.assertEqual((self.place / "there.gif").read_text(), "mine")
-        self.assertFalse((self.place / "x.gif").exists())
-
-
-if __name__ == "__main__":
-    main()
+        assert done.returncode == 2, done
+        assert "--to: '' names no file" in done.stderr
+        assert (self.place / "there.gif").read_text() == "mine"
+        assert not (self.place / "x.gif").exists()

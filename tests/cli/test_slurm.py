@@ -1,13 +1,12 @@
 """cluster/slurm/racebeam-srun with a stand-in for srun. scripts/cluster-test runs it on a real Slurm."""
 
 import os
-import pathlib
+import re
 import subprocess
 import sys
-import tempfile
-import unittest
 
-from harness import BINARY, PATIENCE, SOURCE, main
+import pytest
+from harness import BINARY, PATIENCE, SOURCE
 
 SCRIPT = os.path.join(SOURCE, "cluster", "slurm", "racebeam-srun")
 CLIENT = os.path.join(SOURCE, "clients", "python", "single_file")
@@ -27,11 +26,10 @@ sys.exit(int(sys.stdin.read()))
 WARNING = "if srun forwards standard output"
 
 
-class Srun(unittest.TestCase):
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.place = pathlib.Path(place.name)
+class TestSrun:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.place = tmp_path
         programs, self.folder = self.place / "programs", self.place / "jobs"
         programs.mkdir()
         self.folder.mkdir()
@@ -51,42 +49,35 @@ class Srun(unittest.TestCase):
             cwd=self.folder,
             env=self.environment | environment,
         )
-        self.assertEqual(os.listdir(self.folder), [], "left in the working directory")
+        assert os.listdir(self.folder) == [], "left in the working directory"
         return done.returncode, done.stdout, done.stderr
 
     def test_an_agent_gets_a_socket_and_the_script_its_status(self):
         status, output, errors = self.run_script(sys.executable, "-B", "-c", PLAY, input="7")
-        self.assertEqual(status, 7)
-        self.assertNotIn(WARNING, errors)
-        self.assertRegex(output, r'\n33600 [\s\S]*"tcp://[\s\S]*token')
+        assert status == 7
+        assert WARNING not in errors
+        assert re.search(r'\n33600 [\s\S]*"tcp://[\s\S]*token', output)
 
     def test_the_server_has_the_options_of_the_variable(self):
         words = (sys.executable, "-B", "-c", PLAY)
         output = self.run_script(*words, input="0", RACEBEAM_OPTIONS="--max-machines 3")
-        self.assertEqual((output[0], output[1].splitlines()[0]), (0, "3 machines"))
+        assert (output[0], output[1].splitlines()[0]) == (0, "3 machines")
 
     def test_the_failure_of_a_server_ends_the_agent(self):
         status, _, errors = self.run_script("sleep", "1000", RACEBEAM_OPTIONS="--max-machines none")
-        self.assertEqual(status, 2)
-        self.assertIn("--max-machines", errors)
+        assert status == 2
+        assert "--max-machines" in errors
 
     def test_streams_are_there_for_those_who_ask_and_the_server_warns(self):
         status, output, errors = self.run_script("serve", "--stdio", input="load beamfall seed=1\nact FIRE\n")
-        self.assertEqual(status, 0)
-        self.assertEqual(output.splitlines()[1], "ok reward=0 terminated=0 truncated=0 lives=4")
-        self.assertIn(WARNING, errors)
-        self.assertIn("racebeam-srun COMMAND", errors)
+        assert status == 0
+        assert output.splitlines()[1] == "ok reward=0 terminated=0 truncated=0 lives=4"
+        assert WARNING in errors
+        assert "racebeam-srun COMMAND" in errors
 
     def test_without_a_command_it_says_what_it_takes(self):
-        self.assertEqual(
-            self.run_script(),
-            (
-                2,
-                "",
-                "racebeam-srun: the command is missing; accepted: COMMAND [ARGUMENT...], serve --stdio [OPTION...]\n",
-            ),
+        assert self.run_script() == (
+            2,
+            "",
+            "racebeam-srun: the command is missing; accepted: COMMAND [ARGUMENT...], serve --stdio [OPTION...]\n",
         )
-
-
-if __name__ == "__main__":
-    main()

@@ -3,11 +3,10 @@
 import os
 import signal
 import socket
-import tempfile
 import time
-import unittest
 
-from harness import BINARY, PATIENCE, Server, main, run
+import pytest
+from harness import BINARY, PATIENCE, Server, run
 from terminal import Terminal
 
 KITTY_RELEASE = b"\x1b[32;1:3u"  # of the space bar
@@ -54,15 +53,18 @@ class Wire:
         return [tuple(palette[3 * value : 3 * value + 3]) for value in bytes.fromhex(screen["screen"])]
 
 
-class InTerminal(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+class InTerminal:
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.folder = str(tmp_path)
 
     def open(self, *words, **properties):
         terminal = Terminal([BINARY, *words], environment=environment(TMPDIR=self.folder, TERM="xterm"), **properties)
-        self.addCleanup(terminal.close)
+        self.cleanup(terminal.close)
         return terminal
 
     def play(self, *words, **properties):
@@ -73,13 +75,13 @@ class InTerminal(unittest.TestCase):
         )
         terminal.wait_until(lambda: "score" in terminal.line(-1), "a game")
         wire = Wire(path)
-        self.addCleanup(wire.close)
+        self.cleanup(wire.close)
         return terminal, wire, wire.ask("shared")["name"]
 
     def quit(self, terminal):
         terminal.type(b"q")
-        self.assertEqual(terminal.end(), 0)
-        self.assertTrue(terminal.is_restored(), terminal.modes)
+        assert terminal.end() == 0
+        assert terminal.is_restored(), terminal.modes
 
     def press(self, terminal, wire, name, keys, action):
         """Types keys, as a key that is held repeats itself, until they have become an action."""
@@ -94,7 +96,7 @@ class InTerminal(unittest.TestCase):
         return wire.ask(f"watch {name} ram")["action"]
 
 
-class Pictures(InTerminal):
+class TestPictures(InTerminal):
     def paused_picture(self, terminal, wire, name):
         terminal.type(b"p")
         terminal.wait_until(lambda: "paused" in terminal.line(-1), "a pause")
@@ -103,27 +105,27 @@ class Pictures(InTerminal):
     def test_kitty_graphics_show_each_pixel(self):
         terminal, wire, name = self.play("beamfall", graphics="kitty")
         expected = self.paused_picture(terminal, wire, name)
-        self.assertGreater(len(set(expected)), 3)
+        assert len(set(expected)) > 3
         terminal.wait_until(lambda: terminal.picture == expected, "the picture")
         self.quit(terminal)
 
     def test_sixels_show_each_pixel(self):
         terminal, wire, name = self.play("beamfall", graphics="sixel", columns=160, rows=60)
         expected = self.paused_picture(terminal, wire, name)
-        self.assertEqual(terminal.picture, [tuple((part * 100 + 127) // 255 for part in colour) for colour in expected])
+        assert terminal.picture == [tuple((part * 100 + 127) // 255 for part in colour) for colour in expected]
         self.quit(terminal)
 
     def test_blocks_show_each_pixel_where_there_is_room(self):
         terminal, wire, name = self.play("beamfall", columns=320, rows=110)
         expected = self.paused_picture(terminal, wire, name)
         wide = [colour for colour in expected for _ in range(2)]  # a pixel is as wide as two blocks
-        self.assertEqual(terminal.block_picture(320, 210), wide)
+        assert terminal.block_picture(320, 210) == wide
         self.quit(terminal)
 
     def test_the_caller_chooses_the_graphics(self):
         terminal, _, _ = self.play("--graphics", "blocks", graphics="kitty")
-        self.assertIsNone(terminal.picture)
-        self.assertEqual(terminal.cells[0, 0][0], "\u2580")
+        assert terminal.picture is None
+        assert terminal.cells[0, 0][0] == "\u2580"
         self.quit(terminal)
 
     def test_connect_shows_a_screen_among_text(self):
@@ -133,12 +135,12 @@ class Pictures(InTerminal):
             terminal = self.open("connect", f"unix:{path}", graphics="kitty")
             terminal.type(b"load beamfall\n:screen\n")
             terminal.wait_until(lambda: terminal.picture, "a picture")
-            self.assertEqual(len(terminal.picture), 210 * 160)
+            assert len(terminal.picture) == 210 * 160
             terminal.type(b":quit\n")
-            self.assertEqual(terminal.end(), 0)
+            assert terminal.end() == 0
 
 
-class Keys(InTerminal):
+class TestKeys(InTerminal):
     def test_a_key_counts_as_pressed_for_a_short_time(self):
         terminal, wire, name = self.play(rows=60)
         self.action(wire, name)
@@ -155,19 +157,19 @@ class Keys(InTerminal):
 
     def test_releases_are_reported_where_the_keyboard_protocol_is(self):
         terminal, wire, name = self.play(keyboard=True)
-        self.assertIn("keyboard", terminal.modes)
+        assert "keyboard" in terminal.modes
         terminal.type(b"\x1b[32u")
         terminal.wait_until(lambda: self.action(wire, name) == "FIRE", "fire")
         begin = time.monotonic()
         terminal.wait_until(lambda: time.monotonic() > begin + 0.5, "a while")
-        self.assertEqual(self.action(wire, name), "FIRE")
+        assert self.action(wire, name) == "FIRE"
         terminal.type(b"\x1b[1;1:1C")
         terminal.wait_until(lambda: self.action(wire, name) == "RIGHTFIRE", "right and fire")
         terminal.type(KITTY_RELEASE + b"\x1b[1;1:3C")
         terminal.wait_until(lambda: self.action(wire, name) == "NOOP", "released")
         terminal.type(b"\x1b[113u")  # q
-        self.assertEqual(terminal.end(), 0)
-        self.assertTrue(terminal.is_restored(), terminal.modes)
+        assert terminal.end() == 0
+        assert terminal.is_restored(), terminal.modes
 
     def test_a_game_is_played_to_a_score_paused_and_begun_anew(self):
         terminal, wire, name = self.play("beamfall", keyboard=True)
@@ -177,14 +179,14 @@ class Keys(InTerminal):
         terminal.wait_until(lambda: "paused" in terminal.line(-1), "a pause")
         frame = wire.watch(name)["frame"]
         time.sleep(0.3)
-        self.assertEqual(wire.watch(name)["frame"], frame)
+        assert wire.watch(name)["frame"] == frame
         terminal.type(b"n")
         terminal.wait_until(lambda: "score 0 " in terminal.line(-1), "a new game")
         terminal.type(b"\x1b[113u")
-        self.assertEqual(terminal.end(), 0)
+        assert terminal.end() == 0
 
 
-class Lines(InTerminal):
+class TestLines(InTerminal):
     def test_pictures_are_left_out_for_a_line_that_does_not_carry_them(self):
         terminal, wire, name = self.play()
         terminal.confirms = False
@@ -192,8 +194,8 @@ class Lines(InTerminal):
         terminal.wait_until(lambda: terminal.unanswered == 2, "two pictures")
         begin, pictures = time.monotonic(), terminal.pictures
         terminal.wait_until(lambda: time.monotonic() > begin + 0.5, "a while")
-        self.assertEqual((terminal.unanswered, terminal.pictures), (2, pictures))
-        self.assertGreater(int(wire.watch(name)["frame"]), frame + 15)  # the game goes on
+        assert (terminal.unanswered, terminal.pictures) == (2, pictures)
+        assert int(wire.watch(name)["frame"]) > frame + 15  # the game goes on
         terminal.confirms = True
         terminal.confirm()
         terminal.wait_until(lambda: terminal.pictures > pictures + 5, "pictures")
@@ -201,22 +203,22 @@ class Lines(InTerminal):
 
     def test_a_terminal_that_answers_nothing_gets_blocks(self):
         terminal, wire, name = self.play(answers=False)
-        self.assertEqual(terminal.cells[0, 0][0], "\u2580")
+        assert terminal.cells[0, 0][0] == "\u2580"
         terminal.wait_until(lambda: terminal.pictures > 5, "pictures")
         self.quit(terminal)
 
 
-class Ends(InTerminal):
+class TestEnds(InTerminal):
     def watching(self, server, **properties):
         terminal = self.open("watch", "--terminal", f"tcp://127.0.0.1:{server.port()}", **properties)
         terminal.wait_until(lambda: "session-1" in terminal.line(-1), "a session")
         return terminal
 
-    def test_signals_restore_the_terminal(self):
+    def test_signals_restore_the_terminal(self, cleanup, subtests):
         with Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:s", "--watch", "all") as server:
             server.port()
             wire = Wire(server.path("s"))
-            self.addCleanup(wire.close)
+            cleanup(wire.close)
             wire.ask("load beamfall")
             for number in (
                 signal.SIGINT,
@@ -227,21 +229,21 @@ class Ends(InTerminal):
                 signal.SIGSEGV,
             ):
                 for graphics in ("blocks", "kitty"):
-                    with self.subTest(number, graphics=graphics):
+                    with subtests.test(number, graphics=graphics):
                         terminal = self.watching(server, graphics=graphics, keyboard=True)
-                        self.assertLessEqual({"?1049", "keyboard"}, terminal.modes)
+                        assert {"?1049", "keyboard"} <= terminal.modes
                         os.kill(terminal.child, number)
-                        self.assertEqual(terminal.end(), -number)
-                        self.assertTrue(terminal.is_restored(), terminal.modes)
+                        assert terminal.end() == -number
+                        assert terminal.is_restored(), terminal.modes
             terminal = self.watching(server, keyboard=True)
             terminal.type(b"\x1b[99;5u")  # Ctrl-C in the keyboard protocol
-            self.assertEqual(terminal.end(), -signal.SIGINT)
-            self.assertTrue(terminal.is_restored(), terminal.modes)
+            assert terminal.end() == -signal.SIGINT
+            assert terminal.is_restored(), terminal.modes
             terminal = self.watching(server)
             server.stop(signal.SIGKILL)
             terminal.wait_until(lambda: "?25" in terminal.modes or not terminal.work(0), "the end")
-            self.assertEqual(terminal.end(), 1)
-            self.assertTrue(terminal.is_restored(), terminal.modes)
+            assert terminal.end() == 1
+            assert terminal.is_restored(), terminal.modes
 
     def test_ctrl_c_and_a_signal_end_a_game_and_its_server(self):
         for end, status in (
@@ -250,21 +252,17 @@ class Ends(InTerminal):
         ):
             terminal, wire, _ = self.play()
             end(terminal)
-            self.assertEqual(terminal.end(), status)
-            self.assertTrue(terminal.is_restored(), terminal.modes)
-            self.assertEqual(wire.file.readline().split()[:2], ["error", "stopping"])
-            self.assertEqual(os.listdir(self.folder), [])
+            assert terminal.end() == status
+            assert terminal.is_restored(), terminal.modes
+            assert wire.file.readline().split()[:2] == ["error", "stopping"]
+            assert os.listdir(self.folder) == []
 
     def test_what_cannot_be_drawn_is_refused(self):
         status, output, errors = run("play", "--terminal")
-        self.assertEqual((status, output), (2, b""))
-        self.assertEqual(
-            errors, ["racebeam: --terminal: standard input and output must be a terminal (see racebeam play --help)"]
-        )
-        self.assertIn("accepted: auto, blocks, kitty", run("play", "--terminal", "--graphics", "ascii")[2][0])
+        assert (status, output) == (2, b"")
+        assert errors == [
+            "racebeam: --terminal: standard input and output must be a terminal (see racebeam play --help)"
+        ]
+        assert "accepted: auto, blocks, kitty" in run("play", "--terminal", "--graphics", "ascii")[2][0]
         terminal = self.open("play", "--terminal", "updraft", "--max-sessions", "0")
-        self.assertEqual(terminal.end(), 2)
-
-
-if __name__ == "__main__":
-    main()
+        assert terminal.end() == 2

@@ -2,15 +2,14 @@
 
 import os
 import pathlib
-import shutil
+import re
 import signal
 import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
-from harness import BINARY, PATIENCE, SOURCE, main
+import pytest
+from harness import BINARY, PATIENCE, SOURCE
 
 CLIENT = os.path.join(SOURCE, "clients", "python", "single_file")
 PLAY = f"""import os, sys
@@ -23,11 +22,14 @@ with client.connect() as game:
 """
 
 
-class With(unittest.TestCase):
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.place = pathlib.Path(place.name)
+class TestWith:
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.place = tmp_path
         self.environment = {name: value for name, value in os.environ.items() if not name.startswith("RACEBEAM_")}
         self.environment |= {"TMPDIR": str(self.place), "PYTHONDONTWRITEBYTECODE": "1"}
 
@@ -48,9 +50,9 @@ class With(unittest.TestCase):
         process = subprocess.Popen(
             [BINARY, "with", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=self.environment
         )
-        self.addCleanup(process.stdout.close)
-        self.addCleanup(process.stderr.close)
-        self.addCleanup(process.kill)
+        self.cleanup(process.stdout.close)
+        self.cleanup(process.stderr.close)
+        self.cleanup(process.kill)
         return process
 
     def processes(self):
@@ -68,21 +70,21 @@ class With(unittest.TestCase):
     def nothing_is_left(self):
         deadline = time.monotonic() + PATIENCE
         while (left := (self.processes(), os.listdir(self.place))) != ([], []):
-            self.assertLess(time.monotonic(), deadline, left)
+            assert time.monotonic() < deadline, left
             time.sleep(0.01)
 
     def test_a_client_plays_and_nothing_is_left(self):
         status, output, errors = self.run_with("--", sys.executable, "-c", PLAY)
-        self.assertEqual((status, errors), (0, ""))
-        self.assertRegex(output, rf"^\d+ file:{self.place}/racebeam-\w{{6}}/announce$")
+        assert (status, errors) == (0, "")
+        assert re.search(rf"^\d+ file:{self.place}/racebeam-\w{{6}}/announce$", output)
 
-    @unittest.skipUnless(shutil.which("bash"), "bash is not installed")
+    @pytest.mark.needs_programs("bash")
     def test_a_client_without_Unix_sockets_gets_the_port_and_the_token(self):
         script = (
             f"source {SOURCE}/clients/shell/racebeam.bash; racebeam_connect && racebeam_ask load beamfall "
             f"&& racebeam_value game"
         )
-        self.assertEqual(self.run_with("--", "bash", "-c", script), (0, "beamfall\n", ""))
+        assert self.run_with("--", "bash", "-c", script) == (0, "beamfall\n", "")
 
     def test_options_are_those_of_serve(self):
         status, output, errors = self.run_with(
@@ -97,81 +99,87 @@ class With(unittest.TestCase):
             "-c",
             'cat "${RACEBEAM_ADDRESS#file:}"',
         )
-        self.assertEqual(status, 0)
-        self.assertIn("racebeam: threads: 1, limited by --threads\n", errors)
-        self.assertNotIn("unix:", output)
-        self.assertIn('"tcp://127.0.0.1:', output)
+        assert status == 0
+        assert "racebeam: threads: 1, limited by --threads\n" in errors
+        assert "unix:" not in output
+        assert '"tcp://127.0.0.1:' in output
 
-    def test_the_status_is_that_of_the_command(self):
-        for command, expected in (
+    @pytest.mark.parametrize(
+        "command, expected",
+        (
             (["true"], 0),
             (["sh", "-c", "exit 7"], 7),
             (["sh", "-c", "kill -9 $$"], 137),
             (["sh", "-c", "kill -TERM $$"], 143),
-        ):
-            with self.subTest(command=command):
-                self.assertEqual(self.run_with("--", *command), (expected, "", ""))
+        ),
+    )
+    def test_the_status_is_that_of_the_command(self, command, expected):
+        assert self.run_with("--", *command) == (expected, "", "")
 
     def test_a_command_that_cannot_be_executed_has_the_status_of_shells(self):
-        self.assertEqual(
-            self.run_with("--", "no-such-program", "x"),
-            (127, "", "racebeam: cannot execute no-such-program: No such file or directory\n"),
+        assert self.run_with("--", "no-such-program", "x") == (
+            127,
+            "",
+            "racebeam: cannot execute no-such-program: No such file or directory\n",
         )
-        self.assertEqual(
-            self.run_with("--", "/etc/passwd"), (126, "", "racebeam: cannot execute /etc/passwd: Permission denied\n")
+        assert self.run_with("--", "/etc/passwd") == (
+            126,
+            "",
+            "racebeam: cannot execute /etc/passwd: Permission denied\n",
         )
 
     def test_standard_input_is_that_of_the_command(self):
         done = subprocess.run(
             [BINARY, "with", "--", "cat"], input=b"hello", capture_output=True, timeout=PATIENCE, env=self.environment
         )
-        self.assertEqual((done.returncode, done.stdout), (0, b"hello"))
+        assert (done.returncode, done.stdout) == (0, b"hello")
 
     def test_a_server_that_dies_at_its_start_is_the_end(self):
         status, output, errors = self.run_with("--roms", "/nowhere", "--", "echo", "unreached")
-        self.assertEqual((status, output, errors), (4, "", "racebeam: --roms /nowhere is not a folder\n"))
+        assert (status, output, errors) == (4, "", "racebeam: --roms /nowhere is not a folder\n")
 
-    def test_what_does_not_fit_is_a_usage_error(self):
-        for words, hint in (
+    @pytest.mark.parametrize(
+        "words, hint",
+        (
             (["--stdio", "--", "true"], "--stdio: requires racebeam serve"),
             (["--announce", "a", "--", "true"], "--announce: requires racebeam serve"),
             (["--ready-file", "a", "--", "true"], "--ready-file: requires racebeam serve"),
             (["--listen", "classic+unix:s", "--rom", "builtin:beamfall", "--", "true"], "--announce: requires"),
             ([], "COMMAND is required"),
             (["--speed", "--", "true"], "unknown argument: --speed"),
-        ):
-            with self.subTest(words=words):
-                status, output, errors = self.run_with(*words, cwd=self.place)
-                self.assertEqual((status, output), (2, ""), errors)
-                self.assertIn(hint, errors)
+        ),
+    )
+    def test_what_does_not_fit_is_a_usage_error(self, words, hint):
+        status, output, errors = self.run_with(*words, cwd=self.place)
+        assert (status, output) == (2, ""), errors
+        assert hint in errors
 
-    def test_signals_are_passed_on(self):
-        for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT, signal.SIGUSR1):
-            with self.subTest(signal=number.name):
-                process = self.start(
-                    "--",
-                    sys.executable,
-                    "-c",
-                    "import signal, sys\n"
-                    f"signal.signal({int(number)}, lambda *_: sys.exit(9))\n"
-                    "print('ready', flush=True)\nwhile True: signal.pause()",
-                )
-                self.assertEqual(process.stdout.readline(), "ready\n")
-                process.send_signal(number)
-                self.assertEqual(process.wait(PATIENCE), 9)
-                self.nothing_is_left()
+    @pytest.mark.parametrize("number", (signal.SIGTERM, signal.SIGHUP, signal.SIGINT, signal.SIGUSR1))
+    def test_signals_are_passed_on(self, number):
+        process = self.start(
+            "--",
+            sys.executable,
+            "-c",
+            "import signal, sys\n"
+            f"signal.signal({int(number)}, lambda *_: sys.exit(9))\n"
+            "print('ready', flush=True)\nwhile True: signal.pause()",
+        )
+        assert process.stdout.readline() == "ready\n"
+        process.send_signal(number)
+        assert process.wait(PATIENCE) == 9
+        self.nothing_is_left()
 
     def test_a_signal_before_the_server_is_ready_stops_it(self):
         process = self.start("--", "sleep", "60")
         while not os.listdir(self.place):  # its folder is the first that it makes
             time.sleep(0.001)
         process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.wait(PATIENCE), 143)
+        assert process.wait(PATIENCE) == 143
         self.nothing_is_left()
 
     def test_if_it_is_killed_nothing_is_left_either(self):
         process = self.start("--", "sh", "-c", "echo ready; exec sleep 60")
-        self.assertEqual(process.stdout.readline(), "ready\n")
+        assert process.stdout.readline() == "ready\n"
         process.kill()
         self.nothing_is_left()
 
@@ -179,10 +187,4 @@ class With(unittest.TestCase):
         script = (
             'kill -9 $(sed -n \'s/^ "process": \\([0-9]*\\),$/\\1/p\' "${RACEBEAM_ADDRESS#file:}"); sleep 0.3; exit 3'
         )
-        self.assertEqual(
-            self.run_with("--", "sh", "-c", script), (3, "", "racebeam: the server has ended with status 137\n")
-        )
-
-
-if __name__ == "__main__":
-    main()
+        assert self.run_with("--", "sh", "-c", script) == (3, "", "racebeam: the server has ended with status 137\n")
