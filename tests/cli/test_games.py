@@ -9,7 +9,7 @@ import tempfile
 import unittest
 import zipfile
 
-from harness import main, rom, run
+from harness import rom, run
 
 
 def answer(*words):
@@ -221,7 +221,3 @@ class Roms(unittest.TestCase):
         os.chmod(self.folder, 0)
         self.addCleanup(os.chmod, self.folder, 0o700)
         self.check_refusal(self.folder, "Permission denied")
-
-
-if __name__ == "__main__":
-    main()

@@ -26,8 +26,16 @@ PATIENCE = float(
 )  # seconds until something counts as hanging; more for slow builds
 SKIPPED = 77  # exit status that ctest reads as "skipped"
 
-# A shell ignores SIGINT for what it runs in the background, and nohup SIGHUP. Programs inherit that; racebeam obeys.
-for _number in (signal.SIGINT, signal.SIGHUP):
+
+def built(name):
+    """The path of what the tests' CMakeLists.txt built beside the program, or None."""
+    path = os.path.join(os.path.dirname(BINARY), "tests", name)
+    return path if os.path.exists(path) else None
+
+
+# A shell ignores SIGINT and SIGQUIT for what it runs in the background, and nohup SIGHUP. Programs inherit that;
+# racebeam obeys.
+for _number in (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT):
     if signal.getsignal(_number) == signal.SIG_IGN:
         signal.signal(_number, signal.SIG_DFL)
 
@@ -292,10 +300,6 @@ class Session:
         return self.server.stop() if self.transport in ("tcp", "unix") else self.server.wait()
 
 
-def main(*needed):
-    """Runs the tests of the calling file. Without the things in `needed`, it is skipped."""
-    missing = [what for what, found in needed if not found]
-    if missing:
-        print("SKIPPED: not found: " + ", ".join(missing))
-        sys.exit(SKIPPED)
+def main():
+    """Runs the tests of the calling file."""
     unittest.main(module="__main__", verbosity=2)

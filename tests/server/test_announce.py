@@ -10,9 +10,8 @@ import stat
 import subprocess
 import tempfile
 import time
-import unittest
 
-from harness import BINARY, PATIENCE, Server, ask, connect_tcp, connect_unix, main, run, serve
+from harness import BINARY, PATIENCE, Server, ask, connect_tcp, connect_unix, run, serve
 
 FIRST_BYTES = '{"racebeam_announce": 1,'
 
@@ -31,7 +30,7 @@ def port_of(announced):
     return int(announced["addresses"][0].rsplit(":", 1)[1])
 
 
-class Announced(unittest.TestCase):
+class TestAnnounced:
     def test_it_says_what_a_client_needs(self):
         with Server(
             "serve",
@@ -49,34 +48,31 @@ class Announced(unittest.TestCase):
             text = wait_for(server.path("announce"))
             announcement = json.loads(text)
             tcp, local = announcement["addresses"]
-            self.assertRegex(tcp, r"^tcp://127\.0\.0\.1:\d+$")
-            self.assertEqual(local, 'unix:a "quoted" name')
+            assert re.search(r"^tcp://127\.0\.0\.1:\d+$", tcp)
+            assert local == 'unix:a "quoted" name'
             version = run("--version")[1].decode().split()[1]
-            self.assertEqual(
-                {**announcement, "addresses": [], "token": ""},
-                {
-                    "racebeam_announce": 1,
-                    "addresses": [],
-                    "host": socket.gethostname(),
-                    "process": server.process.pid,
-                    "version": version,
-                    "games": ["beamfall", "updraft"],
-                    "token": "",
-                },
-            )
-            self.assertRegex(announcement["token"], "^[0-9a-f]{64}$")
+            assert {**announcement, "addresses": [], "token": ""} == {
+                "racebeam_announce": 1,
+                "addresses": [],
+                "host": socket.gethostname(),
+                "process": server.process.pid,
+                "version": version,
+                "games": ["beamfall", "updraft"],
+                "token": "",
+            }
+            assert re.search("^[0-9a-f]{64}$", announcement["token"])
             # The layout that programs without a parser of JSON rely on
             lines = text.splitlines()
-            self.assertEqual(lines[0], FIRST_BYTES)
-            self.assertIn(f'  "{tcp}",', lines)
-            self.assertEqual(lines[-1], f' "token": "{announcement["token"]}"}}')
+            assert lines[0] == FIRST_BYTES
+            assert f'  "{tcp}",' in lines
+            assert lines[-1] == f' "token": "{announcement["token"]}"}}'
 
     def test_its_owner_alone_can_read_it(self):
         before = os.umask(0)
         try:
             with serve("--announce", "announce") as server:
                 wait_for(server.path("announce"))
-                self.assertEqual(stat.S_IMODE(os.stat(server.path("announce")).st_mode), 0o600)
+                assert stat.S_IMODE(os.stat(server.path("announce")).st_mode) == 0o600
         finally:
             os.umask(before)
 
@@ -84,13 +80,13 @@ class Announced(unittest.TestCase):
         with serve("--listen", "unix:s", "--announce", "announce") as server:
             announcement = json.loads(wait_for(server.path("announce")))
             wire, local = connect_tcp(port_of(announcement)), connect_unix(server.path("s"))
-            self.assertTrue(ask(wire, b"games").startswith(b"error unauthorized "))
-            self.assertTrue(ask(wire, b"hello token=" + b"0" * 64).startswith(b"error unauthorized "))
+            assert ask(wire, b"games").startswith(b"error unauthorized ")
+            assert ask(wire, b"hello token=" + b"0" * 64).startswith(b"error unauthorized ")
             hello = b"hello token=" + announcement["token"].encode()
-            self.assertIn(b" admitted=1 ", ask(wire, hello))
-            self.assertTrue(ask(wire, b"games").startswith(b"ok "))
-            self.assertTrue(ask(local, b"games").startswith(b"ok "))
-            self.assertTrue(ask(local, hello).startswith(b"ok "))
+            assert b" admitted=1 " in ask(wire, hello)
+            assert ask(wire, b"games").startswith(b"ok ")
+            assert ask(local, b"games").startswith(b"ok ")
+            assert ask(local, hello).startswith(b"ok ")
             wire.close()
             local.close()
 
@@ -106,7 +102,7 @@ class Announced(unittest.TestCase):
                 server.wait_for("read the token file again")
                 for token in ("0123456789abcdef", announcement["token"]):
                     wire = connect_tcp(port_of(announcement))
-                    self.assertIn(b" admitted=1 ", ask(wire, b"hello token=" + token.encode()))
+                    assert b" admitted=1 " in ask(wire, b"hello token=" + token.encode())
                     wire.close()
 
     def test_every_server_has_another_token(self):
@@ -114,15 +110,15 @@ class Announced(unittest.TestCase):
         for _ in range(2):
             with serve("--announce", "announce") as server:
                 tokens.add(json.loads(wait_for(server.path("announce")))["token"])
-        self.assertEqual(len(tokens), 2)
+        assert len(tokens) == 2
 
     def test_all_addresses_of_a_machine_are_its_host_name(self):
         with Server("serve", "--listen", "tcp://0.0.0.0:0", "--announce", "announce") as server:
             announcement = json.loads(wait_for(server.path("announce")))
-            self.assertEqual(announcement["addresses"], [f"tcp://{socket.gethostname()}:{port_of(announcement)}"])
+            assert announcement["addresses"] == [f"tcp://{socket.gethostname()}:{port_of(announcement)}"]
 
 
-class Life(unittest.TestCase):
+class TestLife:
     def test_it_is_gone_as_soon_as_the_server_is_told_to_stop(self):
         with serve("--announce", "announce", "--grace", "60") as server:
             announcement = json.loads(wait_for(server.path("announce")))
@@ -130,9 +126,9 @@ class Life(unittest.TestCase):
             ask(wire, b"hello token=" + announcement["token"].encode())
             server.process.send_signal(signal.SIGTERM)
             server.wait_for("told to stop")
-            self.assertFalse(os.path.exists(server.path("announce")))
+            assert not os.path.exists(server.path("announce"))
             wire.close()
-            self.assertEqual(server.wait(), 0)
+            assert server.wait() == 0
 
     def test_a_stale_one_is_gone_when_the_next_start_fails(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -141,9 +137,9 @@ class Life(unittest.TestCase):
                 wait_for(path)
                 server.process.kill()
                 server.wait()
-            self.assertTrue(os.path.exists(path))
+            assert os.path.exists(path)
             status, _, errors = run("serve", "--listen", "unix:s", "--roms", "/nowhere", "--announce", path)
-            self.assertEqual((status, os.listdir(folder)), (4, []), errors)
+            assert (status, os.listdir(folder)) == (4, []), errors
 
     def test_the_file_of_a_running_server_is_replaced_with_a_warning(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -155,27 +151,27 @@ class Life(unittest.TestCase):
             with serve("--announce", path) as alone:
                 alone.wait_for("listening on")
                 wait_for(path)
-                self.assertNotIn("is replaced", "\n".join(alone.log()))
+                assert "is replaced" not in "\n".join(alone.log())
 
-    def test_a_file_that_is_not_an_announce_file_is_refused_and_stays(self):
+    def test_a_file_that_is_not_an_announce_file_is_refused_and_stays(self, subtests):
         texts = {"notes": "dear diary", "empty": "", "json": '{"a": 1}', "ready": "# racebeam ready file: x\n"}
         for name, text in texts.items():
-            with self.subTest(name=name), tempfile.TemporaryDirectory() as folder:
+            with subtests.test(name=name), tempfile.TemporaryDirectory() as folder:
                 path = os.path.join(folder, name)
                 with open(path, "w") as file:
                     file.write(text)
                 status, output, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--announce", path)
-                self.assertEqual((status, output, len(errors)), (1, b"", 1), errors)
-                self.assertIn(f"--announce {path} exists, and is not an announce file", errors[0])
+                assert (status, output, len(errors)) == (1, b"", 1), errors
+                assert f"--announce {path} exists, and is not an announce file" in errors[0]
                 with open(path) as file:
-                    self.assertEqual(file.read(), text)
+                    assert file.read() == text
 
-    def test_a_full_disk_leaves_nothing_half_written(self):
+    def test_a_full_disk_leaves_nothing_half_written(self, subtests):
         def limit():  # a write beyond it fails, as on a full disk
             resource.setrlimit(resource.RLIMIT_FSIZE, (64, 64))
 
         for option, name in (("--announce", "announce file"), ("--ready-file", "ready file")):
-            with self.subTest(option=option), tempfile.TemporaryDirectory() as folder:
+            with subtests.test(option=option), tempfile.TemporaryDirectory() as folder:
                 done = subprocess.run(
                     [BINARY, "serve", "--listen", "tcp://127.0.0.1:0", "--log-level", "error", option, "file"],
                     capture_output=True,
@@ -183,16 +179,12 @@ class Life(unittest.TestCase):
                     timeout=PATIENCE,
                     preexec_fn=limit,
                 )
-                self.assertEqual((done.returncode, os.listdir(folder)), (1, []), done.stderr)
-                self.assertEqual(done.stderr.decode(), f"racebeam: cannot write the {name} file: File too large\n")
+                assert (done.returncode, os.listdir(folder)) == (1, []), done.stderr
+                assert done.stderr.decode() == f"racebeam: cannot write the {name} file: File too large\n"
 
     def test_it_needs_a_socket_with_the_line_protocol(self):
         for words in (["--stdio"], ["--listen", "classic+unix:s", "--rom", "builtin:beamfall"]):
             with tempfile.TemporaryDirectory() as folder:
                 status, _, errors = run("serve", *words, "--announce", "announce", cwd=folder)
-                self.assertEqual((status, os.listdir(folder)), (2, []), errors)
-                self.assertTrue(re.search("--announce: requires the line protocol on a socket", errors[0]), errors)
-
-
-if __name__ == "__main__":
-    main()
+                assert (status, os.listdir(folder)) == (2, []), errors
+                assert re.search("--announce: requires the line protocol on a socket", errors[0]), errors

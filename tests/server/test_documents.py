@@ -4,9 +4,9 @@ import os
 import re
 import shlex
 import sys
-import unittest
 
-from harness import SOURCE, TRANSPORTS, Session, main, run
+import pytest
+from harness import SOURCE, TRANSPORTS, Session, run
 
 sys.path.insert(0, os.path.join(SOURCE, "tests/server/recorded"))
 import replies  # noqa: E402
@@ -40,32 +40,36 @@ def reply(wire):
     return line + (wire.receive(int(raw[1])) if raw else b"")
 
 
-class Documents(unittest.TestCase):
-    def test_the_conversations_of_the_classic_protocol_are_real(self):
+class TestDocuments:
+    @pytest.fixture(autouse=True)
+    def keep_subtests(self, subtests):
+        self.subtests = subtests
+
+    def test_the_conversations_of_the_classic_protocol_are_real(self, subtests):
         found = conversations("protocol/CLASSIC.md")
-        self.assertTrue(found)
+        assert found
         for command, requests, answers in found:
-            with self.subTest(command=command):
+            with subtests.test(command=command):
                 status, output, _ = run(*command, data="".join(requests).encode())
                 expected = re.escape("".join(answers)).replace(re.escape("..."), "[0-9A-F]+")
-                self.assertRegex(output.decode(), f"\\A{expected}\\Z")
-                self.assertEqual(status, 0)
+                assert re.search(f"\\A{expected}\\Z", output.decode())
+                assert status == 0
 
     def check_lines(self, converse):
         """Each conversation of the line protocol, over each transport. `converse` sends it and receives the
         replies."""
         found = conversations("protocol/PROTOCOL.md")
-        self.assertTrue(found)
+        assert found
         for command, requests, answers in found:
             options = [word for word in command[1:] if word != "--stdio"]
             expected = pattern(answers)
             strict = "--strict" in options  # on streams only; such a conversation ends with an error
             for transport in TRANSPORTS[:2] if strict else TRANSPORTS:
-                with self.subTest(command=command, said=requests, transport=transport):
+                with self.subtests.test(command=command, said=requests, transport=transport):
                     with Session(transport, *options, image=None) as session:
                         received = converse(session.wire, [line.encode() for line in requests])
-                        self.assertRegex(received.decode("latin-1"), f"\\A{expected}\\Z")
-                        self.assertEqual(session.status(), int(strict))
+                        assert re.search(f"\\A{expected}\\Z", received.decode("latin-1"))
+                        assert session.status() == int(strict)
 
     def test_the_conversations_of_the_line_protocol_are_real(self):
         def in_turn(wire, lines):
@@ -98,7 +102,3 @@ class Documents(unittest.TestCase):
             return wire.rest()
 
         self.check_lines(ahead)
-
-
-if __name__ == "__main__":
-    main()

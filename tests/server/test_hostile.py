@@ -6,14 +6,15 @@ The thresholds leave room for slow machines. The faults that they guard against 
 
 import base64
 import os
+import re
 import signal
 import socket
 import statistics
 import time
-import unittest
 import urllib.request
 
-from harness import PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, open_pipes, serve
+import pytest
+from harness import PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, open_pipes, serve
 
 ENDLESS = (
     b"load beamfall as=tetris seed=1 system_seed=1 sticky=0 "
@@ -85,31 +86,36 @@ def health_wait(server):
     return time.monotonic() - start
 
 
-class Case(unittest.TestCase):
+class Case:
     """A server, and connections to it, which are closed at the end of the test."""
+
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
 
     def start(self, server):
         self.server = server
-        self.addCleanup(server.__exit__)
+        self.cleanup(server.__exit__)
         return server
 
     def connect(self):
         wire = connect_tcp(self.server.port())
-        self.addCleanup(wire.close)
+        self.cleanup(wire.close)
         return wire
 
 
-class OneThread(Case):
+class TestOneThread(Case):
     """All clients on one thread of the server."""
 
-    def setUp(self):
+    @pytest.fixture(autouse=True)
+    def set_up(self):
         self.start(serve("--threads", "1", "--http", "127.0.0.1:0", "--grace", "0"))
         self.bystander = self.connect()
         ask(self.bystander, b"load beamfall max_episode_frames=0")
 
     def check_that_others_are_answered(self):
-        self.assertLess(least(lambda: median_wait(self.bystander), 0.1), 0.1)
-        self.assertLess(least(lambda: health_wait(self.server), 0.5), 0.5)
+        assert least(lambda: median_wait(self.bystander), 0.1) < 0.1
+        assert least(lambda: health_wait(self.server), 0.5) < 0.5
 
     def test_others_are_answered_beside_64_that_search(self):
         searches = b"branch root" + b" UP*50,FIRE*20" * 18
@@ -124,24 +130,24 @@ def add_long_request(name, first, request):
         self.server.wait_until_it_works()
         self.check_that_others_are_answered()
 
-    setattr(OneThread, "test_others_are_answered_beside_" + name.replace(" ", "_").replace("-", "_"), test)
+    setattr(TestOneThread, "test_others_are_answered_beside_" + name.replace(" ", "_").replace("-", "_"), test)
 
 
 for title, (before, asked_for) in LONG_REQUESTS.items():
     add_long_request(title, before, asked_for)
 
 
-class Limits(Case):
+class TestLimits(Case):
     def test_a_mode_that_does_not_come_about_is_given_up(self):
         self.start(serve())
         wire = self.connect()
         start = time.monotonic()
-        self.assertRegex(
-            ask(wire, MODE.replace(b"=1000", b"=200")),
+        assert re.search(
             b"^error bad-value mode 1 of adventure could not be set up on this image: ",
+            ask(wire, MODE.replace(b"=1000", b"=200")),
         )
-        self.assertLess(time.monotonic() - start, PATIENCE)
-        self.assertRegex(ask(wire, b"look"), b"^error no-game ")
+        assert time.monotonic() - start < PATIENCE
+        assert re.search(b"^error no-game ", ask(wire, b"look"))
 
     def test_steps_count_against_the_frames_of_a_request(self):
         self.start(serve("--max-request-frames", "1000"))
@@ -151,21 +157,21 @@ class Limits(Case):
             (10, b"^ok "),
             (11, b"^error limit the request asks for 1100 frames; it may ask for 1000"),
         ):
-            self.assertRegex(ask(wire, b"open %d" % machines), b"^ok ")
-            self.assertRegex(ask(wire, b"step NOOP"), answer)
+            assert re.search(b"^ok ", ask(wire, b"open %d" % machines))
+            assert re.search(answer, ask(wire, b"step NOOP"))
 
     def test_resets_count_against_the_frames_of_a_request(self):
         self.start(serve("--max-request-frames", "1000"))
         wire = self.connect()
         ask(wire, ENDLESS)
         before = ask(wire, b"look ram reward lives")
-        self.assertRegex(
-            ask(wire, MODE), b"^error limit the request would run more than 2000 frames; "
+        assert re.search(
+            b"^error limit the request would run more than 2000 frames; ", ask(wire, MODE)
         )  # 1,000 are free
-        self.assertEqual(ask(wire, b"look ram reward lives"), before)
+        assert ask(wire, b"look ram reward lives") == before
 
 
-class Departure(Case):
+class TestDeparture(Case):
     """A request that would take an hour."""
 
     def check_that_it_is_given_up(self, wire, first, request):
@@ -175,7 +181,7 @@ class Departure(Case):
         self.server.wait_for(r"client 1: .*(left|stopped)")
         seconds = self.server.processor_seconds()
         time.sleep(0.5)
-        self.assertLess(self.server.processor_seconds() - seconds, 0.2)
+        assert self.server.processor_seconds() - seconds < 0.2
 
     def test_a_request_of_a_client_that_left_over_tcp_is_given_up(self):
         self.start(serve("--grace", "0", *MANY_FRAMES))
@@ -199,11 +205,11 @@ class Departure(Case):
             if stop_sending:
                 wire.connection.shutdown(socket.SHUT_WR)
             replies.append(wire.rest())
-        self.assertEqual(replies[0].count(b"\nok "), 1, replies)
-        self.assertEqual(replies[1], replies[0])
+        assert replies[0].count(b"\nok ") == 1, replies
+        assert replies[1] == replies[0]
 
 
-class HalfClosed(Case):
+class TestHalfClosed(Case):
     """A client closes its sending end, and reads its replies late. Nothing else comes before them."""
 
     REQUESTS = ENDLESS + b"\nact NOOP*%d\nlook\nquit\n"
@@ -232,11 +238,11 @@ class HalfClosed(Case):
         for shut in (lambda connection: None, lambda connection: connection.shutdown(socket.SHUT_WR)):
             with socket.create_connection(("127.0.0.1", self.server.port()), timeout=PATIENCE) as connection:
                 found.append(self.replies(connection, requests, shut))
-        self.assertTrue(found[0].endswith(b"\nok\n"), found[0])
-        self.assertEqual(found[1], found[0])
+        assert found[0].endswith(b"\nok\n"), found[0]
+        assert found[1] == found[0]
 
 
-class End(unittest.TestCase):
+class TestEnd:
     """SIGTERM in the middle of a request that would take an hour, or of a mode that takes long."""
 
     GRACE = 1
@@ -246,10 +252,14 @@ class End(unittest.TestCase):
         "open": ([ENDLESS + b" frame_skip=1000 noop_max=1000"], b"open 256"),
     }
 
+    @pytest.fixture(autouse=True)
+    def keep_subtests(self, subtests):
+        self.subtests = subtests
+
     def check_that_it_ends(self, *listen, connect, streams=False):
         for name, (first, request) in self.REQUESTS.items():
             with (
-                self.subTest(name),
+                self.subtests.test(name),
                 Server("serve", *listen, "--grace", str(self.GRACE), *MANY_FRAMES, streams=streams) as server,
             ):
                 wire = connect(server)
@@ -258,7 +268,7 @@ class End(unittest.TestCase):
                 start = time.monotonic()
                 server.process.send_signal(signal.SIGTERM)
                 server.wait()
-                self.assertLess(time.monotonic() - start, self.GRACE + 5)  # of which four are for slow machines
+                assert time.monotonic() - start < self.GRACE + 5  # of which four are for slow machines
                 wire.close()
 
     def test_over_tcp(self):
@@ -283,7 +293,3 @@ class End(unittest.TestCase):
             return Wire(os.dup(server.process.stdout.fileno()), os.dup(server.process.stdin.fileno()))
 
         self.check_that_it_ends("--stdio", connect=connect, streams=True)
-
-
-if __name__ == "__main__":
-    main()

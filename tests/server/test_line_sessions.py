@@ -7,9 +7,9 @@ import statistics
 import subprocess
 import threading
 import time
-import unittest
 
-from harness import GAME, LOAD, PATIENCE, Server, Session, Wire, ask, connect_tcp, connect_unix, main, run, sanitized
+import pytest
+from harness import GAME, LOAD, PATIENCE, Server, Session, Wire, ask, connect_tcp, connect_unix, run, sanitized
 
 LONG = b"branch root " + b"NOOP*400,FIRE*600 " * 800 + b"\n"  # about 800,000 frames: seconds
 
@@ -22,44 +22,44 @@ def lines(wire, count):
     return [wire.line() for _ in range(count)]
 
 
-class Strict(unittest.TestCase):
+class TestStrict:
     """--strict: the first error is the last reply, and the program ends with status 1."""
 
-    def test_nothing_is_carried_out_after_the_first_error(self):
-        for requests, replies in (
+    @pytest.mark.parametrize(
+        "requests, replies",
+        (
             (b"load beamfall\nact 99\nact FIRE\nquit\n", [b"ok", b"error"]),
             (b"load beamfall\nact FIRE\nhello", [b"ok", b"ok", b"error"]),
             (b"x" * 5000 + b"\nhello\n", [b"error"]),
             (b"load beamfall\nsave a\nbranch a FIRE,99\nhello\n", [b"ok", b"ok", b"error"]),
-        ):
-            for ahead in (True, False):
-                for transport in ("stdio", "pipes"):
-                    with (
-                        self.subTest(requests=requests[:60], ahead=ahead, transport=transport),
-                        Session(transport, "--strict", "--max-line", "4096", image=None) as session,
-                    ):
-                        if ahead:
-                            session.wire.send(requests)
-                            session.wire.stop_sending()
-                            answers = session.wire.rest().splitlines()
-                        else:  # the input stays open
-                            answers = []
-                            for request in requests.splitlines(True)[: len(replies)]:
-                                session.wire.send(request)
-                                if request.endswith(b"\n"):
-                                    answers.append(session.wire.line())
-                            if len(answers) < len(replies):
-                                session.wire.stop_sending()
-                            answers += session.wire.rest().splitlines()
-                        self.assertEqual([line.split()[0] for line in answers], replies)
-                        self.assertEqual(session.status(), 1)
+        ),
+    )
+    @pytest.mark.parametrize("ahead", (True, False))
+    @pytest.mark.parametrize("transport", ("stdio", "pipes"))
+    def test_nothing_is_carried_out_after_the_first_error(self, requests, replies, ahead, transport):
+        with Session(transport, "--strict", "--max-line", "4096", image=None) as session:
+            if ahead:
+                session.wire.send(requests)
+                session.wire.stop_sending()
+                answers = session.wire.rest().splitlines()
+            else:  # the input stays open
+                answers = []
+                for request in requests.splitlines(True)[: len(replies)]:
+                    session.wire.send(request)
+                    if request.endswith(b"\n"):
+                        answers.append(session.wire.line())
+                if len(answers) < len(replies):
+                    session.wire.stop_sending()
+                answers += session.wire.rest().splitlines()
+            assert [line.split()[0] for line in answers] == replies
+            assert session.status() == 1
 
     def test_without_an_error_all_is_as_ever(self):
         requests = b"load beamfall seed=1\nact FIRE*9\nlook frame\nquit\n"
         plain, strict = (run("serve", "--stdio", *options, data=requests)[:2] for options in ((), ("--strict",)))
-        self.assertEqual(plain, strict)
-        self.assertEqual(strict[0], 0)
-        self.assertEqual(run("serve", "--stdio", data=b"nonsense\n")[0], 0)
+        assert plain == strict
+        assert strict[0] == 0
+        assert run("serve", "--stdio", data=b"nonsense\n")[0] == 0
 
     def test_it_is_refused_where_one_error_would_end_the_sessions_of_others(self):
         for words in (
@@ -68,11 +68,11 @@ class Strict(unittest.TestCase):
             ("--classic", "--stdio", "--rom", GAME),
         ):
             status, output, errors = run("serve", "--strict", *words)
-            self.assertEqual((status, output, len(errors)), (2, b"", 1), errors)
-            self.assertIn("--strict: requires --stdio or --pipes, and the line protocol", errors[0])
+            assert (status, output, len(errors)) == (2, b"", 1), errors
+            assert "--strict: requires --stdio or --pipes, and the line protocol" in errors[0]
 
 
-class Pieces(unittest.TestCase):
+class TestPieces:
     """A client that writes a request in pieces, and lets its system delay the second until the first is
     acknowledged. By default, the server's system acknowledges after 40 ms."""
 
@@ -87,21 +87,20 @@ class Pieces(unittest.TestCase):
             start = time.monotonic()
             for piece in request:
                 connection.sendall(piece)
-            self.assertTrue(reader.readline().endswith(b"\n"))
+            assert reader.readline().endswith(b"\n")
             times.append(time.monotonic() - start)
         return statistics.median(times)
 
-    def test_pieces_are_acknowledged_at_once(self):
-        for request in ((b"act ", b"NOOP\n"), (b"a", b"c", b"t NOOP", b"\n")):
-            with (
-                self.subTest(request=request),
-                serve() as server,
-                socket.create_connection(("127.0.0.1", server.port()), PATIENCE) as connection,
-                connection.makefile("rb") as reader,
-            ):
-                connection.sendall(b"load beamfall\n")
-                reader.readline()
-                self.assertLess(self.median_step(connection, reader, request), self.MOST)
+    @pytest.mark.parametrize("pieces", ((b"act ", b"NOOP\n"), (b"a", b"c", b"t NOOP", b"\n")))
+    def test_pieces_are_acknowledged_at_once(self, pieces):
+        with (
+            serve() as server,
+            socket.create_connection(("127.0.0.1", server.port()), PATIENCE) as connection,
+            connection.makefile("rb") as reader,
+        ):
+            connection.sendall(b"load beamfall\n")
+            reader.readline()
+            assert self.median_step(connection, reader, pieces) < self.MOST
 
     def test_so_they_are_in_the_classic_protocol(self):
         with Server("serve", "--classic", "--listen", "tcp://127.0.0.1:0", "--rom", GAME) as server:
@@ -110,56 +109,56 @@ class Pieces(unittest.TestCase):
                     reader.readline()
                     connection.sendall(b"0,0,0,1\n")
                     reader.readline()
-                    self.assertLess(self.median_step(connection, reader, (b"3,", b"18", b"\n")), self.MOST)
+                    assert self.median_step(connection, reader, (b"3,", b"18", b"\n")) < self.MOST
 
 
-class Netcat(unittest.TestCase):
+class TestNetcat:
     """OpenBSD's netcat closes its sending end only with -N."""
 
     def converse(self, requests, *words):
         done = subprocess.run(["nc", *words], input=requests, capture_output=True, timeout=PATIENCE)
-        self.assertEqual(done.returncode, 0, done)
+        assert done.returncode == 0, done
         return done.stdout
 
-    def test_a_conversation_ends_with_its_input_or_with_quit(self):
+    def test_a_conversation_ends_with_its_input_or_with_quit(self, subtests):
         usage = subprocess.run("nc -h", shell=True, capture_output=True).stderr
         if b"OpenBSD" not in usage:
-            self.skipTest("needs OpenBSD's netcat")
+            pytest.skip("needs OpenBSD's netcat")
         requests = b"load beamfall seed=1\nact FIRE*9\nlook screen:hex\n"
         expected = run("serve", "--stdio", data=requests)[1]
         with serve() as server:
             tcp, unix = ("127.0.0.1", str(server.port())), ("-U", server.path("s"))
             server.wait_for("listening on unix:s")
             for where in (tcp, unix):
-                with self.subTest(where=where[0]):
-                    self.assertEqual(self.converse(requests, "-N", *where), expected)
-                    self.assertEqual(self.converse(requests + b"quit\n", *where), expected + b"ok\n")
+                with subtests.test(where=where[0]):
+                    assert self.converse(requests, "-N", *where) == expected
+                    assert self.converse(requests + b"quit\n", *where) == expected + b"ok\n"
 
 
-class Srun(unittest.TestCase):
-    def test_a_server_in_a_step_of_a_job_warns_of_slow_streams(self):
+class TestSrun:
+    def test_a_server_in_a_step_of_a_job_warns_of_slow_streams(self, subtests):
         warning = "if srun forwards standard output"
         for environment, warns in (({"SLURM_STEP_ID": "0"}, True), ({}, False)):
-            with self.subTest(environment), Server("serve", "--stdio", streams=True, **environment) as server:
+            with subtests.test(environment), Server("serve", "--stdio", streams=True, **environment) as server:
                 wire = Wire(os.dup(server.process.stdout.fileno()), os.dup(server.process.stdin.fileno()))
                 if warns:
                     server.wait_for(warning)
                 ask(wire, b"quit")
                 server.wait()
-                self.assertEqual(warning in "\n".join(server.log()), warns)
+                assert (warning in "\n".join(server.log())) == warns
                 wire.close()
 
 
-class Sessions(unittest.TestCase):
+class TestSessions:
     def test_each_client_has_its_own_session(self):
         with serve() as server:
             one, other = connect_tcp(server.port()), connect_unix(server.path("s"))
             one.send(LOAD + b"act NOOP*5\n")
             other.send(b"act NOOP\n" + LOAD + b"act NOOP\n")
-            self.assertEqual(lines(one, 4)[3], b"ok frame=5\n")
+            assert lines(one, 4)[3] == b"ok frame=5\n"
             replies = lines(other, 5)
-            self.assertTrue(replies[0].startswith(b"error no-game "))
-            self.assertEqual(replies[4], b"ok frame=1\n")
+            assert replies[0].startswith(b"error no-game ")
+            assert replies[4] == b"ok frame=1\n"
             for wire in (one, other):
                 wire.close()
 
@@ -179,7 +178,7 @@ class Sessions(unittest.TestCase):
                 quick.send(b"act NOOP\n")
                 quick.line()
                 worst = max(worst, time.monotonic() - start)
-            self.assertLess(worst, 2)
+            assert worst < 2
             for wire in (quick, *busy):
                 wire.close()
 
@@ -197,8 +196,8 @@ class Sessions(unittest.TestCase):
             wire.send(LOAD + b"branch root NOOP*50000\nact NOOP\n")
             wire.stop_sending()
             replies = wire.rest().splitlines()
-            self.assertEqual(len(replies), 5)
-            self.assertEqual(replies[4], b"ok frame=1")
+            assert len(replies) == 5
+            assert replies[4] == b"ok frame=1"
             wire.close()
 
     def test_who_does_not_read_holds_up_nobody(self):
@@ -213,7 +212,7 @@ class Sessions(unittest.TestCase):
             with open(f"/proc/{server.process.pid}/status") as status:
                 resident = next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
             if not sanitized():  # most of it is the sanitizer's
-                self.assertLess(resident, 100_000)  # KiB
+                assert resident < 100_000  # KiB
             count = 0
             while count < 2004:
                 count += deaf.read(1 << 20).count(b"\n")
@@ -229,7 +228,7 @@ class Sessions(unittest.TestCase):
                 wire.close()
             wire = connect_tcp(port)
             wire.send(b"hello\n")
-            self.assertTrue(wire.line().startswith(b"ok server=racebeam/"))
+            assert wire.line().startswith(b"ok server=racebeam/")
             wire.close()
 
     def test_many_machines_of_many_sessions(self):
@@ -247,7 +246,7 @@ class Sessions(unittest.TestCase):
                 thread.start()
             for thread in threads:
                 thread.join()
-            self.assertEqual(answers, [b"ok machines=8" + b" | frame=50" * 8 + b"\n"] * 4)
+            assert answers == [b"ok machines=8" + b" | frame=50" * 8 + b"\n"] * 4
 
     def test_a_line_without_end_takes_no_memory(self):
         with Session("stdio", image=None) as session:
@@ -256,15 +255,11 @@ class Sessions(unittest.TestCase):
             session.wire.send(b"\nhelp act\n")
             session.wire.stop_sending()
             replies = session.wire.rest().splitlines()
-            self.assertEqual([line.split()[:2] for line in replies], [[b"error", b"line-too-long"], [b"ok", b"act"]])
-            self.assertEqual(session.status(), 0)
-        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, 300_000)
+            assert [line.split()[:2] for line in replies] == [[b"error", b"line-too-long"], [b"ok", b"act"]]
+            assert session.status() == 0
+        assert resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss < 300_000
 
     def test_an_image_given_on_the_command_line_can_be_loaded(self):
         with Session("stdio", "--rom", GAME, image=None) as session:
             session.wire.send(b"games\n")
-            self.assertEqual(session.wire.line(), b"ok count=2 games=beamfall,updraft\n")
-
-
-if __name__ == "__main__":
-    main()
+            assert session.wire.line() == b"ok count=2 games=beamfall,updraft\n"

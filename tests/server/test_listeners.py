@@ -8,9 +8,9 @@ import signal
 import socket
 import tempfile
 import threading
-import unittest
 
-from harness import GAME, Server, connect_tcp, connect_unix, main, open_pipes, run, sanitized
+import pytest
+from harness import GAME, Server, connect_tcp, connect_unix, open_pipes, run, sanitized
 
 SERVE = ("serve", "--classic", "--rom", GAME, "--seed", "1", "--sticky", "0", "--grace", "0")
 WHOLE = b"0,1,0,1\n" + b"1,18\n" * 20
@@ -31,36 +31,40 @@ def play(wire):
     return answers
 
 
-class Addresses(unittest.TestCase):
+class TestAddresses:
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
     def folder(self):
         folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
+        self.cleanup(folder.cleanup)
         return folder.name
 
     def refuse(self, address, status, hint):
         ended, output, errors = run(*SERVE, "--listen", address)
-        self.assertEqual((ended, output, len(errors)), (status, b"", 1), errors)
-        self.assertIn(hint, errors[0])
+        assert (ended, output, len(errors)) == (status, b"", 1), errors
+        assert hint in errors[0]
 
     def test_port_0_picks_a_port_and_says_which(self):
         with listening("tcp://127.0.0.1:0") as server:
-            self.assertGreater(server.port(), 0)
-            self.assertEqual(play(connect_tcp(server.port()))[:8], b"160-210\n")
+            assert server.port() > 0
+            assert play(connect_tcp(server.port()))[:8] == b"160-210\n"
 
     def test_a_host_name_is_resolved_and_stays_in_the_address(self):
         with listening("tcp://LocalHost:0") as server:
             port = int(server.wait_for(r"listening on tcp://LocalHost:(\d+) \(127\.0\.0\.1\)$").group(1))
-            self.assertEqual(play(connect_tcp(port))[:8], b"160-210\n")
+            assert play(connect_tcp(port))[:8] == b"160-210\n"
 
     def test_two_servers_cannot_have_one_port(self):
         with listening("tcp://127.0.0.1:0") as server:
             self.refuse(f"tcp://127.0.0.1:{server.port()}", 3, "in use")
-            self.assertTrue(play(connect_tcp(server.port())).endswith(b"DIE\n"))
+            assert play(connect_tcp(server.port())).endswith(b"DIE\n")
 
     def test_two_servers_cannot_have_one_path(self):
         with listening("unix:s") as server:
             self.refuse("unix:" + server.path("s"), 3, "in use")
-            self.assertTrue(play(connect_unix(server.path("s"))).endswith(b"DIE\n"))
+            assert play(connect_unix(server.path("s"))).endswith(b"DIE\n")
 
     def test_a_live_socket_whose_queue_is_full_is_not_waited_for(self):
         path = os.path.join(self.folder(), "s")
@@ -68,47 +72,48 @@ class Addresses(unittest.TestCase):
             listener = stack.enter_context(socket.socket(socket.AF_UNIX))
             listener.bind(path)
             listener.listen(0)
-            with self.assertRaises(BlockingIOError):
+            with pytest.raises(BlockingIOError):
                 while True:
                     client = stack.enter_context(socket.socket(socket.AF_UNIX))
                     client.setblocking(False)
                     client.connect(path)
             self.refuse("unix:" + path, 3, "in use")
 
-    def test_a_server_that_has_bound_its_socket_and_does_not_listen_yet_keeps_it(self):
+    def test_a_server_that_has_bound_its_socket_and_does_not_listen_yet_keeps_it(self, cleanup):
         folder = self.folder()
         path = os.path.join(folder, "s")
         lock = os.open(folder, os.O_RDONLY)
-        self.addCleanup(os.close, lock)
+        cleanup(os.close, lock)
         fcntl.flock(lock, fcntl.LOCK_EX)
         with socket.socket(socket.AF_UNIX) as listener, Server(*SERVE, "--listen", "unix:" + path) as server:
             listener.bind(path)
             threading.Timer(0.5, lambda: (listener.listen(), fcntl.flock(lock, fcntl.LOCK_UN))).start()
-            self.assertEqual(server.wait(), 3)
-            self.assertIn("in use", server.log()[-1])
-            self.assertTrue(os.path.exists(path))
+            assert server.wait() == 3
+            assert "in use" in server.log()[-1]
+            assert os.path.exists(path)
 
     def test_one_address_cannot_be_given_twice(self):
         ended, _, errors = run(*SERVE, "--listen", "unix:s", "--listen", "unix:s", cwd=self.folder())
-        self.assertEqual((ended, len(errors)), (3, 1), errors)
+        assert (ended, len(errors)) == (3, 1), errors
 
     def test_the_socket_file_of_a_dead_server_is_replaced(self):
         with listening("unix:s") as server:
             server.stop(signal.SIGKILL)
-            self.assertTrue(os.path.exists(server.path("s")))
+            assert os.path.exists(server.path("s"))
             with Server(*SERVE, "--listen", "unix:" + server.path("s")) as heir:
                 heir.wait_for("listening on")
-                self.assertTrue(play(connect_unix(server.path("s"))).endswith(b"DIE\n"))
+                assert play(connect_unix(server.path("s"))).endswith(b"DIE\n")
 
     def test_a_file_that_is_not_a_socket_is_left_alone(self):
         with listening("unix:s") as server:
             with open(server.path("notes"), "w") as notes:
                 notes.write("dear diary")
             self.refuse("unix:" + server.path("notes"), 3, "is not a socket")
-            self.assertEqual(os.path.getsize(server.path("notes")), 10)
+            assert os.path.getsize(server.path("notes")) == 10
 
-    def test_an_invalid_address_is_refused(self):
-        for address in (
+    @pytest.mark.parametrize(
+        "address",
+        (
             "",
             "tcp",
             "tcp://",
@@ -121,9 +126,10 @@ class Addresses(unittest.TestCase):
             "tcp://no body:1",
             "tcp://127.0.1:1",
             "udp://127.0.0.1:1",
-        ):
-            with self.subTest(address=address):
-                self.refuse(address, 2, "is not an address")
+        ),
+    )
+    def test_an_invalid_address_is_refused(self, address):
+        self.refuse(address, 2, "is not an address")
 
     def test_addresses_that_cannot_be_had_are_refused(self):
         self.refuse("unix:" + "x" * 200, 3, "too long")
@@ -136,48 +142,48 @@ class Addresses(unittest.TestCase):
             folder = self.folder()
             address = f"tcp://127.0.0.1:{server.port()}"
             ended, _, errors = run(*SERVE, "--listen", "unix:s", "--listen", address, cwd=folder)
-            self.assertEqual((ended, len(errors), os.listdir(folder)), (3, 1, []), errors)
+            assert (ended, len(errors), os.listdir(folder)) == (3, 1, []), errors
 
 
-class Clients(unittest.TestCase):
+class TestClients:
     def test_several_addresses_are_served_at_once(self):
         with listening("tcp://127.0.0.1:0", "unix:a", "unix:b") as server:
             wires = [connect_tcp(server.port()), connect_unix(server.path("a")), connect_unix(server.path("b"))]
-            self.assertEqual(len({play(wire) for wire in wires}), 1)
+            assert len({play(wire) for wire in wires}) == 1
 
     def test_everyone_has_a_machine_of_their_own(self):
         with listening("unix:s") as server:
             wires = [connect_unix(server.path("s")) for _ in range(30)]
             for wire in wires:
-                self.assertEqual(wire.line(), b"160-210\n")
+                assert wire.line() == b"160-210\n"
                 wire.send(b"0,1,0,1\n")
                 wire.line()
             for _ in range(20):
                 for wire in wires:
                     wire.send(b"1,18\n")
-                self.assertEqual(len({wire.line() for wire in wires}), 1)
+                assert len({wire.line() for wire in wires}) == 1
             for wire in wires:
                 wire.close()
 
     def test_clients_that_make_no_sense_harm_nobody_else(self):
         with listening("tcp://127.0.0.1:0") as server:
             good = connect_tcp(server.port())
-            self.assertEqual(good.line(), b"160-210\n")
+            assert good.line() == b"160-210\n"
             for nonsense in (b"\n", b"GET / HTTP/1.1\r\n\r\n", b"\0" * 5000, b"0,0,0,1\n99,18\n", b"1,1,1,1\n44,0\n"):
                 bad = connect_tcp(server.port())
                 bad.send(nonsense)
-                self.assertTrue(bad.rest().startswith(b"160-210\n"))
+                assert bad.rest().startswith(b"160-210\n")
                 bad.close()
-            self.assertTrue(play(good).endswith(b"DIE\n"))
+            assert play(good).endswith(b"DIE\n")
             server.wait_for(r"(?s)(the client .*){5}")
-            self.assertEqual(sum("the client " in line for line in server.log()), 5)
+            assert sum("the client " in line for line in server.log()) == 5
 
     def test_an_answer_is_not_lost_when_more_was_sent_than_is_read(self):
         with Server(*SERVE, "--listen", "tcp://127.0.0.1:0", "--max-frames", "5") as server:
             wire = connect_tcp(server.port())
             wire.send(b"0,0,0,1\n" + b"3,18\n" * 1000)
-            self.assertEqual(wire.rest(), b"160-210\n" + b"0,0:\n" * 5 + b"DIE\n")
-            self.assertFalse(wire.was_reset)  # else a slower client would have lost what it had not read
+            assert wire.rest() == b"160-210\n" + b"0,0:\n" * 5 + b"DIE\n"
+            assert not wire.was_reset  # else a slower client would have lost what it had not read
             wire.close()
 
     def test_a_client_that_resets_its_connection_harms_nobody_else(self):
@@ -186,9 +192,9 @@ class Clients(unittest.TestCase):
             wire.line()
             wire.connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, b"\1\0\0\0\0\0\0\0")
             wire.close()
-            self.assertTrue(play(connect_tcp(server.port())).endswith(b"DIE\n"))
+            assert play(connect_tcp(server.port())).endswith(b"DIE\n")
 
-    @unittest.skipIf(sanitized(), "the sanitizer's own checks fail without free descriptors")
+    @pytest.mark.skipif(sanitized(), reason="the sanitizer's own checks fail without free descriptors")
     def test_a_server_that_has_too_many_clients_takes_others_later(self):
         with listening("unix:s") as server:
             resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (20, 20))
@@ -196,37 +202,34 @@ class Clients(unittest.TestCase):
             server.wait_for("cannot take a client on unix:s: Too many open files")
             for wire in crowd:
                 wire.close()
-            self.assertTrue(play(connect_unix(server.path("s"))).endswith(b"DIE\n"))
+            assert play(connect_unix(server.path("s"))).endswith(b"DIE\n")
 
 
-class Signals(unittest.TestCase):
-    def test_a_server_that_is_told_to_stop_ends_sessions_and_removes_its_socket(self):
-        for number in (signal.SIGTERM, signal.SIGINT):
-            with self.subTest(signal=number.name), listening("unix:s", "tcp://127.0.0.1:0") as server:
-                wires = [connect_unix(server.path("s")), connect_tcp(server.port())]
-                for wire in wires:
-                    wire.line()
-                self.assertEqual(server.stop(number), 0)
-                self.assertFalse(os.path.exists(server.path("s")))
-                for wire in wires:
-                    self.assertEqual(wire.rest(), b"")
-                    wire.close()
+class TestSignals:
+    @pytest.mark.parametrize("number", (signal.SIGTERM, signal.SIGINT))
+    def test_a_server_that_is_told_to_stop_ends_sessions_and_removes_its_socket(self, number):
+        with listening("unix:s", "tcp://127.0.0.1:0") as server:
+            wires = [connect_unix(server.path("s")), connect_tcp(server.port())]
+            for wire in wires:
+                wire.line()
+            assert server.stop(number) == 0
+            assert not os.path.exists(server.path("s"))
+            for wire in wires:
+                assert wire.rest() == b""
+                wire.close()
 
-    def test_pipes_that_the_server_has_made_are_removed_at_its_end(self):
-        for is_private, end in ((True, "signal"), (True, "client"), (False, "signal")):
-            with (
-                self.subTest(own=is_private, end=end),
-                Server(*SERVE, "--pipes", "p", before=None if is_private else self.make_pipes) as server,
-            ):
-                server.wait_for("for a client that opens")
-                if end == "client":
-                    wire = open_pipes(server, "p")
-                    play(wire)
-                    self.assertEqual(server.wait(), 0)
-                else:
-                    self.assertEqual(server.stop(), 0)
-                self.assertEqual(os.path.exists(server.path("p_out")), not is_private)
-                self.assertEqual(os.path.exists(server.path("p_in")), not is_private)
+    @pytest.mark.parametrize("is_private, end", ((True, "signal"), (True, "client"), (False, "signal")))
+    def test_pipes_that_the_server_has_made_are_removed_at_its_end(self, is_private, end):
+        with Server(*SERVE, "--pipes", "p", before=None if is_private else self.make_pipes) as server:
+            server.wait_for("for a client that opens")
+            if end == "client":
+                wire = open_pipes(server, "p")
+                play(wire)
+                assert server.wait() == 0
+            else:
+                assert server.stop() == 0
+            assert os.path.exists(server.path("p_out")) == (not is_private)
+            assert os.path.exists(server.path("p_in")) == (not is_private)
 
     def make_pipes(self):
         for name in ("p_out", "p_in"):
@@ -247,24 +250,21 @@ class Signals(unittest.TestCase):
                 for _ in range(3):
                     server.process.send_signal(signal.SIGHUP)
                 server.wait_for("listening on unix:s")
-                self.assertEqual(server.stop(), 0)
+                assert server.stop() == 0
 
     def test_the_socket_of_a_successor_is_left_alone(self):
         with listening("unix:s") as server:
             os.unlink(server.path("s"))
             with Server(*SERVE, "--listen", "unix:" + server.path("s")) as heir:
                 heir.wait_for("listening on")
-                self.assertEqual(server.stop(), 0)
-                self.assertTrue(play(connect_unix(server.path("s"))).endswith(b"DIE\n"))
+                assert server.stop() == 0
+                assert play(connect_unix(server.path("s"))).endswith(b"DIE\n")
 
-    def test_sessions_on_streams_stop_when_told_to(self):
-        for transport, ready in ((["--stdio"], "on standard input"), (["--pipes", "p"], "for a client that opens")):
-            for number in (signal.SIGTERM, signal.SIGINT):
-                with self.subTest(transport=transport[0], signal=number.name):
-                    with Server(*SERVE, *transport, streams=True) as server:
-                        server.wait_for(ready)
-                        self.assertEqual(server.stop(number), 0)
-
-
-if __name__ == "__main__":
-    main()
+    @pytest.mark.parametrize(
+        "transport, ready", ((["--stdio"], "on standard input"), (["--pipes", "p"], "for a client that opens"))
+    )
+    @pytest.mark.parametrize("number", (signal.SIGTERM, signal.SIGINT))
+    def test_sessions_on_streams_stop_when_told_to(self, transport, ready, number):
+        with Server(*SERVE, *transport, streams=True) as server:
+            server.wait_for(ready)
+            assert server.stop(number) == 0

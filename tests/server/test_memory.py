@@ -6,10 +6,10 @@ import socket
 import tempfile
 import threading
 import time
-import unittest
 import urllib.request
 
-from harness import PATIENCE, SOURCE, Wire, ask, connect_tcp, main, sanitized, serve, thread_sanitized
+import pytest
+from harness import PATIENCE, SOURCE, Wire, ask, connect_tcp, sanitized, serve, thread_sanitized
 
 LONG = b"load beamfall as=tetris seed=1 sticky=0 max_episode_frames=0"
 QUICK = 1 if PATIENCE <= 60 else PATIENCE / 20  # seconds, for a newcomer
@@ -84,17 +84,21 @@ class Bystander:
         return self.replies
 
 
-@unittest.skipIf(sanitized() or thread_sanitized(), "a sanitizer needs more memory")
-class Memory(unittest.TestCase):
+@pytest.mark.skipif(sanitized() or thread_sanitized(), reason="a sanitizer needs more memory")
+class TestMemory:
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
     def start(self, *options):
         self.server = serve("--threads", "2", "--http", "127.0.0.1:0", *options)
-        self.addCleanup(self.server.__exit__)
+        self.cleanup(self.server.__exit__)
         self.http = int(self.server.wait_for(r"health and metrics on http://127\.0\.0\.1:(\d+)$").group(1))
         return self.server.port()
 
     def connect(self, port, address="127.0.0.1"):
         wire = connect_from(address, port)
-        self.addCleanup(wire.close)
+        self.cleanup(wire.close)
         return wire
 
     def memory(self, kind):
@@ -111,20 +115,20 @@ class Memory(unittest.TestCase):
             start = time.monotonic()
             wire = connect_from(address, port)
             for line in (b"load beamfall", b"act FIRE"):
-                self.assertRegex(ask(wire, line), b"^ok ")
+                assert re.search(b"^ok ", ask(wire, line))
             wire.close()
-            self.assertLess(time.monotonic() - start, QUICK)
+            assert time.monotonic() - start < QUICK
 
     def test_sessions_that_wait_do_not_keep_others_out(self):
         port = self.start("--max-memory", "128M")
         bystander = Bystander(port)
         replies = [fill(self.connect(port)) for _ in range(24)]
-        self.assertIn(True, replies)
+        assert True in replies
         self.check_newcomers(port)
         time.sleep(3)
         self.check_newcomers(port)
-        self.assertEqual(bystander.close(), {b"ok"})
-        self.assertLess(self.memory("resident"), 128)
+        assert bystander.close() == {b"ok"}
+        assert self.memory("resident") < 128
 
     def test_many_that_hold_little_do_not_keep_others_out(self):
         port = self.start("--max-memory", "80M")
@@ -140,26 +144,26 @@ class Memory(unittest.TestCase):
         while time.monotonic() < end and self.memory("counted") > 76:
             time.sleep(0.1)
         self.check_newcomers(port)
-        self.assertEqual(bystander.close(), {b"ok"})
+        assert bystander.close() == {b"ok"}
 
-    def test_code_and_resets_of_all_images_together_stay_within_a_sixteenth(self):
-        for limit, images in ((64, 40), (512, 150)):
-            with self.subTest(limit=limit), tempfile.TemporaryDirectory() as folder:
-                write_images(folder, images)
-                port = self.start("--max-memory", f"{limit}M", "--roms", folder)
-                resident, counted = self.memory("resident"), self.memory("counted")
-                for number in range(images):
-                    wire = self.connect(port)
-                    for line in (b"load image-%d as=beamfall seed=1" % number, b"act 0*30 1*10 3*60"):
-                        self.assertRegex(ask(wire, line), b"^ok ")
-                sessions = self.memory("counted") - counted
-                caches = min(limit / 16, 24)
-                self.assertLess(self.memory("resident") - resident, caches + 1.1 * sessions + 1)
+    @pytest.mark.parametrize("limit, images", ((64, 40), (512, 150)))
+    def test_code_and_resets_of_all_images_together_stay_within_a_sixteenth(self, limit, images):
+        with tempfile.TemporaryDirectory() as folder:
+            write_images(folder, images)
+            port = self.start("--max-memory", f"{limit}M", "--roms", folder)
+            resident, counted = self.memory("resident"), self.memory("counted")
+            for number in range(images):
+                wire = self.connect(port)
+                for line in (b"load image-%d as=beamfall seed=1" % number, b"act 0*30 1*10 3*60"):
+                    assert re.search(b"^ok ", ask(wire, line))
+            sessions = self.memory("counted") - counted
+            caches = min(limit / 16, 24)
+            assert self.memory("resident") - resident < caches + 1.1 * sessions + 1
 
     def test_who_does_not_read_is_ended_first(self):
         port = self.start("--max-memory", "96M")
         bystander, waiting = Bystander(port), self.connect(port)
-        self.assertRegex(ask(waiting, b"load beamfall"), b"^ok ")
+        assert re.search(b"^ok ", ask(waiting, b"load beamfall"))
         for _ in range(30):
             wire = self.connect(port)
             wire.connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 14)
@@ -168,14 +172,14 @@ class Memory(unittest.TestCase):
             wire.send(b"open 8\n" + b"step NOOP\n" * 50)
         time.sleep(3)
         self.check_newcomers(port)
-        self.assertEqual(bystander.close(), {b"ok"})
-        self.assertRegex(ask(waiting, b"act FIRE"), b"^ok ")
+        assert bystander.close() == {b"ok"}
+        assert re.search(b"^ok ", ask(waiting, b"act FIRE"))
 
     def test_the_owner_who_holds_most_makes_room(self):
         port = self.start("--max-memory", "80M")
         waiting = self.connect(port)
-        self.assertRegex(ask(waiting, b"load beamfall"), b"^ok ")
-        self.assertRegex(ask(waiting, b"open 8"), b"^ok ")
+        assert re.search(b"^ok ", ask(waiting, b"load beamfall"))
+        assert re.search(b"^ok ", ask(waiting, b"open 8"))
         many = []
         for _ in range(300):
             many.append(self.connect(port, "127.0.0.2"))
@@ -185,7 +189,7 @@ class Memory(unittest.TestCase):
         self.check_newcomers(port)
         time.sleep(4)
         self.check_newcomers(port)
-        self.assertRegex(ask(waiting, b"step NOOP"), b"^ok ")
+        assert re.search(b"^ok ", ask(waiting, b"step NOOP"))
 
     def test_clients_without_room_wait_together_and_are_refused(self):
         port = self.start("--max-memory", "48M")
@@ -198,35 +202,30 @@ class Memory(unittest.TestCase):
         began = time.monotonic()
         late = [self.connect(port) for _ in range(100)]
         for wire in late:
-            self.assertRegex(wire.read(1 << 16), b"^error busy .*hold all the memory")
-        self.assertLess(time.monotonic() - began, 3 * QUICK)
+            assert re.search(b"^error busy .*hold all the memory", wire.read(1 << 16))
+        assert time.monotonic() - began < 3 * QUICK
 
     def test_a_long_line_without_memory_is_refused_and_the_session_goes_on(self):
         port = self.start("--max-memory", "64M", "--max-line", "100000000")
         wire = self.connect(port)
-        self.assertRegex(ask(wire, b"x" * 90_000_000), b"^error limit the server has no memory for a line of more than")
-        self.assertRegex(ask(wire, b"games"), b"^ok ")
+        assert re.search(b"^error limit the server has no memory for a line of more than", ask(wire, b"x" * 90_000_000))
+        assert re.search(b"^ok ", ask(wire, b"games"))
 
-    def test_the_memory_of_ended_sessions_goes_back_to_the_system(self):
-        for options in ((), ("--max-memory", "0")):
-            with self.subTest(options=options):
-                port = self.start(*options)
-                low = self.memory("resident")
-                wires = []
-                for _ in range(600):
-                    wires.append(connect_tcp(port))
-                    wires[-1].send(b"load beamfall\nact FIRE*60\nsave a\nact LEFT*20\n")
-                for wire in wires:
-                    wire.line()
-                    wire.line()
-                bound = low + (self.memory("resident") - low) / 4
-                for wire in wires:
-                    wire.close()
-                end = time.monotonic() + PATIENCE
-                while time.monotonic() < end and self.memory("resident") > bound:
-                    time.sleep(0.1)
-                self.assertLess(self.memory("resident"), bound)
-
-
-if __name__ == "__main__":
-    main()
+    @pytest.mark.parametrize("options", ((), ("--max-memory", "0")))
+    def test_the_memory_of_ended_sessions_goes_back_to_the_system(self, options):
+        port = self.start(*options)
+        low = self.memory("resident")
+        wires = []
+        for _ in range(600):
+            wires.append(connect_tcp(port))
+            wires[-1].send(b"load beamfall\nact FIRE*60\nsave a\nact LEFT*20\n")
+        for wire in wires:
+            wire.line()
+            wire.line()
+        bound = low + (self.memory("resident") - low) / 4
+        for wire in wires:
+            wire.close()
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end and self.memory("resident") > bound:
+            time.sleep(0.1)
+        assert self.memory("resident") < bound

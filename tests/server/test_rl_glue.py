@@ -5,9 +5,9 @@ import os
 import socket
 import struct
 import subprocess
-import unittest
 
-from harness import BINARY, GAME, PATIENCE, main, run
+import pytest
+from harness import BINARY, GAME, PATIENCE, run
 
 SETTINGS = ("-random_seed", "1", "-repeat_action_probability", "0.25")
 INIT, START, STEP, CLEANUP, MESSAGE, TERMINATE = 11, 12, 13, 14, 19, 35
@@ -23,27 +23,27 @@ TASK = (
 class Core:
     """An RL-Glue core with one environment, which is a process of ours."""
 
-    def __init__(self, test, *options, game=GAME):
-        self.test = test
+    def __init__(self, cleanup, *options, game=GAME):
+        self.cleanup = cleanup
         self.listener = socket.create_server(("127.0.0.1", 0))
         self.listener.settimeout(PATIENCE)
-        test.addCleanup(self.listener.close)
+        self.cleanup(self.listener.close)
         self.environment = subprocess.Popen(
             [BINARY, "classic", "-game_controller", "rlglue", *SETTINGS, *options, game],
             stderr=subprocess.PIPE,
             text=True,
             env={**os.environ, "RLGLUE_PORT": str(self.listener.getsockname()[1])},
         )
-        test.addCleanup(self.environment.stderr.close)
-        test.addCleanup(self.environment.wait)
-        test.addCleanup(self.environment.kill)
+        self.cleanup(self.environment.stderr.close)
+        self.cleanup(self.environment.wait)
+        self.cleanup(self.environment.kill)
 
     def accept(self):
         self.link, _ = self.listener.accept()
         self.link.settimeout(PATIENCE)
         self.stream = self.link.makefile("rb")
-        self.test.addCleanup(self.link.close)
-        self.test.addCleanup(self.stream.close)
+        self.cleanup(self.link.close)
+        self.cleanup(self.stream.close)
         return struct.unpack(">2I", self.stream.read(8))
 
     def send(self, kind, payload=b""):
@@ -87,41 +87,45 @@ def lines_of_fifo(actions):
         yield bytes.fromhex(ram.decode()), bytes.fromhex(screen.decode()), int(over), int(reward)
 
 
-class RlGlue(unittest.TestCase):
+class TestRlGlue:
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
     def start(self, *options, **more):
-        core = Core(self, *options, **more)
-        self.assertEqual(core.accept(), (3, 0))
+        core = Core(self.cleanup, *options, **more)
+        assert core.accept() == (3, 0)
         return core
 
     def test_an_experiment_sees_what_a_client_of_the_text_protocol_sees(self):
         core = self.start()
-        self.assertEqual(core.ask(INIT)[4:], TASK % (b"(33600 0 127)", 18))
+        assert core.ask(INIT)[4:] == TASK % (b"(33600 0 127)", 18)
         # An index beyond the set is the first action.
         expected = list(lines_of_fifo([action if 0 <= action < 18 else 0 for action in ACTIONS]))
-        self.assertEqual(observation(core.ask(START)), expected[0][:2])
+        assert observation(core.ask(START)) == expected[0][:2]
         for action, (ram, screen, over, reward) in zip(ACTIONS, expected[1:], strict=True):
-            self.assertEqual(core.step(action), (over, reward, (ram, screen)))
-        self.assertEqual(core.ask(CLEANUP), b"")
-        self.assertEqual(core.ask(MESSAGE, struct.pack(">I5s", 5, b"hello")), struct.pack(">I5s", 5, b"hello"))
+            assert core.step(action) == (over, reward, (ram, screen))
+        assert core.ask(CLEANUP) == b""
+        assert core.ask(MESSAGE, struct.pack(">I5s", 5, b"hello")) == struct.pack(">I5s", 5, b"hello")
         core.send(TERMINATE)
-        self.assertEqual(core.end()[0], 0)
+        assert core.end()[0] == 0
 
     def test_a_start_is_a_reset(self):
         core = self.start("-repeat_action_probability", "0")
         first = [core.ask(START), *(core.step(3) for _ in range(20))]
-        self.assertEqual([core.ask(START), *(core.step(3) for _ in range(20))], first)
+        assert [core.ask(START), *(core.step(3) for _ in range(20))] == first
 
     def test_colours_and_the_minimal_set(self):
         plain = self.start(game=SMALL)
         core = self.start("-send_rgb", "true", "-restricted_action_set", "true", game=SMALL)
-        self.assertEqual(core.ask(INIT)[4:], TASK % (b"(100800 0 255)", len(SMALL_SET)))
+        assert core.ask(INIT)[4:] == TASK % (b"(100800 0 255)", len(SMALL_SET))
         indices = observation(plain.ask(START))[1]
         colours = observation(core.ask(START))[1]
-        self.assertEqual(len(colours), 3 * SCREEN)
+        assert len(colours) == 3 * SCREEN
         pixels = {(index, colours[3 * at : 3 * at + 3]) for at, index in enumerate(indices)}
-        self.assertEqual(len(pixels), len(set(indices)))  # each index has one colour
+        assert len(pixels) == len(set(indices))  # each index has one colour
         for index, action in [*enumerate(SMALL_SET)] * 5:
-            self.assertEqual(core.step(index)[2][0], plain.step(action)[2][0])
+            assert core.step(index)[2][0] == plain.step(action)[2][0]
 
     def test_the_limit_of_frames_ends_the_session(self):
         core = self.start("-max_num_frames", "5")
@@ -129,19 +133,19 @@ class RlGlue(unittest.TestCase):
         for _ in range(5):
             core.step(0)
         core.send(STEP, struct.pack(">3Ii", 1, 0, 0, 0))
-        self.assertEqual(core.stream.read(), b"")
-        self.assertEqual(core.end()[0], 0)
+        assert core.stream.read() == b""
+        assert core.end()[0] == 0
 
     def test_an_episode_at_its_limit_stands_still_and_is_not_over(self):
         core = self.start("-max_num_frames_per_episode", "3")
         core.ask(START)
         steps = [core.step(3) for _ in range(6)]
-        self.assertEqual([over for over, _, _ in steps], [0] * 6)
-        self.assertEqual(steps[3:], steps[2:5])
+        assert [over for over, _, _ in steps] == [0] * 6
+        assert steps[3:] == steps[2:5]
 
-    def test_a_core_that_comes_late_is_waited_for(self):
+    def test_a_core_that_comes_late_is_waited_for(self, cleanup):
         listener = socket.socket()
-        self.addCleanup(listener.close)
+        cleanup(listener.close)
         listener.settimeout(PATIENCE)
         listener.bind(("127.0.0.1", 0))  # no other program gets the port, and nothing listens yet
         port = listener.getsockname()[1]
@@ -152,22 +156,22 @@ class RlGlue(unittest.TestCase):
             env={**os.environ, "RLGLUE_PORT": str(port)},
         )
         with environment:
-            self.addCleanup(environment.kill)
+            cleanup(environment.kill)
             waiting = next(line for line in environment.stderr if "waiting" in line)
-            self.assertIn(f"127.0.0.1:{port}", waiting)
+            assert f"127.0.0.1:{port}" in waiting
             listener.listen()
             link, _ = listener.accept()
             with link:
-                self.assertEqual(link.recv(8, socket.MSG_WAITALL), struct.pack(">2I", 3, 0))
-            self.assertEqual(environment.wait(PATIENCE), 0)
+                assert link.recv(8, socket.MSG_WAITALL) == struct.pack(">2I", 3, 0)
+            assert environment.wait(PATIENCE) == 0
 
     def refuse(self, hint, kind, payload=b"", size=None):
         core = self.start()
         core.link.sendall(struct.pack(">2I", kind, len(payload) if size is None else size) + payload)
         core.link.shutdown(socket.SHUT_WR)
         status, errors = core.end()
-        self.assertEqual(status, 1)
-        self.assertIn(hint, errors[-1])
+        assert status == 1
+        assert hint in errors[-1]
 
     def test_what_the_protocol_does_not_have_is_refused_with_a_sentence(self):
         self.refuse("type 77", 77)
@@ -186,9 +190,5 @@ class RlGlue(unittest.TestCase):
                 capture_output=True,
                 timeout=PATIENCE,
             )
-            self.assertEqual(done.returncode, 1)
-            self.assertIn(f"RLGLUE_PORT is '{port}'", done.stderr)
-
-
-if __name__ == "__main__":
-    main()
+            assert done.returncode == 1
+            assert f"RLGLUE_PORT is '{port}'" in done.stderr

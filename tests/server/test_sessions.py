@@ -3,9 +3,9 @@ lines."""
 
 import contextlib
 import os
-import unittest
 
-from harness import TRANSPORTS, Session, main, rom, sanitized, thread_sanitized
+import pytest
+from harness import TRANSPORTS, Session, rom, sanitized, thread_sanitized
 
 MEBIBYTE = 1 << 20
 
@@ -19,13 +19,17 @@ def converse(transport, data, *options, **image):
         return received, session.status(), session.server.log()
 
 
-class SmallCases(unittest.TestCase):
+class TestSmallCases:
+    @pytest.fixture(autouse=True)
+    def keep_subtests(self, subtests):
+        self.subtests = subtests
+
     def check(self, data, lines, *options, **image):
         expected = "".join(line + "\n" for line in ["160-210", *lines]).encode()
         for transport in TRANSPORTS:
-            with self.subTest(transport=transport):
+            with self.subtests.test(transport=transport):
                 received, status, _ = converse(transport, data, *options, **image)
-                self.assertEqual((received, status), (expected, 0))
+                assert (received, status) == (expected, 0)
 
     def test_a_client_that_closes_at_once_hears_DIE(self):
         self.check(b"", ["DIE"])
@@ -50,11 +54,11 @@ class SmallCases(unittest.TestCase):
             "3",
         )
 
-    @unittest.skipUnless(rom("breakout"), "needs an image of breakout")
+    @pytest.mark.needs_roms("breakout")
     def test_a_paddle_game_takes_every_number_for_nothing(self):
         self.check(b"0,0,0,1\n1,0\n45,45\n0,0\n99,99\n-5,3\n", ["0,0:"] * 6 + ["DIE"], image=rom("breakout"))
 
-    @unittest.skipUnless(rom("seaquest"), "needs an image of seaquest")
+    @pytest.mark.needs_roms("seaquest")
     def test_one_generator_fills_the_memory_and_it_is_the_one_of_the_seed(self):
         def memory(seed, system_seed):
             words = ("--seed", seed, "--system-seed", system_seed, "--sticky", "0")
@@ -62,22 +66,26 @@ class SmallCases(unittest.TestCase):
                 session.wire.send(b"0,1,0,0\n")
                 return session.wire.receive(len(b"160-210\n") + 258)
 
-        self.assertEqual(memory("1", "1"), memory("1", "2"))
-        self.assertNotEqual(memory("1", "1"), memory("2", "1"))
+        assert memory("1", "1") == memory("1", "2")
+        assert memory("1", "1") != memory("2", "1")
 
     def test_line_ends_of_other_systems_do_no_harm(self):
         self.check(b"0,0,0,1\r\n3,18\r\n 3 , 18 \r\n", ["0,0:"] * 3 + ["DIE"])
 
 
-class Nonsense(unittest.TestCase):
+class TestNonsense:
+    @pytest.fixture(autouse=True)
+    def keep_subtests(self, subtests):
+        self.subtests = subtests
+
     def check(self, data, lines, status, complaint):
         expected = "".join(line + "\n" for line in ["160-210", *lines]).encode()
         for transport in TRANSPORTS:
-            with self.subTest(transport=transport):
+            with self.subtests.test(transport=transport):
                 received, ended, log = converse(transport, data)
-                self.assertEqual(received, expected)
-                self.assertEqual(ended, status if transport in ("stdio", "pipes") else 0)
-                self.assertEqual(len([line for line in log if complaint in line]), 1, log)
+                assert received == expected
+                assert ended == (status if transport in ("stdio", "pipes") else 0)
+                assert len([line for line in log if complaint in line]) == 1, log
 
     def test_an_action_that_does_not_exist_ends_the_session(self):
         self.check(b"0,0,0,1\n3,18\n99,18\n3,18\n", ["0,0:"] * 2, 255, "asked for action 99")
@@ -94,45 +102,44 @@ class Nonsense(unittest.TestCase):
     def test_bytes_that_are_not_text_end_the_session(self):
         self.check(b"0,0,0,1\n" + bytes(range(128, 256)) + b"\n", ["0,0:"], 1, "1 numbers")
 
-    def test_a_line_of_a_mebibyte_without_a_comma_ends_the_session(self):
-        for transport in TRANSPORTS:
-            with self.subTest(transport=transport), Session(transport) as session:
-                with contextlib.suppress(BrokenPipeError, ConnectionResetError):  # the server need not read all of it
-                    session.wire.send(b"0,0,0,1\n" + b"3" * MEBIBYTE + b"\n")
-                self.assertEqual(session.wire.rest()[:13], b"160-210\n0,0:\n")
-                self.assertEqual(session.status(), 1 if transport in ("stdio", "pipes") else 0)
-                self.assertEqual(len([line for line in session.server.log() if "1 numbers" in line]), 1)
+    @pytest.mark.parametrize("transport", TRANSPORTS)
+    def test_a_line_of_a_mebibyte_without_a_comma_ends_the_session(self, transport):
+        with Session(transport) as session:
+            with contextlib.suppress(BrokenPipeError, ConnectionResetError):  # the server need not read all of it
+                session.wire.send(b"0,0,0,1\n" + b"3" * MEBIBYTE + b"\n")
+            assert session.wire.rest()[:13] == b"160-210\n0,0:\n"
+            assert session.status() == (1 if transport in ("stdio", "pipes") else 0)
+            assert len([line for line in session.server.log() if "1 numbers" in line]) == 1
 
     def test_a_line_of_a_mebibyte_of_numbers_is_taken_for_many(self):
         received, status, _ = converse("stdio", b"0,0,0,1\n" + b"3," * (MEBIBYTE // 2) + b"\n")
         pieces = MEBIBYTE // 2047 + 1  # one read of the classic server takes 2047 bytes
-        self.assertEqual((received, status), (b"160-210\n" + b"0,0:\n" * (pieces + 1) + b"DIE\n", 0))
+        assert (received, status) == (b"160-210\n" + b"0,0:\n" * (pieces + 1) + b"DIE\n", 0)
 
 
-class Leaving(unittest.TestCase):
+class TestLeaving:
     SAID = b"0,0,0,1\n3,18\n43,18\n4,18\n44,18\n45,45\n"
 
-    def test_the_client_may_stop_sending_after_any_byte(self):
-        for transport in TRANSPORTS:
-            for count in range(len(self.SAID) + 1):
-                with self.subTest(transport=transport, count=count):
-                    self.check_sent(transport, self.SAID[:count])
+    @pytest.mark.parametrize("transport", TRANSPORTS)
+    @pytest.mark.parametrize("count", range(len(SAID) + 1))
+    def test_the_client_may_stop_sending_after_any_byte(self, transport, count):
+        self.check_sent(transport, self.SAID[:count])
 
     def check_sent(self, transport, data):
         received, status, log = converse(transport, data)
         # A last line that is too short is refused; all others are executed.
         last, numbers = data.split(b"\n")[-1], 2 if b"\n" in data else 4
         is_cut = bool(last) and len([part for part in last.split(b",") if part]) < numbers
-        self.assertEqual(received.endswith(b"DIE\n"), not is_cut)
-        self.assertEqual(received.count(b"0,0:\n"), data.count(b"\n"))
-        self.assertEqual(len([line for line in log if "numbers" in line]), 1 if is_cut else 0, log)
-        self.assertEqual(status, 1 if is_cut and transport in ("stdio", "pipes") else 0)
+        assert received.endswith(b"DIE\n") == (not is_cut)
+        assert received.count(b"0,0:\n") == data.count(b"\n")
+        assert len([line for line in log if "numbers" in line]) == (1 if is_cut else 0), log
+        assert status == (1 if is_cut and transport in ("stdio", "pipes") else 0)
 
-    def test_the_client_may_stop_reading_after_any_byte(self):
+    def test_the_client_may_stop_reading_after_any_byte(self, subtests):
         answers = b"160-210\n" + b"0,0:\n" * 6
         for transport in TRANSPORTS:
             for count in range(len(answers)):
-                with self.subTest(transport=transport, count=count):
+                with subtests.test(transport=transport, count=count):
                     self.check_heard(transport, answers, count)
 
     def check_heard(self, transport, answers, count):
@@ -141,12 +148,12 @@ class Leaving(unittest.TestCase):
         with Session(transport, "--seed", "1", "--sticky", "0") as session:
             wire = session.wire
             wire.send(b"".join(requests[:lines]))
-            self.assertEqual(wire.receive(count), answers[:count])
+            assert wire.receive(count) == answers[:count]
             if transport in ("stdio", "pipes"):
                 wire.stop_reading()
                 wire.send(b"3,18\n" if lines else b"0,0,0,1\n")
-                self.assertEqual(session.status(), 1)
-                self.assertEqual(session.server.log()[-1], "racebeam: the client stopped reading")
+                assert session.status() == 1
+                assert session.server.log()[-1] == "racebeam: the client stopped reading"
             else:
                 wire.close()
                 self.assert_serves(session)
@@ -156,12 +163,12 @@ class Leaving(unittest.TestCase):
         wire = session.connect()
         wire.send(self.SAID)
         wire.stop_sending()
-        self.assertEqual(wire.rest(), b"160-210\n" + b"0,0:\n" * 6 + b"DIE\n")
+        assert wire.rest() == b"160-210\n" + b"0,0:\n" * 6 + b"DIE\n"
         wire.close()
-        self.assertTrue(session.server.alive())
+        assert session.server.alive()
 
 
-class Stalling(unittest.TestCase):
+class TestStalling:
     AHEAD = b"1,1,0,1\n" + b"3,18\n" * 1000
 
     def stall(self, session):
@@ -172,42 +179,38 @@ class Stalling(unittest.TestCase):
         with open(f"/proc/{session.server.process.pid}/statm") as numbers:
             return int(numbers.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
-    def test_a_client_that_does_not_read_is_waited_for(self):
-        for transport in TRANSPORTS:
-            with self.subTest(transport=transport), Session(transport, "--full-screen") as session:
-                before = self.memory(session)
-                self.stall(session)
-                session.wire.receive(100)
-                if not sanitized():  # most of it is the sanitizer's
-                    self.assertLess(self.memory(session) - before, (64 if thread_sanitized() else 32) << 20)
-                session.wire.stop_sending()
-                answers = session.wire.rest()
-                self.assertEqual((answers.count(b":\n"), answers[-4:]), (1001, b"DIE\n"))
+    @pytest.mark.parametrize("transport", TRANSPORTS)
+    def test_a_client_that_does_not_read_is_waited_for(self, transport):
+        with Session(transport, "--full-screen") as session:
+            before = self.memory(session)
+            self.stall(session)
+            session.wire.receive(100)
+            if not sanitized():  # most of it is the sanitizer's
+                assert self.memory(session) - before < (64 if thread_sanitized() else 32) << 20
+            session.wire.stop_sending()
+            answers = session.wire.rest()
+            assert (answers.count(b":\n"), answers[-4:]) == (1001, b"DIE\n")
 
-    def test_a_client_that_leaves_with_a_full_pipe_ends_its_session(self):
-        for transport in ("stdio", "pipes"):
-            with self.subTest(transport=transport), Session(transport, "--full-screen") as session:
-                self.stall(session)
-                session.wire.receive(100)
-                session.wire.stop_reading()
-                self.assertEqual(session.status(), 1)
-                self.assertEqual(session.server.log()[-1], "racebeam: the client stopped reading")
+    @pytest.mark.parametrize("transport", ("stdio", "pipes"))
+    def test_a_client_that_leaves_with_a_full_pipe_ends_its_session(self, transport):
+        with Session(transport, "--full-screen") as session:
+            self.stall(session)
+            session.wire.receive(100)
+            session.wire.stop_reading()
+            assert session.status() == 1
+            assert session.server.log()[-1] == "racebeam: the client stopped reading"
 
-    def test_clients_that_do_not_read_hold_nobody_up(self):
-        for transport in ("tcp", "unix"):
-            with self.subTest(transport=transport), Session(transport, "--full-screen", "--seed", "1") as session:
-                stalled = [session.wire] + [session.connect() for _ in range(15)]
-                for wire in stalled:
-                    wire.send(self.AHEAD)
-                other = session.connect()
-                other.send(b"0,0,0,1\n" + b"3,18\n" * 100)
-                other.stop_sending()
-                self.assertTrue(other.rest().endswith(b"DIE\n"))
-                for wire in stalled + [other]:
-                    wire.close()
-                session.wire = session.connect()
-                self.assertEqual(session.wire.line(), b"160-210\n")
-
-
-if __name__ == "__main__":
-    main()
+    @pytest.mark.parametrize("transport", ("tcp", "unix"))
+    def test_clients_that_do_not_read_hold_nobody_up(self, transport):
+        with Session(transport, "--full-screen", "--seed", "1") as session:
+            stalled = [session.wire] + [session.connect() for _ in range(15)]
+            for wire in stalled:
+                wire.send(self.AHEAD)
+            other = session.connect()
+            other.send(b"0,0,0,1\n" + b"3,18\n" * 100)
+            other.stop_sending()
+            assert other.rest().endswith(b"DIE\n")
+            for wire in stalled + [other]:
+                wire.close()
+            session.wire = session.connect()
+            assert session.wire.line() == b"160-210\n"

@@ -2,44 +2,49 @@
 
 import hashlib
 import os
+import re
 import resource
 import subprocess
 import tempfile
-import unittest
 
-from harness import BINARY, GAME, PATIENCE, SOURCE, main, run, sanitized
+import pytest
+from harness import BINARY, GAME, PATIENCE, SOURCE, run, sanitized
 
 SERVE = ("serve", "--classic", "--stdio", "--rom", GAME)
 HOMEBREW = os.path.join(SOURCE, "games", "homebrew", GAME.split(":")[1] + ".bin")
 
 
-class Refusals(unittest.TestCase):
+class Refusals:
     def check(self, words, status, *hints):
         ended, output, errors = run(*words)
-        self.assertEqual((ended, output, len(errors)), (status, b"", 1), errors)
-        self.assertTrue(errors[0].startswith("racebeam: "), errors)
+        assert (ended, output, len(errors)) == (status, b"", 1), errors
+        assert errors[0].startswith("racebeam: "), errors
         for hint in hints:
-            self.assertIn(hint, errors[0])
+            assert hint in errors[0]
 
 
-class PipeNames(Refusals):
+class TestPipeNames(Refusals):
     def test_two_endpoints_cannot_have_the_same_pipes(self):
         with tempfile.TemporaryDirectory() as folder:
             pipes = f"pipes:{folder}/q"
             self.check(
                 ["serve", "--listen", pipes, "--listen", pipes], 2, f"{pipes} can serve only one session: give it once"
             )
-            self.assertEqual(os.listdir(folder), [])
+            assert os.listdir(folder) == []
 
     def test_pipes_beside_another_file_of_their_name_are_not_made(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "q_in"), "w"):
                 pass
             self.check(["serve", "--pipes", f"{folder}/q"], 3, "q_in exists, but is not a named pipe")
-            self.assertEqual(os.listdir(folder), ["q_in"])
+            assert os.listdir(folder) == ["q_in"]
 
 
-class Images(Refusals):
+class TestImages(Refusals):
+    @pytest.fixture(autouse=True)
+    def keep_subtests(self, subtests):
+        self.subtests = subtests
+
     def check_image(self, data, *hints):
         """Every server refuses an image with these bytes, and creates nothing."""
         with tempfile.TemporaryDirectory() as folder:
@@ -47,13 +52,13 @@ class Images(Refusals):
             with open(path, "wb") as image:
                 image.write(data)
             self.check_path(path, *hints)
-            self.assertEqual(os.listdir(folder), ["pong.bin"])
+            assert os.listdir(folder) == ["pong.bin"]
 
     def check_path(self, path, *hints):
         for transport in (["--stdio"], ["--pipes", path + "-pipe"], ["--listen", "tcp://127.0.0.1:0"]):
-            with self.subTest(transport=transport[0]):
+            with self.subtests.test(transport=transport[0]):
                 self.check(["serve", "--classic", *transport, "--rom", path], 1, *hints)
-        with self.subTest(transport="classic"):
+        with self.subtests.test(transport="classic"):
             self.check(["classic", "-game_controller", "fifo", path], 1, *hints)
 
     def test_an_image_that_is_not_there_is_refused(self):
@@ -89,12 +94,13 @@ class Images(Refusals):
         self.check([*SERVE, "--difficulty", "99"], 1, "99")
 
 
-class CommandLine(Refusals):
+class TestCommandLine(Refusals):
     def refuse(self, *words, hint):
         self.check([*SERVE, *words], 2, hint)
 
-    def test_flags_that_are_not_numbers_are_refused(self):
-        for flag in (
+    @pytest.mark.parametrize(
+        "flag",
+        (
             "--seed",
             "--system-seed",
             "--frame-skip",
@@ -103,13 +109,15 @@ class CommandLine(Refusals):
             "--max-episode-frames",
             "--mode",
             "--difficulty",
-        ):
-            for value in ("fire", "", "1x", "0x10", " 1", "1,5"):
-                with self.subTest(flag=flag, value=value):
-                    self.refuse(flag, value, hint=flag)
+        ),
+    )
+    @pytest.mark.parametrize("value", ("fire", "", "1x", "0x10", " 1", "1,5"))
+    def test_flags_that_are_not_numbers_are_refused(self, flag, value):
+        self.refuse(flag, value, hint=flag)
 
-    def test_flags_that_are_out_of_range_are_refused(self):
-        for flag, value in (
+    @pytest.mark.parametrize(
+        "flag, value",
+        (
             ("--seed", "-1"),
             ("--seed", "4294967296"),
             ("--frame-skip", "0"),
@@ -121,9 +129,10 @@ class CommandLine(Refusals):
             ("--max-frames", "-1"),
             ("--max-frames", "99999999999"),
             ("--max-episode-frames", "-1"),
-        ):
-            with self.subTest(flag=flag, value=value):
-                self.refuse(flag, value, hint=f"'{value}' is not a")
+        ),
+    )
+    def test_flags_that_are_out_of_range_are_refused(self, flag, value):
+        self.refuse(flag, value, hint=f"'{value}' is not a")
 
     def test_a_flag_without_its_value_is_refused(self):
         self.refuse("--seed", hint="--seed")
@@ -135,16 +144,17 @@ class CommandLine(Refusals):
         self.check(["serve", "--classic", "--rom", GAME], 2, "--stdio, --pipes PREFIX or --listen ADDRESS")
         self.refuse("--listen", "stdio", hint="stdio can serve only one session: give it once")
 
-    def test_what_the_client_says_in_the_line_protocol_is_refused(self):
-        for words in (["--seed", "1"], ["--frame-skip", "4"], ["--sticky", "0"], ["--full-screen"], ["--mode", "0"]):
-            with self.subTest(flag=words[0]):
-                self.check(["serve", "--stdio", "--rom", GAME, *words], 2, f"{words[0]}: requires --classic")
+    @pytest.mark.parametrize(
+        "words", (["--seed", "1"], ["--frame-skip", "4"], ["--sticky", "0"], ["--full-screen"], ["--mode", "0"])
+    )
+    def test_what_the_client_says_in_the_line_protocol_is_refused(self, words):
+        self.check(["serve", "--stdio", "--rom", GAME, *words], 2, f"{words[0]}: requires --classic")
 
     def test_minus_zero_is_not_a_whole_number(self):
         self.check([*SERVE, "--seed=-0"], 2, "'-0' is not a whole number from 0 to 4294967295")
         lines = run("serve", "--stdio", data=b"load beamfall seed=-0\nload beamfall seed=0\n")[1].splitlines()
-        self.assertTrue(lines[0].startswith(b"error bad-value seed is '-0'; it takes a whole number from 0 to "), lines)
-        self.assertTrue(lines[1].startswith(b"ok game=beamfall "), lines)
+        assert lines[0].startswith(b"error bad-value seed is '-0'; it takes a whole number from 0 to "), lines
+        assert lines[1].startswith(b"ok game=beamfall "), lines
 
     def test_folders_have_to_be_there(self):
         self.check(["serve", "--stdio", "--roms", "nowhere"], 4, "--roms nowhere is not a folder")
@@ -154,7 +164,7 @@ class CommandLine(Refusals):
     def test_memory_has_to_be_enough(self):
         self.check(["serve", "--stdio", "--max-memory", "1M"], 5, "--max-memory 1048576 is too little")
 
-    @unittest.skipIf(sanitized(), "a sanitizer needs more address space")
+    @pytest.mark.skipif(sanitized(), reason="a sanitizer needs more address space")
     def test_memory_that_the_system_does_not_give_has_the_same_status(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "tokens")
@@ -172,10 +182,10 @@ class CommandLine(Refusals):
                 timeout=PATIENCE,
                 preexec_fn=limit,
             )
-            self.assertEqual((done.returncode, done.stderr), (5, b"racebeam: the system gives no more memory\n"))
+            assert (done.returncode, done.stderr) == (5, b"racebeam: the system gives no more memory\n")
 
-    @unittest.skipIf(sanitized(), "a sanitizer needs more address space")
-    def test_a_thread_that_the_system_does_not_give_has_the_same_status(self):
+    @pytest.mark.skipif(sanitized(), reason="a sanitizer needs more address space")
+    def test_a_thread_that_the_system_does_not_give_has_the_same_status(self, subtests):
         reason = "the system gives no more memory for a thread, or allows no more threads"
         for kibibytes in (20000, 26000):  # without room for the stack of a thread
 
@@ -183,7 +193,7 @@ class CommandLine(Refusals):
                 resource.setrlimit(resource.RLIMIT_AS, (kibibytes << 10, kibibytes << 10))
 
             for form in ("text", "json"):
-                with self.subTest(kibibytes=kibibytes, form=form):
+                with subtests.test(kibibytes=kibibytes, form=form):
                     done = subprocess.run(
                         [
                             BINARY,
@@ -202,20 +212,16 @@ class CommandLine(Refusals):
                         timeout=PATIENCE,
                         preexec_fn=limit,
                     )
-                    self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (5, "", 1), done.stderr)
-                    self.assertIn(reason, done.stderr)
+                    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (5, "", 1), done.stderr
+                    assert reason in done.stderr
 
-    def test_a_limit_of_memory_is_a_size(self):
-        for size in ("-1", "99999999999999999999", "1.5G", "2x", "", "i", "G"):
-            with self.subTest(size=size):
-                self.check(
-                    ["serve", "--stdio", "--max-memory", size],
-                    2,
-                    (
-                        f"--max-memory: '{size}' is not a size; accepted: bytes, or 512M, 2G and the like, up to "
-                        f"{1 << 60}"
-                    ),
-                )
+    @pytest.mark.parametrize("size", ("-1", "99999999999999999999", "1.5G", "2x", "", "i", "G"))
+    def test_a_limit_of_memory_is_a_size(self, size):
+        self.check(
+            ["serve", "--stdio", "--max-memory", size],
+            2,
+            (f"--max-memory: '{size}' is not a size; accepted: bytes, or 512M, 2G and the like, up to {1 << 60}"),
+        )
 
     def test_an_image_has_to_be_named(self):
         self.check(["serve", "--classic", "--stdio"], 2, "--rom is required")
@@ -225,14 +231,14 @@ class CommandLine(Refusals):
         self.check([], 2, "serve, with, config, classic, connect")
 
 
-class Folders(unittest.TestCase):
+class TestFolders:
     """Files in the folder of --roms; unusable ones are skipped."""
 
     def games(self, prepare):
         with tempfile.TemporaryDirectory() as folder:
             prepare(lambda name: os.path.join(folder, name))
             status, output, errors = run("serve", "--stdio", "--roms", folder, data=b"games\nload my_own__game__1_\n")
-            self.assertEqual((status, len(errors)), (0, 1), errors)
+            assert (status, len(errors)) == (0, 1), errors
             return output.decode().splitlines()
 
     def test_a_file_that_is_not_an_image_is_passed_over(self):
@@ -245,7 +251,7 @@ class Folders(unittest.TestCase):
                 with open(path(name), "wb") as file:
                     file.write(data)
 
-        self.assertEqual(self.games(prepare)[0], "ok count=2 games=beamfall,updraft")
+        assert self.games(prepare)[0] == "ok count=2 games=beamfall,updraft"
 
     def test_the_name_of_an_unknown_image_means_nothing_else(self):
         with open(HOMEBREW, "rb") as image, tempfile.TemporaryDirectory() as folder:
@@ -259,10 +265,10 @@ class Folders(unittest.TestCase):
             status, output, errors = run("serve", "--stdio", "--roms", folder, data=requests.encode())
         lines = output.decode().splitlines()
         for name, loaded, described in zip(names, lines[::2], lines[1::2]):
-            self.assertTrue(loaded.startswith(f"ok game={name}_ md5="), loaded)
-            self.assertTrue(described.startswith(f"ok game={name}_ here=1 "), described)
-        self.assertTrue(lines[-1].startswith("ok game=beamfall md5=" + names[-1]), lines[-1])
-        self.assertEqual(status, 0, errors)
+            assert loaded.startswith(f"ok game={name}_ md5="), loaded
+            assert described.startswith(f"ok game={name}_ here=1 "), described
+        assert lines[-1].startswith("ok game=beamfall md5=" + names[-1]), lines[-1]
+        assert status == 0, errors
 
     def test_the_name_of_an_unknown_image_is_a_word(self):
         def prepare(path):
@@ -270,24 +276,23 @@ class Folders(unittest.TestCase):
                 changed.write(bytes(reversed(image.read())))
 
         listed, loaded = self.games(prepare)
-        self.assertEqual(listed, "ok count=3 games=beamfall,my_own__game__1_,updraft")
-        self.assertTrue(loaded.startswith("ok game=my_own__game__1_ md5="), loaded)
+        assert listed == "ok count=3 games=beamfall,my_own__game__1_,updraft"
+        assert loaded.startswith("ok game=my_own__game__1_ md5="), loaded
 
 
-class Descriptors(unittest.TestCase):
-    def test_standard_ones_that_are_closed_are_not_taken_by_others(self):
-        for redirection, status in (("<&-", 0), (">&-", 1), ("2>&-", 0), ("<&- >&- 2>&-", 0)):
-            with self.subTest(redirection=redirection):
-                done = subprocess.run(
-                    ["bash", "-c", f"printf 'hello\\n' | '{BINARY}' serve --stdio {redirection}"],
-                    capture_output=True,
-                    timeout=PATIENCE,
-                )
-                self.assertEqual(done.returncode, status, done)
-                self.assertEqual(done.stdout.startswith(b"ok server="), redirection == "2>&-", done)
+class TestDescriptors:
+    @pytest.mark.parametrize("redirection, status", (("<&-", 0), (">&-", 1), ("2>&-", 0), ("<&- >&- 2>&-", 0)))
+    def test_standard_ones_that_are_closed_are_not_taken_by_others(self, redirection, status):
+        done = subprocess.run(
+            ["bash", "-c", f"printf 'hello\\n' | '{BINARY}' serve --stdio {redirection}"],
+            capture_output=True,
+            timeout=PATIENCE,
+        )
+        assert done.returncode == status, done
+        assert done.stdout.startswith(b"ok server=") == (redirection == "2>&-"), done
 
 
-class Help(unittest.TestCase):
+class TestHelp:
     def test_help_and_version_go_to_standard_output(self):
         for words, hint in (
             (["--version"], b"racebeam 0."),
@@ -295,22 +300,20 @@ class Help(unittest.TestCase):
             (["serve", "--help"], b"Examples"),
         ):
             status, output, errors = run(*words)
-            self.assertEqual((status, errors), (0, []))
-            self.assertIn(hint, output)
+            assert (status, errors) == (0, [])
+            assert hint in output
 
-    def test_output_that_is_lost_is_a_failure(self):
-        for words in (["--help"], ["--version"], ["serve", "--help"], ["config"], ["roms", "."], ["games"]):
-            with self.subTest(words), open("/dev/full", "wb") as full:
-                done = subprocess.run([BINARY, *words], stdout=full, stderr=subprocess.PIPE, timeout=PATIENCE)
-                self.assertEqual(done.returncode, 1)
-                self.assertRegex(done.stderr, b"^racebeam: cannot write to standard output: .*\n$")
+    @pytest.mark.parametrize(
+        "words", (["--help"], ["--version"], ["serve", "--help"], ["config"], ["roms", "."], ["games"])
+    )
+    def test_output_that_is_lost_is_a_failure(self, words):
+        with open("/dev/full", "wb") as full:
+            done = subprocess.run([BINARY, *words], stdout=full, stderr=subprocess.PIPE, timeout=PATIENCE)
+            assert done.returncode == 1
+            assert re.search(b"^racebeam: cannot write to standard output: .*\n$", done.stderr)
 
     def test_the_help_names_every_exit_status(self):
         for words in (["--help"], ["serve", "--help"]):
             text = b" ".join(run(*words)[1].split())
             for status in (b"0 ", b"1 ", b"2 ", b"3 ", b"5 ", b"255 "):
-                self.assertIn(status, text.split(b"Exit status:")[1])
-
-
-if __name__ == "__main__":
-    main()
+                assert status in text.split(b"Exit status:")[1]

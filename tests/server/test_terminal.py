@@ -7,9 +7,9 @@ import pty
 import struct
 import subprocess
 import termios
-import unittest
 
-from harness import BINARY, PATIENCE, main
+import pytest
+from harness import BINARY, PATIENCE
 
 COLUMNS = 60
 
@@ -42,21 +42,18 @@ def said_to_a_program(requests):
     ).stdout.decode()
 
 
-class Terminal(unittest.TestCase):
-    def test_help_fits_the_terminal_of_a_person(self):
-        for topic in ("", "settings", "presets", "fields", "encodings", "errors", "states", "load", "sticky"):
-            with self.subTest(topic=topic):
-                request = f"help {topic}\nexit\n".encode()
-                folded = said_on_a_terminal(request)
-                self.assertLessEqual(max(map(len, folded.splitlines())), COLUMNS)
-                whole = said_to_a_program(request)
-                self.assertEqual(whole.count("\n"), 2)
-                self.assertEqual(folded.replace(";", "").split(), whole.replace(";", "").split())
+class TestTerminal:
+    @pytest.mark.parametrize(
+        "topic", ("", "settings", "presets", "fields", "encodings", "errors", "states", "load", "sticky")
+    )
+    def test_help_fits_the_terminal_of_a_person(self, topic):
+        request = f"help {topic}\nexit\n".encode()
+        folded = said_on_a_terminal(request)
+        assert max(map(len, folded.splitlines())) <= COLUMNS
+        whole = said_to_a_program(request)
+        assert whole.count("\n") == 2
+        assert folded.replace(";", "").split() == whole.replace(";", "").split()
 
     def test_other_replies_are_one_line_on_a_terminal_too(self):
         requests = b"load beamfall seed=7\nsettings\nact FIRE\nexit\n"
-        self.assertEqual(said_on_a_terminal(requests), said_to_a_program(requests))
-
-
-if __name__ == "__main__":
-    main()
+        assert said_on_a_terminal(requests) == said_to_a_program(requests)

@@ -3,7 +3,6 @@
 import hashlib
 import os
 import re
-import unittest
 
 import pytest
 from harness import SOURCE, TRANSPORTS, Session, rom
@@ -77,23 +76,27 @@ def ahead(wire, conversation):
     return wire.rest()
 
 
-class Recorded(unittest.TestCase):
+class TestRecorded:
     def test_the_transcripts_are_what_was_recorded(self):
         for name, digest in RECORDED.items():
-            self.assertEqual(hashlib.md5(b"".join(recorded(name))).hexdigest(), digest, name)
+            assert hashlib.md5(b"".join(recorded(name))).hexdigest() == digest, name
 
 
-class Transcripts(unittest.TestCase):
+class TestTranscripts:
+    @pytest.fixture(autouse=True)
+    def keep_subtests(self, subtests):
+        self.subtests = subtests
+
     def check(self, manner):
         for transport in TRANSPORTS:
             for name, options in TRANSCRIPTS.items():
-                with self.subTest(transport=transport, transcript=name):
+                with self.subtests.test(transport=transport, transcript=name):
                     conversation = steps(name)
                     expected = b"".join(reply for reply, _ in conversation)
                     with Session(transport, *FIXED, *options, image=TETRIS) as session:
                         received = manner(session.wire, conversation)
-                        self.assertTrue(received == expected, f"differs: {len(received)} of {len(expected)} bytes")
-                        self.assertEqual(session.status(), 0)
+                        assert received == expected, f"differs: {len(received)} of {len(expected)} bytes"
+                        assert session.status() == 0
 
     def test_they_are_reproduced_when_whole_lines_take_turns(self):
         self.check(whole)

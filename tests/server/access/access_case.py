@@ -2,17 +2,16 @@
 
 import os
 import subprocess
-import tempfile
-import unittest
+
+import pytest
 
 TOKEN, OTHER = "0123456789abcdef", "fedcba9876543210"
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+class Folder:
+    @pytest.fixture(autouse=True)
+    def own_folder(self, tmp_path):
+        self.folder = str(tmp_path)
 
     def path(self, name):
         return os.path.join(self.folder, name)

@@ -1,26 +1,22 @@
 """Addresses that other machines can reach: what the server refuses on them without tokens and TLS."""
 
-import os
-import sys
-
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import pytest
 from access_case import TOKEN, Folder
-from harness import GAME, Server, ask, connect_tcp, main, run
+from harness import GAME, Server, ask, connect_tcp, run
 
 
-class Addresses(Folder):
-    def test_nothing_is_served_without_tokens(self):
-        for address in ("tcp://0.0.0.0:0", "tcp://[::]:0"):
-            with self.subTest(address=address):
-                status, _, errors = run("serve", "--listen", address)
-                self.assertEqual((status, len(errors)), (1, 1), errors)
-                self.assertIn("--token-file", errors[0])
+class TestAddresses(Folder):
+    @pytest.mark.parametrize("address", ("tcp://0.0.0.0:0", "tcp://[::]:0"))
+    def test_nothing_is_served_without_tokens(self, address):
+        status, _, errors = run("serve", "--listen", address)
+        assert (status, len(errors)) == (1, 1), errors
+        assert "--token-file" in errors[0]
 
     def test_the_classic_protocol_is_not_served(self):
         tokens = self.write("tokens", TOKEN)
         status, _, errors = run("serve", "--listen", "classic+tcp://0.0.0.0:0", "--rom", GAME, "--token-file", tokens)
-        self.assertEqual((status, len(errors)), (1, 1), errors)
-        self.assertIn("classic protocol has no tokens", errors[0])
+        assert (status, len(errors)) == (1, 1), errors
+        assert "classic protocol has no tokens" in errors[0]
 
     def test_a_warning_names_the_risk_of_plain_TCP(self):
         with Server("serve", "--listen", "tcp://0.0.0.0:0", "--token-file", self.write("tokens", TOKEN)) as server:
@@ -29,9 +25,5 @@ class Addresses(Folder):
             )
             port = int(server.wait_for(r"listening on tcp://0\.0\.0\.0:(\d+)").group(1))
             wire = connect_tcp(port)
-            self.assertTrue(ask(wire, b"games").startswith(b"error unauthorized "))
+            assert ask(wire, b"games").startswith(b"error unauthorized ")
             wire.close()
-
-
-if __name__ == "__main__":
-    main()

@@ -5,21 +5,20 @@ import os
 import socket
 import ssl
 import subprocess
-import sys
 import tempfile
 import time
-import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import pytest
 from access_case import TOKEN, Folder, make_certificate
-from harness import GAME, PATIENCE, Server, connect_tcp, main, run, sanitized
+from harness import GAME, PATIENCE, Server, connect_tcp, run, sanitized
 
 
-class Tls(Folder):
+class TestTls(Folder):
+    @pytest.fixture(scope="class", autouse=True)
     @classmethod
-    def setUpClass(cls):
+    def set_up_class(cls, request):
         cls.keys = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.keys.cleanup)
+        request.addfinalizer(cls.keys.cleanup)
         cls.certificate, cls.key = make_certificate(cls.keys.name)
 
     def serve(self, *options):
@@ -54,17 +53,17 @@ class Tls(Folder):
         requests = b"load beamfall seed=1 sticky=0\nobserve screen:hex ram\nact FIRE*50\nlook\nquit\n"
         with self.serve() as server:
             replies = self.converse(server, requests)
-        self.assertEqual(replies, run("serve", "--stdio", data=requests)[1])
-        self.assertEqual(len(replies.splitlines()), 5)
+        assert replies == run("serve", "--stdio", data=requests)[1]
+        assert len(replies.splitlines()) == 5
 
-    def test_requests_are_answered_though_the_client_has_closed_its_end(self):
+    def test_requests_are_answered_though_the_client_has_closed_its_end(self, subtests):
         requests = b"load beamfall seed=1\nlook screen:hex\nact FIRE*9\n"
         with self.serve() as server:
             for says_so in (True, False):  # TLS: close_notify; or only TCP
-                with self.subTest(says_so=says_so), self.connect_by_hand(server) as (plain, inside, outside, tls):
+                with subtests.test(says_so=says_so), self.connect_by_hand(server) as (plain, inside, outside, tls):
                     tls.write(requests)
                     if says_so:
-                        with self.assertRaises(ssl.SSLWantReadError):
+                        with pytest.raises(ssl.SSLWantReadError):
                             tls.unwrap()
                     plain.sendall(outside.read())
                     plain.shutdown(socket.SHUT_WR)
@@ -76,7 +75,7 @@ class Tls(Folder):
                                 replies += more
                         except (ssl.SSLWantReadError, ssl.SSLZeroReturnError):
                             pass
-                    self.assertEqual(replies, run("serve", "--stdio", data=requests)[1])
+                    assert replies == run("serve", "--stdio", data=requests)[1]
 
     @contextlib.contextmanager
     def connect_by_hand(self, server):
@@ -96,22 +95,22 @@ class Tls(Folder):
     def test_large_replies_come_whole(self):
         with self.serve() as server:
             replies = self.converse(server, b"load beamfall\nobserve rgb:hex\n" + b"look\n" * 20 + b"quit\n")
-        self.assertEqual([len(line) for line in replies.splitlines()][2:-1], [len(b"ok rgb=") + 2 * 3 * 160 * 210] * 20)
+        assert [len(line) for line in replies.splitlines()][2:-1] == [len(b"ok rgb=") + 2 * 3 * 160 * 210] * 20
 
     def test_tokens_go_with_it(self):
         with self.serve("--token-file", self.write("tokens", TOKEN)) as server:
             replies = self.converse(server, b"games\nhello token=" + TOKEN.encode() + b"\ngames\nquit\n").splitlines()
-            self.assertEqual([line.split()[0] for line in replies], [b"error", b"ok", b"ok", b"ok"])
+            assert [line.split()[0] for line in replies] == [b"error", b"ok", b"ok", b"ok"]
 
     def test_who_speaks_no_TLS_harms_nobody(self):
         with self.serve("--handshake", "1") as server:
             talker, silent = connect_tcp(self.port(server)), connect_tcp(self.port(server))
             talker.send(b"hello\n" * 10)
-            self.assertNotIn(b"ok", talker.rest())
-            self.assertEqual(silent.rest(), b"")
+            assert b"ok" not in talker.rest()
+            assert silent.rest() == b""
             for wire in (talker, silent):
                 wire.close()
-            self.assertTrue(self.converse(server, b"quit\n").startswith(b"ok"))
+            assert self.converse(server, b"quit\n").startswith(b"ok")
 
     def test_the_classic_protocol_can_be_encrypted_too(self):
         with (
@@ -129,21 +128,21 @@ class Tls(Folder):
             self.connect(server) as connection,
             connection.makefile("rb") as reader,
         ):
-            self.assertEqual(reader.readline(), b"160-210\n")
+            assert reader.readline() == b"160-210\n"
             connection.sendall(b"0,0,0,1\n3,18\n")
-            self.assertEqual(reader.readline(), b"0,0:\n")
+            assert reader.readline() == b"0,0:\n"
 
-    def test_a_certificate_and_a_key_are_needed(self):
+    def test_a_certificate_and_a_key_are_needed(self, subtests):
         for options, status, hint in (
             ([], 1, "needs --tls-cert and --tls-key"),
             (["--tls-cert", self.certificate], 2, "must be given together"),
             (["--tls-cert", self.key, "--tls-key", self.key], 1, "cannot use the certificate"),
             (["--tls-cert", self.certificate, "--tls-key", "nothing"], 1, "cannot use the key"),
         ):
-            with self.subTest(options=options):
+            with subtests.test(options=options):
                 ended, _, errors = run("serve", "--listen", "tls://127.0.0.1:0", *options)
-                self.assertEqual((ended, len(errors)), (status, 1), errors)
-                self.assertIn(hint, errors[0])
+                assert (ended, len(errors)) == (status, 1), errors
+                assert hint in errors[0]
 
     def test_a_key_of_another_kind_than_the_certificate_is_refused(self):
         other = os.path.join(self.keys.name, "rsa.pem")
@@ -151,8 +150,8 @@ class Tls(Folder):
         ended, _, errors = run(
             "serve", "--listen", "tls://127.0.0.1:0", "--tls-cert", self.certificate, "--tls-key", other
         )
-        self.assertEqual((ended, len(errors)), (1, 1), errors)
-        self.assertIn(f"the key {other} does not belong to the certificate {self.certificate}", errors[0])
+        assert (ended, len(errors)) == (1, 1), errors
+        assert f"the key {other} does not belong to the certificate {self.certificate}" in errors[0]
 
     def test_nobody_is_asked_for_the_password_of_a_key(self):
         subprocess.run(
@@ -169,27 +168,29 @@ class Tls(Folder):
             "--tls-key",
             self.path("locked.pem"),
         )
-        self.assertEqual((status, len(errors)), (1, 1), errors)
-        self.assertIn("cannot use the key", errors[0])
+        assert (status, len(errors)) == (1, 1), errors
+        assert "cannot use the key" in errors[0]
 
     def test_one_too_many_is_turned_away_without_a_word(self):
         with self.serve("--max-sessions", "1") as server, self.connect(server) as first:
             first.sendall(b"hello\n")
             first.recv(1)
             plain = connect_tcp(self.port(server))
-            self.assertEqual(plain.rest(), b"")
+            assert plain.rest() == b""
             plain.close()
 
-    def test_the_end_of_a_session_is_reported_over_TLS(self):
-        for options, requests, last in ((["--idle", "1"], b"hello\n", b"error idle "), ([], b"quit\n", b"ok")):
-            with self.subTest(last=last), self.serve(*options) as server, self.connect(server) as connection:
-                connection.sendall(requests)
-                replies = b""
-                while piece := connection.recv(65536):  # an end that was not told is an SSLEOFError
-                    replies += piece
-                self.assertTrue(replies.splitlines()[-1].startswith(last), replies)
+    @pytest.mark.parametrize(
+        "options, requests, last", ((["--idle", "1"], b"hello\n", b"error idle "), ([], b"quit\n", b"ok"))
+    )
+    def test_the_end_of_a_session_is_reported_over_TLS(self, options, requests, last):
+        with self.serve(*options) as server, self.connect(server) as connection:
+            connection.sendall(requests)
+            replies = b""
+            while piece := connection.recv(65536):  # an end that was not told is an SSLEOFError
+                replies += piece
+            assert replies.splitlines()[-1].startswith(last), replies
 
-    @unittest.skipIf(sanitized(), "a sanitizer needs more memory")
+    @pytest.mark.skipif(sanitized(), reason="a sanitizer needs more memory")
     def test_handshakes_that_stall_count_as_memory(self):
         limit = 48  # MiB
         with self.serve("--max-memory", f"{limit}M", "--handshake", "60") as server, contextlib.ExitStack() as stack:
@@ -199,7 +200,7 @@ class Tls(Folder):
             server.wait_for("refused, the server's sessions hold all the memory that they may")
             with open(f"/proc/{server.process.pid}/status") as status:
                 resident = next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
-            self.assertLess(resident / 1024, limit)
+            assert resident / 1024 < limit
 
     def test_a_session_ends_in_time_when_its_client_does_not_close(self):
         with self.serve() as server:
@@ -207,10 +208,6 @@ class Tls(Folder):
             connection.sendall(b"hello\n")
             connection.recv(1)
             start = time.monotonic()
-            self.assertEqual(server.stop(), 0)
-            self.assertLess(time.monotonic() - start, 5)
+            assert server.stop() == 0
+            assert time.monotonic() - start < 5
             connection.close()
-
-
-if __name__ == "__main__":
-    main()

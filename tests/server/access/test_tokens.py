@@ -4,15 +4,18 @@ import contextlib
 import os
 import signal
 import socket
-import sys
 import time
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import pytest
 from access_case import OTHER, TOKEN, Folder
-from harness import PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, run
+from harness import PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, run
 
 
-class Tokens(Folder):
+class TestTokens(Folder):
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
     def serve(self, *options):
         tokens = self.write("tokens", f"# for the tests\n\n{TOKEN}\n")
         return Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:s", "--token-file", tokens, *options)
@@ -21,35 +24,35 @@ class Tokens(Folder):
         with self.serve() as server:
             wire = connect_tcp(server.port())
             for request in (b"load beamfall", b"games", b"stats", b"act NOOP", b"act", b"frob"):
-                self.assertTrue(ask(wire, request).startswith(b"error unauthorized "), request)
-            self.assertIn(b" admitted=0 ", ask(wire, b"hello"))
-            self.assertTrue(ask(wire, b"help load").startswith(b"ok load "))
-            self.assertTrue(ask(wire, b"hello tocken=1").startswith(b"error bad-arguments "))
-            self.assertIn(b" admitted=1 ", ask(wire, b"hello token=" + TOKEN.encode()))
-            self.assertTrue(ask(wire, b"load beamfall").startswith(b"ok game=beamfall"))
+                assert ask(wire, request).startswith(b"error unauthorized "), request
+            assert b" admitted=0 " in ask(wire, b"hello")
+            assert ask(wire, b"help load").startswith(b"ok load ")
+            assert ask(wire, b"hello tocken=1").startswith(b"error bad-arguments ")
+            assert b" admitted=1 " in ask(wire, b"hello token=" + TOKEN.encode())
+            assert ask(wire, b"load beamfall").startswith(b"ok game=beamfall")
             wire.close()
 
     def test_a_long_line_needs_a_token_too(self):
         with self.serve() as server:
             wire = connect_tcp(server.port())
             long = b"help " + b" " * 5000
-            self.assertTrue(ask(wire, long).startswith(b"error line-too-long the line has more than 4096 bytes"))
+            assert ask(wire, long).startswith(b"error line-too-long the line has more than 4096 bytes")
             wire.send(b"hello token=" + TOKEN.encode() + b"\n" + long + b"\n")
-            self.assertTrue(wire.line().startswith(b"ok "))
-            self.assertTrue(wire.line().startswith(b"ok commands: "))
+            assert wire.line().startswith(b"ok ")
+            assert wire.line().startswith(b"ok commands: ")
             wire.close()
 
     def test_the_third_wrong_token_ends_the_session(self):
         with self.serve() as server:
             wire = connect_tcp(server.port())
             for wrong in (TOKEN[:-1], TOKEN + "0", OTHER):
-                self.assertTrue(ask(wire, b"hello token=" + wrong.encode()).startswith(b"error unauthorized "))
-            self.assertEqual(wire.rest(), b"")
+                assert ask(wire, b"hello token=" + wrong.encode()).startswith(b"error unauthorized ")
+            assert wire.rest() == b""
             wire.close()
 
     def connect_from(self, server, address):
         connection = socket.create_connection(("127.0.0.1", server.port()), PATIENCE, (address, 0))
-        self.addCleanup(connection.close)
+        self.cleanup(connection.close)
         return Wire(connection.fileno(), connection.fileno(), connection)
 
     def test_guessing_gets_slower_and_delays_nobody_else(self):
@@ -59,13 +62,13 @@ class Tokens(Folder):
             delays = [0.1, 0.2, 0.4, 0.8, 1.6, 2, 2]  # the longest: half of --handshake
             for number in range(len(delays)):
                 reply = ask(self.connect_from(server, "127.0.0.2"), wrong)
-                self.assertTrue(reply.startswith(b"error unauthorized that token is not"))
-                self.assertGreaterEqual(time.monotonic() - start, sum(delays[: number + 1]))
+                assert reply.startswith(b"error unauthorized that token is not")
+                assert time.monotonic() - start >= sum(delays[: number + 1])
             server.wait_for("client 7: a wrong token from 127.0.0.2, number 7 in a row")
-            self.assertTrue(ask(self.connect_from(server, "127.0.0.2"), right).startswith(b"ok "))
+            assert ask(self.connect_from(server, "127.0.0.2"), right).startswith(b"ok ")
             start = time.monotonic()
             ask(self.connect_from(server, "127.0.0.2"), wrong)
-            self.assertLess(time.monotonic() - start, 2)  # the right token has ended the delays
+            assert time.monotonic() - start < 2  # the right token has ended the delays
 
     def test_forty_guessers_do_not_lock_out_the_right_token(self):
         right, wrong = b"hello token=" + TOKEN.encode(), b"hello token=" + OTHER.encode()
@@ -78,11 +81,11 @@ class Tokens(Folder):
             for address in 3 * ("127.0.0.2", "127.0.0.3"):
                 start = time.monotonic()
                 wire = self.connect_from(server, address)
-                self.assertTrue(ask(wire, right).startswith(b"ok "))
-                self.assertTrue(ask(wire, b"load beamfall").startswith(b"ok "))
+                assert ask(wire, right).startswith(b"ok ")
+                assert ask(wire, b"load beamfall").startswith(b"ok ")
                 waits.append(time.monotonic() - start)
-            self.assertLess(min(waits[::2]), 0.1)
-            self.assertLess(max(waits), 5)  # of which most are for slow machines: the delays are longer together
+            assert min(waits[::2]) < 0.1
+            assert max(waits) < 5  # of which most are for slow machines: the delays are longer together
 
     def test_answers_to_wrong_tokens_that_are_sent_ahead_are_delayed_one_by_one(self):
         wrong = b"hello token=" + OTHER.encode() + b"\n"
@@ -90,9 +93,9 @@ class Tokens(Folder):
             wire, start = connect_tcp(server.port()), time.monotonic()
             wire.send(3 * wrong)
             for delay in (0.1, 0.1 + 0.2, 0.1 + 0.2 + 0.4):
-                self.assertTrue(wire.line().startswith(b"error unauthorized that token is not"))
-                self.assertGreaterEqual(time.monotonic() - start, delay)
-            self.assertEqual(wire.rest(), b"")
+                assert wire.line().startswith(b"error unauthorized that token is not")
+                assert time.monotonic() - start >= delay
+            assert wire.rest() == b""
             wire.close()
 
     def test_who_has_no_token_makes_room_for_others(self):
@@ -100,19 +103,19 @@ class Tokens(Folder):
         with self.serve("--max-sessions", "3") as server:
             first, silent, other = (connect_tcp(server.port()) for _ in range(3))
             for wire in (first, silent, other):
-                self.assertIn(b" admitted=0 ", ask(wire, b"hello"))
-            self.assertIn(b" admitted=1 ", ask(first, b"hello token=" + TOKEN.encode()))
+                assert b" admitted=0 " in ask(wire, b"hello")
+            assert b" admitted=1 " in ask(first, b"hello token=" + TOKEN.encode())
             server.wait_for("listening on unix:s")
             local = connect_unix(server.path("s"))  # needs none
-            self.assertTrue(ask(local, b"load beamfall").startswith(b"ok "))
-            self.assertEqual(silent.rest(), full + b"those without a token go first\n")
+            assert ask(local, b"load beamfall").startswith(b"ok ")
+            assert silent.rest() == full + b"those without a token go first\n"
             late = connect_tcp(server.port())
-            self.assertIn(b" admitted=1 ", ask(late, b"hello token=" + TOKEN.encode()))
-            self.assertEqual(other.rest(), full + b"those without a token go first\n")
+            assert b" admitted=1 " in ask(late, b"hello token=" + TOKEN.encode())
+            assert other.rest() == full + b"those without a token go first\n"
             connection = connect_tcp(server.port())
-            self.assertEqual(connection.rest(), full + b"try again later\n")
+            assert connection.rest() == full + b"try again later\n"
             for wire in (first, local, late):
-                self.assertTrue(ask(wire, b"stats").startswith(b"ok "))
+                assert ask(wire, b"stats").startswith(b"ok ")
             for wire in (first, silent, other, local, late, connection):
                 wire.close()
 
@@ -122,7 +125,7 @@ class Tokens(Folder):
             ask(holder, b"hello token=" + TOKEN.encode())
             silent = connect_tcp(server.port())
             time.sleep(3)
-            self.assertIn(b" admitted=1 ", ask(holder, b"hello"))  # a session with a token does
+            assert b" admitted=1 " in ask(holder, b"hello")  # a session with a token does
             holder.close()
             until = time.monotonic() + PATIENCE
             while server.process.poll() is None and time.monotonic() < until:
@@ -131,7 +134,7 @@ class Tokens(Folder):
                     wire.send(b"hello\n")
                     wire.close()
                 time.sleep(0.2)
-            self.assertEqual(server.process.poll(), 0)
+            assert server.process.poll() == 0
             server.wait_for("no session for 2 seconds: ")
             silent.close()
 
@@ -139,8 +142,8 @@ class Tokens(Folder):
         with self.serve("--handshake", "1") as server:
             silent, admitted = connect_tcp(server.port()), connect_tcp(server.port())
             ask(admitted, b"hello token=" + TOKEN.encode())
-            self.assertTrue(silent.rest().startswith(b"error unauthorized no token came within 1 seconds"))
-            self.assertTrue(ask(admitted, b"stats").startswith(b"ok "))
+            assert silent.rest().startswith(b"error unauthorized no token came within 1 seconds")
+            assert ask(admitted, b"stats").startswith(b"ok ")
             for wire in (silent, admitted):
                 wire.close()
 
@@ -148,7 +151,7 @@ class Tokens(Folder):
         with self.serve() as server:
             server.wait_for("listening on unix:s")
             wire = connect_unix(server.path("s"))
-            self.assertTrue(ask(wire, b"load beamfall").startswith(b"ok game=beamfall"))
+            assert ask(wire, b"load beamfall").startswith(b"ok game=beamfall")
             wire.close()
 
     def test_a_hangup_reads_the_file_again_and_a_bad_file_keeps_the_old_tokens(self):
@@ -159,31 +162,31 @@ class Tokens(Folder):
             return reply.startswith(b"ok ")
 
         with self.serve() as server:
-            self.assertTrue(admits(server, TOKEN) and not admits(server, OTHER))
+            assert admits(server, TOKEN) and not admits(server, OTHER)
             self.write("tokens", OTHER + "\n")
             server.process.send_signal(signal.SIGHUP)
             server.wait_for("read the token file again")
-            self.assertTrue(admits(server, OTHER) and not admits(server, TOKEN))
+            assert admits(server, OTHER) and not admits(server, TOKEN)
             self.write("tokens", "short\n")
             server.process.send_signal(signal.SIGHUP)
             server.wait_for("line 1: a token must have 16 .*; the old token file stays in use")
-            self.assertTrue(admits(server, OTHER))
+            assert admits(server, OTHER)
 
-    def test_files_without_a_good_token_are_refused(self):
+    def test_files_without_a_good_token_are_refused(self, subtests):
         for text, hint in (
             ("", " has no token"),
             ("# none\n", " has no token"),
             ("short\n", "line 1"),
             (f"{TOKEN}\ntwo words of a token\n", "line 2"),
         ):
-            with self.subTest(text=text):
+            with subtests.test(text=text):
                 status, _, errors = run(
                     "serve", "--listen", "tcp://127.0.0.1:0", "--token-file", self.write("bad", text)
                 )
-                self.assertEqual((status, len(errors)), (1, 1), errors)
-                self.assertIn(hint, errors[0])
+                assert (status, len(errors)) == (1, 1), errors
+                assert hint in errors[0]
         status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--token-file", self.path("nothing"))
-        self.assertEqual((status, len(errors)), (1, 1), errors)
+        assert (status, len(errors)) == (1, 1), errors
 
     def test_a_file_that_everyone_can_read_is_warned_of(self):
         for mode, warned in ((0o600, False), (0o644, True)):
@@ -191,8 +194,4 @@ class Tokens(Folder):
             os.chmod(path, mode)
             with Server("serve", "--listen", "tcp://127.0.0.1:0", "--token-file", path) as server:
                 server.wait_for("listening on")
-                self.assertEqual(any("every user of this machine" in line for line in server.log()), warned)
-
-
-if __name__ == "__main__":
-    main()
+                assert any("every user of this machine" in line for line in server.log()) == warned

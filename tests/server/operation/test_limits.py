@@ -1,12 +1,9 @@
 """Limits of a server and of its sessions."""
 
 import os
-import sys
 import tempfile
 import time
-import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from harness import (
     GAME,
     LOAD,
@@ -15,33 +12,32 @@ from harness import (
     ask,
     connect_tcp,
     connect_unix,
-    main,
     run,
     serve,
 )
 from long_request import FRAMES, load
 
 
-class Limits(unittest.TestCase):
+class TestLimits:
     def test_a_session_too_many_gets_an_error(self):
         with serve("--max-sessions", "2") as server:
             wires = [connect_tcp(server.port()) for _ in range(2)]
             for wire in wires:
-                self.assertTrue(ask(wire, b"hello").startswith(b"ok "))
+                assert ask(wire, b"hello").startswith(b"ok ")
             connection = connect_tcp(server.port())
-            self.assertTrue(connection.rest().startswith(b"error busy there are 2 sessions"))
+            assert connection.rest().startswith(b"error busy there are 2 sessions")
             wires.pop().close()
             server.wait_for("1 requests")
             wires.append(connect_tcp(server.port()))
-            self.assertTrue(ask(wires[-1], b"hello").startswith(b"ok "))
+            assert ask(wires[-1], b"hello").startswith(b"ok ")
             for wire in (connection, *wires):
                 wire.close()
 
     def test_who_would_not_understand_it_is_turned_away_without_a_word(self):
         with Server("serve", "--listen", "classic+tcp://127.0.0.1:0", "--rom", GAME, "--max-sessions", "1") as server:
             wires = [connect_tcp(server.port()) for _ in range(2)]
-            self.assertEqual(wires[0].line(), b"160-210\n")
-            self.assertEqual(wires[1].rest(), b"")
+            assert wires[0].line() == b"160-210\n"
+            assert wires[1].rest() == b""
             for wire in wires:
                 wire.close()
 
@@ -56,8 +52,8 @@ class Limits(unittest.TestCase):
                 start = time.monotonic()
                 reply = ask(wire, b"branch root " + b"NOOP*%d " % FRAMES * sequences)
                 took = time.monotonic() - start
-                self.assertEqual(reply.count(b" |"), sequences)
-            self.assertEqual(wire.rest(), b"error idle nothing came or went for 1 seconds\n")
+                assert reply.count(b" |") == sequences
+            assert wire.rest() == b"error idle nothing came or went for 1 seconds\n"
             wire.close()
 
     def test_an_idle_session_gets_an_error_and_is_closed(self):
@@ -65,9 +61,9 @@ class Limits(unittest.TestCase):
             busy, idle, stuck = (connect_tcp(server.port()) for _ in range(3))
             stuck.send(LOAD + b"observe rgb:hex\n" + b"look\n" * 200)  # never read
             for _ in range(14):
-                self.assertTrue(ask(busy, b"hello").startswith(b"ok "))
+                assert ask(busy, b"hello").startswith(b"ok ")
                 time.sleep(0.25)  # far less than the two seconds, though the machine is busy
-            self.assertTrue(idle.rest().startswith(b"error idle nothing came or went for 2 seconds"))
+            assert idle.rest().startswith(b"error idle nothing came or went for 2 seconds")
             server.wait_for("closed, it did not read")
             for wire in (busy, idle, stuck):
                 wire.close()
@@ -88,9 +84,9 @@ class Limits(unittest.TestCase):
             + b"\n"
         )
         lines = run("serve", "--stdio", *words, data=requests)[1].splitlines()
-        self.assertIn(b"max_line=300 max_machines=2 max_states=1 max_request_frames=50 max_reply=2000000", lines[0])
+        assert b"max_line=300 max_machines=2 max_states=1 max_request_frames=50 max_reply=2000000" in lines[0]
         codes = [line.split()[1] if line.startswith(b"error") else b"ok" for line in lines]
-        self.assertEqual(codes, [b"ok", b"ok", b"limit", b"ok", b"limit", b"limit", b"ok", b"line-too-long"])
+        assert codes == [b"ok", b"ok", b"limit", b"ok", b"limit", b"limit", b"ok", b"line-too-long"]
 
     def test_nothing_that_is_there_is_replaced(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -98,7 +94,7 @@ class Limits(unittest.TestCase):
             lines = run("serve", "--stdio", "--record-dir", folder, data=b"load beamfall\nrecord gif link\n")[
                 1
             ].splitlines()
-            self.assertIn(b"error recording link.gif exists", lines[1])
+            assert b"error recording link.gif exists" in lines[1]
 
     def test_names_do_not_lead_out_of_the_folder(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -107,11 +103,11 @@ class Limits(unittest.TestCase):
             for name in ("../out", "/etc/passwd", "..", ".", "a/b", "", ".hidden"):
                 requests = f"load beamfall\nrecord y4m {name}\nload {name or '/'}\nload ../{name}\n".encode()
                 lines = run("serve", "--stdio", "--record-dir", inside, "--roms", inside, data=requests)[1].splitlines()
-                self.assertTrue(all(line.startswith(b"error ") for line in lines[1:]), lines[1:])
-            self.assertEqual((os.listdir(folder), os.listdir(inside)), (["inside"], []))
+                assert all(line.startswith(b"error ") for line in lines[1:]), lines[1:]
+            assert (os.listdir(folder), os.listdir(inside)) == (["inside"], [])
 
 
-class Together(unittest.TestCase):
+class TestTogether:
     def test_both_protocols_on_streams_and_sockets(self):
         with Server(
             "serve",
@@ -129,36 +125,36 @@ class Together(unittest.TestCase):
             streams=True,
         ) as server:
             server.wait_for("listening on unix:classic")
-            self.assertEqual(server.addresses("ready"), ["unix:line", "classic+unix:classic", "stdio", "pipes:p"])
+            assert server.addresses("ready") == ["unix:line", "classic+unix:classic", "stdio", "pipes:p"]
             line, classic = connect_unix(server.path("line")), connect_unix(server.path("classic"))
-            self.assertEqual(classic.line(), b"160-210\n")
-            self.assertTrue(ask(line, b"hello").startswith(b"ok server="))
+            assert classic.line() == b"160-210\n"
+            assert ask(line, b"hello").startswith(b"ok server=")
             streams = Wire(os.dup(server.process.stdout.fileno()), os.dup(server.process.stdin.fileno()))
             server.process.stdin.close()
-            self.assertTrue(ask(streams, b"hello").startswith(b"ok server="))
+            assert ask(streams, b"hello").startswith(b"ok server=")
             streams.stop_sending()
             server.process.stdout.close()
-            self.assertTrue(ask(line, b"hello").startswith(b"ok server="))  # the server outlives its streams
+            assert ask(line, b"hello").startswith(b"ok server=")  # the server outlives its streams
             for wire in (line, classic):
                 wire.close()
-            self.assertEqual(server.stop(), 0)
-            self.assertFalse(os.path.exists(server.path("ready")))
+            assert server.stop() == 0
+            assert not os.path.exists(server.path("ready"))
             streams.close()
 
 
-class UntilIdle(unittest.TestCase):
+class TestUntilIdle:
     def test_a_server_without_sessions_ends(self):
         with serve("--until-idle", "1", "--ready-file", "ready") as server:
-            self.assertEqual(server.wait(), 0)
+            assert server.wait() == 0
             server.wait_for("no session for 1 seconds: 0 sessions have 5 seconds to end")
-            self.assertFalse(os.path.exists(server.path("ready")))
+            assert not os.path.exists(server.path("ready"))
 
     def test_a_session_keeps_it_alive_and_a_short_one_begins_the_time_anew(self):
         with serve("--until-idle", "2") as server:
             wire = connect_tcp(server.port())
             ask(wire, b"hello")
             time.sleep(3)
-            self.assertTrue(ask(wire, b"hello").startswith(b"ok "))
+            assert ask(wire, b"hello").startswith(b"ok ")
             wire.close()
             for _ in range(3):  # each is over before the server looks
                 time.sleep(1)
@@ -166,9 +162,5 @@ class UntilIdle(unittest.TestCase):
                 ask(wire, b"quit")
                 wire.close()
             start = time.monotonic()
-            self.assertEqual(server.wait(), 0)
-            self.assertGreater(time.monotonic() - start, 1.5)
-
-
-if __name__ == "__main__":
-    main()
+            assert server.wait() == 0
+            assert time.monotonic() - start > 1.5

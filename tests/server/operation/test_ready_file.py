@@ -1,17 +1,15 @@
 """The file that says where a server listens."""
 
 import os
+import re
 import signal
-import sys
 import tempfile
-import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import pytest
 from harness import (
     Server,
     ask,
     connect_tcp,
-    main,
     run,
     serve,
 )
@@ -19,8 +17,8 @@ from harness import (
 FIRST_LINE = "# racebeam ready file: the addresses of a server, one a line; lines that begin with # are comments\n"
 
 
-class ReadyFile(unittest.TestCase):
-    def test_a_file_that_is_not_a_ready_file_is_refused_and_stays(self):
+class TestReadyFile:
+    def test_a_file_that_is_not_a_ready_file_is_refused_and_stays(self, subtests):
         def file(path, text):
             with open(path, "w") as notes:
                 notes.write(text)
@@ -43,25 +41,27 @@ class ReadyFile(unittest.TestCase):
 
         for kind, make in kinds.items():
             for where in (["--stdio"], ["--listen", "tcp://127.0.0.1:0"]):
-                with self.subTest(kind=kind, where=where[0]), tempfile.TemporaryDirectory() as folder:
+                with subtests.test(kind=kind, where=where[0]), tempfile.TemporaryDirectory() as folder:
                     file(os.path.join(folder, "ready"), FIRST_LINE)
                     path = os.path.join(folder, kind)
                     make(path)
                     before = marks(path)
                     status, output, errors = run("serve", *where, "--ready-file", path)
-                    self.assertEqual((status, output, len(errors)), (1, b"", 1), errors)
-                    self.assertIn(f"--ready-file {path} exists, and is not a ready file", errors[0])
-                    self.assertEqual(marks(path), before)
+                    assert (status, output, len(errors)) == (1, b"", 1), errors
+                    assert f"--ready-file {path} exists, and is not a ready file" in errors[0]
+                    assert marks(path) == before
 
-    def test_a_stale_one_is_gone_before_anything_else_is_looked_at(self):
-        for words in (["--listen", "unix:/nowhere/s"], ["--stdio", "--roms", "/nowhere"], ["--classic", "--stdio"]):
-            with self.subTest(words=words), tempfile.TemporaryDirectory() as folder:
-                path = os.path.join(folder, "ready")
-                with open(path, "w") as stale:
-                    stale.write(FIRST_LINE + "tcp://127.0.0.1:1\n")
-                status, _, errors = run("serve", *words, "--ready-file", path)
-                self.assertNotEqual(status, 0, errors)
-                self.assertEqual(os.listdir(folder), [])
+    @pytest.mark.parametrize(
+        "words", (["--listen", "unix:/nowhere/s"], ["--stdio", "--roms", "/nowhere"], ["--classic", "--stdio"])
+    )
+    def test_a_stale_one_is_gone_before_anything_else_is_looked_at(self, words):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "ready")
+            with open(path, "w") as stale:
+                stale.write(FIRST_LINE + "tcp://127.0.0.1:1\n")
+            status, _, errors = run("serve", *words, "--ready-file", path)
+            assert status != 0, errors
+            assert os.listdir(folder) == []
 
     def test_the_file_of_a_killed_server_is_stale(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -70,9 +70,9 @@ class ReadyFile(unittest.TestCase):
                 server.addresses(path)
                 server.process.kill()
                 server.wait()
-            self.assertTrue(os.path.exists(path))
+            assert os.path.exists(path)
             run("serve", "--stdio", "--roms", "/nowhere", "--ready-file", path)
-            self.assertFalse(os.path.exists(path))
+            assert not os.path.exists(path)
 
     def test_it_is_gone_as_soon_as_the_server_is_told_to_stop(self):
         with serve("--ready-file", "ready", "--grace", "60") as server:
@@ -81,10 +81,10 @@ class ReadyFile(unittest.TestCase):
             ask(wire, b"hello")
             server.process.send_signal(signal.SIGTERM)
             server.wait_for("told to stop")
-            self.assertFalse(os.path.exists(server.path("ready")))
-            self.assertTrue(ask(wire, b"hello").startswith(b"ok "))
+            assert not os.path.exists(server.path("ready"))
+            assert ask(wire, b"hello").startswith(b"ok ")
             wire.close()
-            self.assertEqual(server.wait(), 0)
+            assert server.wait() == 0
 
     def test_it_appears_whole_with_the_real_ports(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -97,12 +97,12 @@ class ReadyFile(unittest.TestCase):
                 port = server.port()
                 server.wait_for("health and metrics")
                 lines = server.addresses(path)
-                self.assertEqual(lines[0], f"tcp://127.0.0.1:{port}")
+                assert lines[0] == f"tcp://127.0.0.1:{port}"
                 with open(path) as ready:
-                    self.assertTrue(ready.read().startswith(FIRST_LINE))
-                self.assertRegex(lines[1], r"^http://127\.0\.0\.1:\d+$")
-                self.assertEqual(server.stop(), 0)
-            self.assertEqual(os.listdir(folder), [])
+                    assert ready.read().startswith(FIRST_LINE)
+                assert re.search(r"^http://127\.0\.0\.1:\d+$", lines[1])
+                assert server.stop() == 0
+            assert os.listdir(folder) == []
 
     def test_the_file_of_a_successor_stays(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -122,18 +122,14 @@ class ReadyFile(unittest.TestCase):
                     status, _, errors = run(
                         "serve", "--listen", "tcp://127.0.0.1:0", "--http", f"127.0.0.1:{mine}", "--ready-file", path
                     )
-                    self.assertEqual((status, os.path.exists(path)), (3, True), errors)
-                    self.assertEqual(server.stop(), 0)
-                    self.assertTrue(os.path.exists(path))
-                    self.assertEqual(heir.stop(), 0)
-                    self.assertFalse(os.path.exists(path))
+                    assert (status, os.path.exists(path)) == (3, True), errors
+                    assert server.stop() == 0
+                    assert os.path.exists(path)
+                    assert heir.stop() == 0
+                    assert not os.path.exists(path)
 
     def test_one_that_cannot_be_written_is_an_error(self):
         status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--ready-file", "nowhere/ready")
-        self.assertEqual((status, "cannot write the ready file nowhere/ready" in errors[-1]), (1, True), errors)
+        assert (status, "cannot write the ready file nowhere/ready" in errors[-1]) == (1, True), errors
         with Server("serve", "--stdio", "--ready-file", "nowhere/ready", streams=True) as server:
-            self.assertEqual(server.wait(), 1)  # though its input is open
-
-
-if __name__ == "__main__":
-    main()
+            assert server.wait() == 1  # though its input is open

@@ -3,52 +3,57 @@
 import os
 import resource
 import subprocess
-import sys
 import tempfile
-import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import pytest
 from harness import (
     BINARY,
     PATIENCE,
     Server,
     ask,
     connect_tcp,
-    main,
     sanitized,
     serve,
     thread_sanitized,
 )
 
 
-class Memory(unittest.TestCase):
+class TestMemory:
     def test_the_log_says_how_much_memory_and_what_limits_it(self):
         with serve("--max-memory", "512M") as server:
             server.wait_for(f"memory: {512 << 20} bytes, limited by --max-memory$")
         with serve() as server:
             server.wait_for("memory: [0-9]+ bytes, limited by the (machine|control group)$")
 
-    @unittest.skipIf(sanitized() or thread_sanitized(), "a sanitizer needs more memory")
-    def test_a_server_with_little_memory_has_small_caches(self):
-        for memory, caches in (
+    @pytest.mark.skipif(sanitized() or thread_sanitized(), reason="a sanitizer needs more memory")
+    @pytest.mark.parametrize(
+        "memory, caches",
+        (
             ("64M", "28 resets, 699050 bytes"),
             ("512M", "128 resets, 4194304 bytes"),
             ("24M", "10 resets, 262144 bytes"),
-        ):
-            with self.subTest(memory=memory), serve("--max-memory", memory) as server:
-                server.wait_for(f"caches: {caches} of code for an image, [0-9]+ for all$")
-                wire = connect_tcp(server.port())
-                self.assertTrue(ask(wire, b"load beamfall").startswith(b"ok "))
-                wire.close()
+        ),
+    )
+    def test_a_server_with_little_memory_has_small_caches(self, memory, caches):
+        with serve("--max-memory", memory) as server:
+            server.wait_for(f"caches: {caches} of code for an image, [0-9]+ for all$")
+            wire = connect_tcp(server.port())
+            assert ask(wire, b"load beamfall").startswith(b"ok ")
+            wire.close()
 
 
-@unittest.skipIf(sanitized(), "the sanitizer's own checks fail without free descriptors")
-class Files(unittest.TestCase):
+@pytest.mark.skipif(sanitized(), reason="the sanitizer's own checks fail without free descriptors")
+class TestFiles:
     """A server that may open few files, all of which its clients take."""
 
     FILES = 80
 
-    def setUp(self):
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
+    @pytest.fixture(autouse=True)
+    def set_up(self, cleanup):
         self.server = Server(
             "serve",
             "--listen",
@@ -59,29 +64,29 @@ class Files(unittest.TestCase):
             "0",
             before=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (self.FILES, self.FILES)),
         )
-        self.addCleanup(self.server.__exit__)
+        cleanup(self.server.__exit__)
         self.port = self.server.port()
         self.http = int(self.server.wait_for(r"health and metrics on http://127\.0\.0\.1:(\d+)$").group(1))
 
     def connect(self, port):
         wire = connect_tcp(port)
-        self.addCleanup(wire.close)
+        self.cleanup(wire.close)
         return wire
 
     def check_health(self):
         wire = self.connect(self.http)
         wire.send(b"GET /healthz HTTP/1.0\r\n\r\n")
-        self.assertTrue(wire.rest().endswith(b"\r\n\r\nok\n"))
+        assert wire.rest().endswith(b"\r\n\r\nok\n")
 
     def test_files_limit_the_sessions_and_others_get_an_error(self):
         limit = int(self.server.wait_for(r"sessions: (\d+), limited by the open files \(ulimit -n\)$").group(1))
-        self.assertEqual(limit, self.FILES // 2)
+        assert limit == self.FILES // 2
         wires = [self.connect(self.port) for _ in range(limit)]
         for wire in wires:
-            self.assertTrue(ask(wire, b"hello").startswith(b"ok "))
-        self.assertTrue(self.connect(self.port).rest().startswith(b"error busy there are 40 sessions"))
+            assert ask(wire, b"hello").startswith(b"ok ")
+        assert self.connect(self.port).rest().startswith(b"error busy there are 40 sessions")
         self.check_health()
-        self.assertTrue(ask(wires[0], b"load beamfall").startswith(b"ok "))
+        assert ask(wires[0], b"load beamfall").startswith(b"ok ")
 
     def test_health_is_reported_where_no_file_is_left(self):
         for _ in range(2 * self.FILES):
@@ -91,11 +96,11 @@ class Files(unittest.TestCase):
         connections = [self.connect(self.http) for _ in range(70)]
         for _ in range(3):
             self.check_health()
-        self.assertLess(sum("cannot take a client" in line for line in self.server.log()), 20)
-        self.assertEqual(connections[0].rest(), b"")
+        assert sum("cannot take a client" in line for line in self.server.log()) < 20
+        assert connections[0].rest() == b""
 
 
-class Threads(unittest.TestCase):
+class TestThreads:
     def test_the_log_says_how_many_and_what_limits_them(self):
         with serve("--threads", "3") as server:
             server.wait_for("threads: 3, limited by --threads$")
@@ -103,9 +108,13 @@ class Threads(unittest.TestCase):
             server.wait_for("threads: [0-9]+, limited by the (machine|affinity|control group)$")
 
 
-@unittest.skipIf(len(os.sched_getaffinity(0)) < 2, "there is one processor")
-class Allowance(unittest.TestCase):
+@pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="there is one processor")
+class TestAllowance:
     """What the system allows to a process."""
+
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
 
     def log_of(self, join):
         """The log of a server whose process calls `join` first."""
@@ -118,7 +127,7 @@ class Allowance(unittest.TestCase):
                 timeout=PATIENCE,
                 preexec_fn=join,
             )
-        self.assertEqual(done.returncode, 0, done.stderr)
+        assert done.returncode == 0, done.stderr
         return done.stderr
 
     def group(self, controller, limits):
@@ -130,12 +139,12 @@ class Allowance(unittest.TestCase):
                 os.mkdir(group)
             except OSError:
                 continue
-            self.addCleanup(os.rmdir, group)
+            self.cleanup(os.rmdir, group)
             if os.path.exists(os.path.join(group, name)):
                 with open(os.path.join(group, name), "w") as file:
                     file.write(text)
                 return os.path.join(group, "cgroup.procs")
-        self.skipTest(f"there can be no control group for {controller} here")
+        pytest.skip(f"there can be no control group for {controller} here")
 
     def join(self, processes):
         with open(processes, "w") as file:
@@ -143,21 +152,15 @@ class Allowance(unittest.TestCase):
 
     def test_the_affinity_limits_the_threads(self):
         processor = min(os.sched_getaffinity(0))
-        self.assertIn(
-            "threads: 1, limited by the affinity\n", self.log_of(lambda: os.sched_setaffinity(0, {processor}))
-        )
+        assert "threads: 1, limited by the affinity\n" in self.log_of(lambda: os.sched_setaffinity(0, {processor}))
 
     def test_a_control_group_limits_the_threads(self):
         processes = self.group("cpu", (("cpu.cfs_quota_us", "100000"), ("cpu.max", "100000 100000")))
-        self.assertIn("threads: 1, limited by the control group\n", self.log_of(lambda: self.join(processes)))
+        assert "threads: 1, limited by the control group\n" in self.log_of(lambda: self.join(processes))
 
-    @unittest.skipIf(sanitized() or thread_sanitized(), "a sanitizer needs more memory")
+    @pytest.mark.skipif(sanitized() or thread_sanitized(), reason="a sanitizer needs more memory")
     def test_a_control_group_limits_memory_and_caches(self):
         processes = self.group("memory", (("memory.limit_in_bytes", str(200 << 20)), ("memory.max", str(200 << 20))))
         log = self.log_of(lambda: self.join(processes))
-        self.assertIn(f"memory: {150 << 20} bytes, limited by the control group\n", log)
-        self.assertIn("caches: 66 resets, 1638400 bytes of code for an image, 4964352 for all\n", log)
-
-
-if __name__ == "__main__":
-    main()
+        assert f"memory: {150 << 20} bytes, limited by the control group\n" in log
+        assert "caches: 66 resets, 1638400 bytes of code for an image, 4964352 for all\n" in log

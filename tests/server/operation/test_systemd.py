@@ -4,23 +4,19 @@ import os
 import signal
 import socket
 import subprocess
-import sys
 import tempfile
-import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from harness import (
     BINARY,
     GAME,
     PATIENCE,
     ask,
     connect_unix,
-    main,
     run,
 )
 
 
-class Systemd(unittest.TestCase):
+class TestSystemd:
     """The convention of systemd, played by the test: sockets from descriptor 3 on, and variables that name
     this process."""
 
@@ -56,29 +52,25 @@ class Systemd(unittest.TestCase):
             process, notify = self.start(
                 folder, ["--listen", "systemd:line", "--listen", "classic+systemd:classic", "--rom", GAME]
             )
-            self.assertEqual(notify.recv(100), b"READY=1")
+            assert notify.recv(100) == b"READY=1"
             line, classic = (connect_unix(os.path.join(folder, name)) for name in ("s0", "s1"))
-            self.assertTrue(ask(line, b"hello").startswith(b"ok "))
-            self.assertEqual(classic.line(), b"160-210\n")
+            assert ask(line, b"hello").startswith(b"ok ")
+            assert classic.line() == b"160-210\n"
             for wire in (line, classic):
                 wire.close()
             process.send_signal(signal.SIGTERM)
-            self.assertEqual(notify.recv(100), b"STOPPING=1")
-            self.assertEqual(process.wait(PATIENCE), 0)
-            self.assertTrue(os.path.exists(os.path.join(folder, "s0")))  # systemd's, not ours to remove
+            assert notify.recv(100) == b"STOPPING=1"
+            assert process.wait(PATIENCE) == 0
+            assert os.path.exists(os.path.join(folder, "s0"))  # systemd's, not ours to remove
             process.stderr.close()
             notify.close()
 
     def test_what_it_did_not_pass_on_is_an_error(self):
         with tempfile.TemporaryDirectory() as folder:
             process, notify = self.start(folder, ["--listen", "systemd:other"])
-            self.assertIn(b"no socket of the name 'other'", process.communicate(timeout=PATIENCE)[1])
-            self.assertEqual(process.returncode, 1)
+            assert b"no socket of the name 'other'" in process.communicate(timeout=PATIENCE)[1]
+            assert process.returncode == 1
             notify.close()
         status, _, errors = run("serve", "--listen", "systemd")
-        self.assertEqual((status, len(errors)), (1, 1), errors)
-        self.assertIn("systemd has passed on no socket", errors[0])
-
-
-if __name__ == "__main__":
-    main()
+        assert (status, len(errors)) == (1, 1), errors
+        assert "systemd has passed on no socket" in errors[0]

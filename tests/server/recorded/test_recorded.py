@@ -9,7 +9,6 @@ import pathlib
 import re
 import sys
 import tempfile
-import unittest
 import zlib
 
 FOLDER = pathlib.Path(__file__).resolve().parent
@@ -96,20 +95,20 @@ def recorded(reply):
         yield from (f"{key}={value}" for key, value in group.items())
 
 
-class Recorded(unittest.TestCase):
-    def test_each_recorded_conversation_is_answered_as_it_was(self):
+class TestRecorded:
+    def test_each_recorded_conversation_is_answered_as_it_was(self, subtests):
         files = sorted(FOLDER.glob("*.txt"))
-        self.assertTrue(files)
+        assert files
         for path in files:
             for conversation in re.split(r"^# .*\n", path.read_text(), flags=re.MULTILINE)[1:]:
                 lines = conversation.splitlines()
                 requests = [line[2:] for line in lines[::2]]
-                with self.subTest(version=path.stem, begins=requests[:2]):
+                with subtests.test(version=path.stem, begins=requests[:2]):
                     self.check(requests, [line[2:] for line in lines[1::2]])
 
     def check(self, requests, expected):
         replies = hold(requests)
-        self.assertEqual(len(replies), len(expected))
+        assert len(replies) == len(expected)
         for request, reply, line in zip(requests, replies, expected):
             now, then = (
                 parsed(reply),
@@ -121,10 +120,10 @@ class Recorded(unittest.TestCase):
                     ),
                 ],
             )
-            self.assertEqual([now[0], len(now)], [then[0], len(then)], request)
+            assert [now[0], len(now)] == [then[0], len(then)], request
             for group, before in zip(now[1:], then[1:]):
                 values = {key: group.get(key) for key in before}
-                self.assertEqual(values, before, request)
+                assert values == before, request
 
 
 if __name__ == "__main__":

@@ -3,32 +3,26 @@
 import os
 import re
 import resource
-import shutil
 import statistics
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import BINARY, PATIENCE, Server, ask, connect_unix, main
+import pytest
+from harness import BINARY, PATIENCE, Server, ask, connect_unix
 
 FAKE = """#!/bin/sh
 for word; do last=$word; done
 %s
 """
 COPY = 'cat > "${last#file:}"'
-WITH_FFMPEG = unittest.skipUnless(shutil.which("ffmpeg"), "needs ffmpeg")
 
 
-class Encoded(unittest.TestCase):
+class TestEncoded:
     """Films that ffmpeg makes. Where it is not to work, a script stands for it."""
 
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.films, self.tools = os.path.join(folder.name, "films"), os.path.join(folder.name, "tools")
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.films, self.tools = os.path.join(tmp_path, "films"), os.path.join(tmp_path, "tools")
         os.mkdir(self.films)
         os.mkdir(self.tools)
 
@@ -47,7 +41,7 @@ class Encoded(unittest.TestCase):
             preexec_fn=before,
             env=os.environ | {"PATH": path or f"{self.tools}:{os.environ['PATH']}"},
         )
-        self.assertEqual(done.returncode, 0)
+        assert done.returncode == 0
         return done.stdout.splitlines()
 
     def decoded(self, name, *options):
@@ -70,30 +64,30 @@ class Encoded(unittest.TestCase):
         self.install('echo "$@" > "$(dirname "$0")/words"; ' + COPY)
         lines = self.record(b"load beamfall sticky=0\nrecord webm film\nact FIRE*5\nrecord stop\n")
         size = os.path.getsize(os.path.join(self.films, "film.webm"))
-        self.assertEqual(lines[-1], b"ok recorded=film.webm frames=5 bytes=%d complete=1" % size)
-        self.assertEqual(os.listdir(self.films), ["film.webm"])
+        assert lines[-1] == b"ok recorded=film.webm frames=5 bytes=%d complete=1" % size
+        assert os.listdir(self.films) == ["film.webm"]
         with open(os.path.join(self.films, "film.webm"), "rb") as film:
-            self.assertEqual(film.read().count(b"00db"), 5)
+            assert film.read().count(b"00db") == 5
         with open(os.path.join(self.tools, "words")) as words:
-            self.assertRegex(words.read(), f" -y file:{self.films}/\\.film\\.webm\\.[A-Za-z0-9]{{6}}\n$")
+            assert re.search(f" -y file:{self.films}/\\.film\\.webm\\.[A-Za-z0-9]{{6}}\n$", words.read())
 
     def test_a_server_without_ffmpeg_says_so(self):
         lines = self.record(b"load beamfall\nrecord mp4 film\nact FIRE\nrecord gif film\n", path=self.tools)
-        self.assertEqual(lines[1], b"error recording ffmpeg is not installed: the PATH has no such program")
-        self.assertEqual(lines[3], b"ok recording=film.gif")
-        self.assertEqual(os.listdir(self.films), ["film.gif"])
+        assert lines[1] == b"error recording ffmpeg is not installed: the PATH has no such program"
+        assert lines[3] == b"ok recording=film.gif"
+        assert os.listdir(self.films) == ["film.gif"]
 
     def test_when_ffmpeg_dies_the_game_and_other_files_remain(self):
         self.install('head -c 200000 > "${last#file:}"; echo "no space left" >&2; exit 1')
         play = b"load beamfall sticky=0\nrecord %s film\n" + b"act FIRE*30\n" * 20 + b"record stop\nact NOOP\n"
         lines = self.record(play % b"webm")
-        self.assertEqual(sum(b"recording_ended=encoder" in line for line in lines[:-2]), 1)
-        self.assertEqual(lines[-2], b"error recording ffmpeg failed: no space left; nothing was kept")
-        self.assertTrue(lines[-1].startswith(b"ok reward="))
-        self.assertEqual(os.listdir(self.films), [])
+        assert sum(b"recording_ended=encoder" in line for line in lines[:-2]) == 1
+        assert lines[-2] == b"error recording ffmpeg failed: no space left; nothing was kept"
+        assert lines[-1].startswith(b"ok reward=")
+        assert os.listdir(self.films) == []
         lines = self.record(play % b"wav,mp4")
-        self.assertRegex(lines[-2], b"^ok recorded=film.wav frames=[1-9].* complete=0 recording_ended=encoder$")
-        self.assertEqual(os.listdir(self.films), ["film.wav"])
+        assert re.search(b"^ok recorded=film.wav frames=[1-9].* complete=0 recording_ended=encoder$", lines[-2])
+        assert os.listdir(self.films) == ["film.wav"]
 
     def contents(self, path):
         """The bytes of a file that the encoder makes in its own time."""
@@ -122,25 +116,25 @@ class Encoded(unittest.TestCase):
             ask(recorder, b"record webm film")
             recorder.send(b"act FIRE*600\n")
             for _ in range(20):
-                self.assertTrue(ask(other, b"act NOOP").startswith(b"ok "))
+                assert ask(other, b"act NOOP").startswith(b"ok ")
             process = int(self.contents(os.path.join(self.tools, "pid")))
             recorder.close()
             other.close()
-            self.assertEqual(server.stop(), 0)
+            assert server.stop() == 0
         deadline = time.monotonic() + PATIENCE
         while os.path.exists(f"/proc/{process}") and time.monotonic() < deadline:
             time.sleep(0.01)
-        self.assertFalse(os.path.exists(f"/proc/{process}"))
-        self.assertEqual(os.listdir(self.films), [])
+        assert not os.path.exists(f"/proc/{process}")
+        assert os.listdir(self.films) == []
 
-    @WITH_FFMPEG
-    def test_a_film_shows_what_was_played_and_sounds(self):
+    @pytest.mark.needs_programs("ffmpeg")
+    def test_a_film_shows_what_was_played_and_sounds(self, subtests):
         lines = self.record(b"load beamfall sticky=0\nrecord webm,mp4 film\nact FIRE*60\nlook rgb:hex\nrecord stop\n")
-        self.assertRegex(lines[-1], b"^ok recorded=film.webm,film.mp4 frames=60 bytes=[0-9]+ complete=1$")
+        assert re.search(b"^ok recorded=film.webm,film.mp4 frames=60 bytes=[0-9]+ complete=1$", lines[-1])
         pixels = bytes.fromhex(lines[-2].split(b"rgb=")[1].split()[0].decode())
         for name in ("film.webm", "film.mp4"):
-            with self.subTest(name):
-                self.assertEqual(self.frames(name), 60)
+            with subtests.test(name):
+                assert self.frames(name) == 60
                 frame = self.last_frame(name)
                 pictures = [
                     frame[3 * (640 * (2 * row) + 4 * column + 1) + part]
@@ -148,12 +142,12 @@ class Encoded(unittest.TestCase):
                     for column in range(160)
                     for part in range(3)
                 ]
-                self.assertLess(statistics.mean(abs(a - b) for a, b in zip(pictures, pixels)), 8)
+                assert statistics.mean(abs(a - b) for a, b in zip(pictures, pixels)) < 8
                 sound = self.decoded(name, "-f", "u8", "-ar", "30720")
-                self.assertAlmostEqual(len(sound) / 30720, 1, delta=0.1)
-                self.assertGreater(max(sound) - min(sound), 10)
+                assert abs(len(sound) / 30720 - 1) <= 0.1
+                assert max(sound) - min(sound) > 10
 
-    @WITH_FFMPEG
+    @pytest.mark.needs_programs("ffmpeg")
     def test_what_fits_is_a_whole_film(self):
         for kind in ("webm", "mp4"):
             lines = self.record(
@@ -163,22 +157,18 @@ class Encoded(unittest.TestCase):
                 "--record-limit",
                 "400000",
             )
-            self.assertIn(b" recording_ended=limit", lines[-1])
+            assert b" recording_ended=limit" in lines[-1]
             size = os.path.getsize(os.path.join(self.films, f"film.{kind}"))
-            self.assertLessEqual(size, 400000)
+            assert size <= 400000
             frames = int(re.search(rb" frames=(\d+) bytes=%d " % size, lines[-1])[1])
-            self.assertEqual(self.frames(f"film.{kind}"), frames)
+            assert self.frames(f"film.{kind}") == frames
 
-    @WITH_FFMPEG
+    @pytest.mark.needs_programs("ffmpeg")
     def test_a_full_disk_is_an_error_that_leaves_nothing(self):
         lines = self.record(
             b"load beamfall sticky=0\nrecord mp4 film\n" + b"act FIRE*200\n" * 10 + b"record stop\nact NOOP\n",
             before=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000)),
         )
-        self.assertRegex(lines[-2], b"^error recording ffmpeg failed: .*; nothing was kept$")
-        self.assertTrue(lines[-1].startswith(b"ok "))
-        self.assertEqual(os.listdir(self.films), [])
-
-
-if __name__ == "__main__":
-    main()
+        assert re.search(b"^error recording ffmpeg failed: .*; nothing was kept$", lines[-2])
+        assert lines[-1].startswith(b"ok ")
+        assert os.listdir(self.films) == []

@@ -5,14 +5,12 @@ import re
 import resource
 import statistics
 import subprocess
-import sys
 import tempfile
 import threading
 import time
-import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import BINARY, PATIENCE, Server, ask, connect_tcp, connect_unix, main, run, serve
+import pytest
+from harness import BINARY, PATIENCE, Server, ask, connect_tcp, connect_unix, run, serve
 
 LIMIT = 1000000
 KINDS = {
@@ -33,55 +31,52 @@ def requests(kind):
     )
 
 
-class Limits(unittest.TestCase):
+class TestLimits:
     def check(self, kind, lines, folder, reason):
         replies = [line for line in lines if line.startswith(b"ok recording_ended=" + reason + b" ")]
-        self.assertEqual(len(replies), 1, lines)
-        self.assertRegex(
-            lines[-2], b"^ok recorded=film.* frames=[1-9][0-9]* .* complete=0 recording_ended=" + reason + b"$"
+        assert len(replies) == 1, lines
+        assert re.search(
+            b"^ok recorded=film.* frames=[1-9][0-9]* .* complete=0 recording_ended=" + reason + b"$", lines[-2]
         )
-        self.assertTrue(lines[-1].startswith(b"ok "))
-        self.assertEqual(sorted(os.listdir(folder)), KINDS[kind])
+        assert lines[-1].startswith(b"ok ")
+        assert sorted(os.listdir(folder)) == KINDS[kind]
 
-    def test_what_fits_is_kept(self):
-        for kind in KINDS:
-            with self.subTest(kind=kind), tempfile.TemporaryDirectory() as folder:
-                lines = run(
-                    "serve", "--stdio", "--record-dir", folder, "--record-limit", str(LIMIT), data=requests(kind)
-                )[1].splitlines()
-                self.check(kind, lines, folder, b"limit")
-                size = int(lines[-2].split(b"bytes=")[1].split()[0])
-                self.assertLessEqual(size, LIMIT)
-                self.assertEqual(
-                    size,
-                    sum(
-                        os.path.getsize(os.path.join(path, name))
-                        for path, _, names in os.walk(folder)
-                        for name in names
-                    ),
-                )
+    @pytest.mark.parametrize("kind", KINDS)
+    def test_what_fits_is_kept(self, kind):
+        with tempfile.TemporaryDirectory() as folder:
+            lines = run("serve", "--stdio", "--record-dir", folder, "--record-limit", str(LIMIT), data=requests(kind))[
+                1
+            ].splitlines()
+            self.check(kind, lines, folder, b"limit")
+            size = int(lines[-2].split(b"bytes=")[1].split()[0])
+            assert size <= LIMIT
+            assert size == sum(
+                os.path.getsize(os.path.join(path, name)) for path, _, names in os.walk(folder) for name in names
+            )
 
-    def test_what_the_disk_takes_is_kept(self):
-        for kind, limit in {"y4m": LIMIT, "gif": LIMIT // 10, "wav": LIMIT // 10, "y4m,wav": LIMIT}.items():
-            with self.subTest(kind=kind), tempfile.TemporaryDirectory() as folder:
-                done = subprocess.run(
-                    [BINARY, "serve", "--stdio", "--record-dir", folder],
-                    input=requests(kind),
-                    capture_output=True,
-                    timeout=PATIENCE,
-                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
-                )
-                self.check(kind, done.stdout.splitlines(), folder, b"disk")
-                self.assertEqual(done.returncode, 0)
-                with open(os.path.join(folder, KINDS[kind][-1]), "rb") as file:
-                    film = file.read()
-                if kind == "gif":
-                    self.assertTrue(film.endswith(b"\0;"))
-                elif kind == "wav":
-                    self.assertEqual((len(film) - 44) % 512, 0)
-                    self.assertEqual(int.from_bytes(film[40:44], "little"), len(film) - 44)
-                else:
-                    self.assertEqual((len(film) - 39) % (6 + 3 * 320 * 210), 0)
+    @pytest.mark.parametrize(
+        "kind, limit", {"y4m": LIMIT, "gif": LIMIT // 10, "wav": LIMIT // 10, "y4m,wav": LIMIT}.items()
+    )
+    def test_what_the_disk_takes_is_kept(self, kind, limit):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run(
+                [BINARY, "serve", "--stdio", "--record-dir", folder],
+                input=requests(kind),
+                capture_output=True,
+                timeout=PATIENCE,
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+            )
+            self.check(kind, done.stdout.splitlines(), folder, b"disk")
+            assert done.returncode == 0
+            with open(os.path.join(folder, KINDS[kind][-1]), "rb") as file:
+                film = file.read()
+            if kind == "gif":
+                assert film.endswith(b"\0;")
+            elif kind == "wav":
+                assert (len(film) - 44) % 512 == 0
+                assert int.from_bytes(film[40:44], "little") == len(film) - 44
+            else:
+                assert (len(film) - 39) % (6 + 3 * 320 * 210) == 0
 
     def test_where_nothing_fits_there_is_nothing(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -94,12 +89,12 @@ class Limits(unittest.TestCase):
                 "30",
                 data=b"load beamfall\nrecord gif film\nact NOOP\nrecord stop\n",
             )[1].splitlines()
-            self.assertIn(b"error recording the recording has reached its limit of 30 bytes", lines[1])
-            self.assertEqual(lines[3], b"error recording nothing is being recorded")
-            self.assertEqual(os.listdir(folder), [])
+            assert b"error recording the recording has reached its limit of 30 bytes" in lines[1]
+            assert lines[3] == b"error recording nothing is being recorded"
+            assert os.listdir(folder) == []
 
 
-class Logs(unittest.TestCase):
+class TestLogs:
     PLAY = b"load beamfall seed=7 frame_skip=5 max_episode_frames=500\nlog mine\n" + b"reset\nact FIRE*50 UP*50\n" * 20
 
     def serve(self, folder, limit, data):
@@ -110,49 +105,49 @@ class Logs(unittest.TestCase):
             timeout=PATIENCE,
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
         )
-        self.assertEqual(done.returncode, 0)
+        assert done.returncode == 0
         return done.stdout.splitlines()
 
-    def test_a_full_disk_ends_them_and_the_session_goes_on(self):
-        for limit, logged in ((200, 0), (900, 4)):  # rows have more than 150 bytes each, and the line of columns 149
-            with self.subTest(limit=limit), tempfile.TemporaryDirectory() as folder:
-                lines = self.serve(folder, limit, self.PLAY + b"log stop\nact NOOP\n")
-                self.assertEqual(sum(b"log_ended=disk" in line for line in lines[:-2]), 1, lines)
-                count, unlogged = map(int, re.match(rb"ok logged=(\d+) unlogged=(\d+) ", lines[-2]).groups())
-                self.assertLessEqual(count, logged)
-                self.assertEqual(count + unlogged, 20)
-                self.assertTrue(lines[-2].endswith(b" complete=0 log_ended=disk"), lines[-2])
-                self.assertTrue(lines[-1].startswith(b"ok "))
-                with open(os.path.join(folder, "mine/results.csv")) as file:
-                    self.assertEqual(len(file.read().splitlines()), 1 + count)
-                logs = [name for _, _, names in os.walk(folder) for name in names if name.endswith(".episode")]
-                self.assertEqual(len(logs), count)
+    @pytest.mark.parametrize("limit, logged", ((200, 0), (900, 4)))
+    def test_a_full_disk_ends_them_and_the_session_goes_on(self, limit, logged):
+        with tempfile.TemporaryDirectory() as folder:
+            lines = self.serve(folder, limit, self.PLAY + b"log stop\nact NOOP\n")
+            assert sum(b"log_ended=disk" in line for line in lines[:-2]) == 1, lines
+            count, unlogged = map(int, re.match(rb"ok logged=(\d+) unlogged=(\d+) ", lines[-2]).groups())
+            assert count <= logged
+            assert count + unlogged == 20
+            assert lines[-2].endswith(b" complete=0 log_ended=disk"), lines[-2]
+            assert lines[-1].startswith(b"ok ")
+            with open(os.path.join(folder, "mine/results.csv")) as file:
+                assert len(file.read().splitlines()) == 1 + count
+            logs = [name for _, _, names in os.walk(folder) for name in names if name.endswith(".episode")]
+            assert len(logs) == count
 
     def test_where_nothing_fits_there_is_nothing(self):
         with tempfile.TemporaryDirectory() as folder:
             lines = self.serve(folder, 10, b"load beamfall seed=7\nlog mine\nact NOOP\n")
-            self.assertRegex(lines[1], b"^error no-log cannot write agent.toml: File too large$")
-            self.assertTrue(lines[2].startswith(b"ok "))
-            self.assertEqual(os.listdir(folder), [])
+            assert re.search(b"^error no-log cannot write agent.toml: File too large$", lines[1])
+            assert lines[2].startswith(b"ok ")
+            assert os.listdir(folder) == []
 
     def test_two_servers_share_a_folder_but_no_unit(self):
         with tempfile.TemporaryDirectory() as folder:
             self.serve(folder, LIMIT, self.PLAY + b"log stop\n")
             again = self.serve(folder, LIMIT, self.PLAY + b"log stop\n")
-            self.assertRegex(again[1], b"^error no-log mine has the unit beamfall-agent-1 already; ")
+            assert re.search(b"^error no-log mine has the unit beamfall-agent-1 already; ", again[1])
             other = self.serve(folder, LIMIT, self.PLAY.replace(b"mine", b"mine trial=2") + b"log stop\n")
-            self.assertRegex(other[-1], b"^ok logged=20 unlogged=0 ")
+            assert re.search(b"^ok logged=20 unlogged=0 ", other[-1])
             done = subprocess.run([BINARY, "verify", os.path.join(folder, "mine")], capture_output=True)
-            self.assertIn(b"40 rows confirmed, 0 wrong", done.stdout)
+            assert b"40 rows confirmed, 0 wrong" in done.stdout
 
     def test_what_a_client_that_left_has_played_is_kept(self):
         with tempfile.TemporaryDirectory() as folder:
             self.serve(folder, LIMIT, self.PLAY)
             done = subprocess.run([BINARY, "verify", os.path.join(folder, "mine")], capture_output=True)
-            self.assertIn(b"20 rows confirmed, 0 wrong", done.stdout)
+            assert b"20 rows confirmed, 0 wrong" in done.stdout
 
 
-class Others(unittest.TestCase):
+class TestOthers:
     MOST = 0.2  # seconds, on a busy machine; the pictures of one request of the other client take longer than a second
 
     def test_they_do_not_wait_for_pictures(self):
@@ -162,7 +157,7 @@ class Others(unittest.TestCase):
                 ask(wire, b"load beamfall seed=1 max_episode_frames=0")
             ask(recorder, b"observe frames")
             ask(recorder, b"save root")
-            self.assertEqual(ask(recorder, b"record png film"), b"ok recording=film\n")
+            assert ask(recorder, b"record png film") == b"ok recording=film\n"
             recorder.send(b"act FIRE*600\nrestore root\n" * 1000)
             times = []
             for _ in range(40):
@@ -170,7 +165,7 @@ class Others(unittest.TestCase):
                 start = time.monotonic()
                 ask(other, b"act NOOP")
                 times.append(time.monotonic() - start)
-            self.assertLess(statistics.median(times), self.MOST)
+            assert statistics.median(times) < self.MOST
             recorder.close()
             other.close()
 
@@ -179,14 +174,14 @@ class Others(unittest.TestCase):
             server.wait_for("listening")
             wire = connect_unix(server.path("s"))
             for line in (b"load beamfall sticky=0", b"record gif film", b"act FIRE*100"):
-                self.assertTrue(ask(wire, line).startswith(b"ok "))
+                assert ask(wire, line).startswith(b"ok ")
             wire.close()
             deadline = time.monotonic() + PATIENCE
             while not os.path.exists(server.path("film.gif")) and time.monotonic() < deadline:
                 time.sleep(0.005)
             with open(server.path("film.gif"), "rb") as film:
-                self.assertTrue(film.read().endswith(b"\0;"))
-            self.assertEqual(server.stop(), 0)
+                assert film.read().endswith(b"\0;")
+            assert server.stop() == 0
 
     def test_what_many_record_is_kept_at_the_end(self):
         with Server("serve", "--listen", "unix:s", "--record-dir", ".", "--grace", "0") as server:
@@ -202,12 +197,8 @@ class Others(unittest.TestCase):
                 thread.start()
             for thread in threads:
                 thread.join()
-            self.assertEqual(server.stop(), 0)
+            assert server.stop() == 0
             names = sorted(name for name in os.listdir(server.folder) if "film" in name)
-            self.assertEqual(names, sorted(f"film{n}.{kind}" for n in range(len(wires)) for kind in ("gif", "wav")))
+            assert names == sorted(f"film{n}.{kind}" for n in range(len(wires)) for kind in ("gif", "wav"))
             for wire in wires:
                 wire.close()
-
-
-if __name__ == "__main__":
-    main()

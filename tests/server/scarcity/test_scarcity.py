@@ -1,6 +1,6 @@
 """A server that is short of memory, threads, files or stack: it goes on, or says why it does not start.
 
-RACEBEAM_SCARCE_LIBRARY names the library that makes allocations and threads fail (scarce.cpp).
+A library makes allocations and threads fail (scarce.cpp).
 """
 
 import mmap
@@ -9,16 +9,14 @@ import resource
 import socket
 import struct
 import subprocess
-import sys
 import tempfile
 import time
-import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import BINARY, PATIENCE, Server, ask, connect_tcp, main, sanitized
+import pytest
+from harness import BINARY, PATIENCE, Server, ask, built, connect_tcp, sanitized
 from test_hostile import health_wait
 
-LIBRARY = os.environ.get("RACEBEAM_SCARCE_LIBRARY", "")
+LIBRARY = built("server/libscarce.so")
 LIFE = b"""hello
 load beamfall seed=1 sticky=0
 observe screen:rle ram reward
@@ -64,12 +62,15 @@ class Scarcity:
         self.set("until_failure", number)
 
 
-@unittest.skipIf(sanitized() or not LIBRARY, "the allocator is another one")
-class Scarce(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.scarcity = Scarcity(os.path.join(folder.name, "scarcity"))
+@pytest.mark.skipif(sanitized() or LIBRARY is None, reason="the allocator is another one")
+class Scarce:
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.scarcity = Scarcity(os.path.join(tmp_path, "scarcity"))
 
     def serve(self, *options):
         server = Server(
@@ -89,13 +90,17 @@ class Scarce(unittest.TestCase):
             *options,
             **self.scarcity.environment,
         )
-        self.addCleanup(server.__exit__)
+        self.cleanup(server.__exit__)
         lines = server.addresses("ready")
         self.ports = [int(line.rsplit(":", 1)[1]) for line in lines]
         return server
 
 
-class Memory(Scarce):
+class TestMemory(Scarce):
+    @pytest.fixture(autouse=True)
+    def keep_subtests(self, subtests):
+        self.subtests = subtests
+
     def converse(self, port, said):
         """Everything that the server answers. A connection may fail at any time."""
         reply = b""
@@ -113,14 +118,14 @@ class Memory(Scarce):
 
     def check_that_it_is_well(self, server, alive):
         """It neither spins nor leaks."""
-        self.assertTrue(server.alive(), server.log()[-3:])
+        assert server.alive(), server.log()[-3:]
         deadline = time.monotonic() + PATIENCE
         while self.scarcity.get("alive") > alive + 200 and time.monotonic() < deadline:
             time.sleep(0.05)
-        self.assertLess(self.scarcity.get("alive"), alive + 200)
+        assert self.scarcity.get("alive") < alive + 200
         seconds = server.processor_seconds()
         time.sleep(0.5)
-        self.assertLess(server.processor_seconds() - seconds, 0.25)
+        assert server.processor_seconds() - seconds < 0.25
 
     def check_every_allocation(self, port, said, failures, step=1):
         server = self.server
@@ -129,17 +134,17 @@ class Memory(Scarce):
         alive, number = self.scarcity.get("alive"), 1
         while number < 20000:
             self.scarcity.fail(number, failures)
-            with self.subTest(allocation=number):
+            with self.subtests.test(allocation=number):
                 self.converse(port, said)
-                self.assertTrue(server.alive(), server.log()[-3:])
+                assert server.alive(), server.log()[-3:]
             is_over = self.scarcity.get("failures") < failures
             self.scarcity.set("until_failure", 0)
-            self.assertEqual(self.converse(port, said), expected, number)
+            assert self.converse(port, said) == expected, number
             if not is_over:
                 break
             number += step
         self.check_that_it_is_well(server, alive)
-        self.assertGreater(number, 10)
+        assert number > 10
 
     def test_any_allocation_of_a_session_may_fail(self):
         self.server = self.serve()
@@ -154,19 +159,18 @@ class Memory(Scarce):
         for failures in (1, 20):
             self.check_every_allocation(self.ports[1], WEB, failures)
 
-    def test_any_allocation_of_the_end_may_fail(self):
-        for number in range(1, 40, 3):
-            with self.subTest(allocation=number):
-                server = self.serve()
-                wire = connect_tcp(self.ports[0])
-                ask(wire, b"load beamfall")
-                self.scarcity.fail(number, 3)
-                self.assertEqual(server.stop(), 0)
-                self.scarcity.set("until_failure", 0)
-                wire.close()
+    @pytest.mark.parametrize("number", range(1, 40, 3))
+    def test_any_allocation_of_the_end_may_fail(self, number):
+        server = self.serve()
+        wire = connect_tcp(self.ports[0])
+        ask(wire, b"load beamfall")
+        self.scarcity.fail(number, 3)
+        assert server.stop() == 0
+        self.scarcity.set("until_failure", 0)
+        wire.close()
 
 
-class Threads(Scarce):
+class TestThreads(Scarce):
     def test_a_server_without_its_threads_says_so_and_is_never_ready(self):
         for threads in range(9):
             self.scarcity.set("threads", threads)
@@ -198,39 +202,39 @@ class Threads(Scarce):
                     if was_ready:
                         process.stdin.close()
                         process.terminate()
-                        self.assertEqual(process.wait(PATIENCE), 0)
-                        self.assertGreaterEqual(threads, 8)  # 3 of machines, 4 of loops, one of the session
+                        assert process.wait(PATIENCE) == 0
+                        assert threads >= 8  # 3 of machines, 4 of loops, one of the session
                         continue
-                    self.assertEqual(process.wait(PATIENCE), 5)
-                    self.assertIn(b"allows no more threads", process.stderr.read())
-                    self.assertEqual(process.stdout.read(), b"")
-                    self.assertEqual(os.listdir(folder), [])
+                    assert process.wait(PATIENCE) == 5
+                    assert b"allows no more threads" in process.stderr.read()
+                    assert process.stdout.read() == b""
+                    assert os.listdir(folder) == []
 
 
-class Stack(unittest.TestCase):
-    @unittest.skipIf(sanitized(), "a sanitizer needs more stack")
+class TestStack:
+    @pytest.mark.skipif(sanitized(), reason="a sanitizer needs more stack")
     def test_a_stack_of_256_KiB_is_enough(self):
         def limit():
             resource.setrlimit(resource.RLIMIT_STACK, (256 << 10, 256 << 10))
 
         with Server("serve", "--listen", "tcp://127.0.0.1:0", "--http", "127.0.0.1:0", before=limit) as server:
             wire = connect_tcp(server.port())
-            self.assertTrue(ask(wire, b"load beamfall").startswith(b"ok "))
-            self.assertTrue(ask(wire, b"look screen:zlib rgb:base64").startswith(b"ok "))
-            self.assertTrue(ask(wire, b"open 4").startswith(b"ok "))
+            assert ask(wire, b"load beamfall").startswith(b"ok ")
+            assert ask(wire, b"look screen:zlib rgb:base64").startswith(b"ok ")
+            assert ask(wire, b"open 4").startswith(b"ok ")
             health_wait(server)
-            self.assertTrue(ask(wire, b"step NOOP").startswith(b"ok "))
+            assert ask(wire, b"step NOOP").startswith(b"ok ")
             wire.close()
-            self.assertEqual(server.stop(), 0)
+            assert server.stop() == 0
 
 
-class Files(unittest.TestCase):
-    def test_with_few_files_it_serves_or_says_why_not(self):
+class TestFiles:
+    def test_with_few_files_it_serves_or_says_why_not(self, subtests):
         served = []
         for files in (8, 10, 12, 14, 15, 16, 18, 20, 24, 28, 32):
-            with self.subTest(files=files), tempfile.TemporaryDirectory() as folder:
+            with subtests.test(files=files), tempfile.TemporaryDirectory() as folder:
                 self.check(files, folder, served)
-        self.assertIn(32, served)
+        assert 32 in served
 
     def check(self, files, folder, served):
         def limit():
@@ -252,7 +256,7 @@ class Files(unittest.TestCase):
             while server.alive() and not any("health" in line for line in server.log()) and time.monotonic() < deadline:
                 time.sleep(0.005)
             if not server.alive():
-                self.assertEqual(server.wait(), 1, server.log())
+                assert server.wait() == 1, server.log()
                 server.wait_for("racebeam: .*files")
                 return
             served.append(files)
@@ -267,7 +271,7 @@ class Files(unittest.TestCase):
             for client in clients:
                 client.close()
             self.check_that_a_client_is_served(f"{folder}/s")
-            self.assertEqual(server.stop(), 0)
+            assert server.stop() == 0
 
     def check_that_a_client_is_served(self, path):
         deadline, reply = time.monotonic() + PATIENCE, b""
@@ -277,8 +281,4 @@ class Files(unittest.TestCase):
                 client.connect(path)
                 client.sendall(b"hello\n")
                 reply = client.recv(4096)
-        self.assertTrue(reply.startswith(b"ok "), reply)
-
-
-if __name__ == "__main__":
-    main()
+        assert reply.startswith(b"ok "), reply

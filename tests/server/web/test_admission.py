@@ -5,29 +5,27 @@ import os
 import signal
 import ssl
 import sys
-import tempfile
 import time
-import unittest
 import urllib.error
 import urllib.request
+
+import pytest
 
 SERVER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:0] = [SERVER, os.path.join(SERVER, "access")]
 from access_case import TOKEN, Folder, make_certificate
-from harness import PATIENCE, Server, main, run
+from harness import PATIENCE, Server, run
 from web_case import Case, port_of
 from web_socket import TEXT, WebSocket, frame, request
 
 
-class Origins(Case):
+class TestOrigins(Case):
     def test_the_own_page_programs_and_allowed_pages_are_admitted(self):
         self.start("--allow-origin", "https://lab.example", "--allow-origin", "http://127.0.0.1:1")
         host = f"127.0.0.1:{port_of(self.server)}"
         for origin in (None, "http://" + host, "https://" + host, "https://lab.example", "http://127.0.0.1:1"):
-            self.assertTrue(self.connect(Origin=origin).ask(b"hello").startswith(b"ok "), origin)
-        self.assertTrue(
-            self.connect(Host="LocalHost:80", Origin="http://localhost:80").ask(b"hello").startswith(b"ok ")
-        )
+            assert self.connect(Origin=origin).ask(b"hello").startswith(b"ok "), origin
+        assert self.connect(Host="LocalHost:80", Origin="http://localhost:80").ask(b"hello").startswith(b"ok ")
 
     def test_other_pages_are_refused(self):
         self.start("--allow-origin", "https://lab.example")
@@ -44,7 +42,7 @@ class Origins(Case):
             "https://lab.example:444",
             "http://lab.example",
         ):
-            self.assertEqual(self.refusal(Origin=origin).status, 403, origin)
+            assert self.refusal(Origin=origin).status == 403, origin
         for place in (
             "[::1].evil.example",
             "127.0.0.1:80@evil.example",
@@ -54,52 +52,51 @@ class Origins(Case):
             "[127.0.0.1]",
             "127.0.0.1:99999",
         ):
-            self.assertEqual(self.refusal(Origin="http://" + place, Host=place).status, 403, place)
+            assert self.refusal(Origin="http://" + place, Host=place).status == 403, place
         # The name of another site that stands for this machine.
-        self.assertEqual(self.refusal(Origin="http://evil.example:80", Host="evil.example:80").status, 403)
+        assert self.refusal(Origin="http://evil.example:80", Host="evil.example:80").status == 403
 
-    def test_a_name_is_admitted_where_tokens_are_required(self):
+    def test_a_name_is_admitted_where_tokens_are_required(self, tmp_path):
         folder = Folder()
-        folder.setUp()
-        self.addCleanup(folder.doCleanups)
+        folder.folder = tmp_path
         self.start("--token-file", folder.write("tokens", TOKEN))
         wire = self.connect(Origin="http://node7:80", Host="node7:80")
-        self.assertIn(b" admitted=0 ", wire.ask(b"hello"))
-        self.assertEqual(self.refusal(Origin="http://node8:80", Host="node7:80").status, 403)
+        assert b" admitted=0 " in wire.ask(b"hello")
+        assert self.refusal(Origin="http://node8:80", Host="node7:80").status == 403
 
     def test_an_invalid_origin_is_refused_at_the_start(self):
         for origin in ("*", "lab.example", "https://", "https://lab.example/page"):
             status, _, errors = run("serve", "--listen", "ws://127.0.0.1:0", "--allow-origin", origin)
-            self.assertEqual((status, len(errors)), (2, 1), errors)
+            assert (status, len(errors)) == (2, 1), errors
 
 
-class Tokens(Case, Folder):
-    def setUp(self):
-        super().setUp()
+class TestTokens(Case, Folder):
+    @pytest.fixture(autouse=True)
+    def token_file(self, own_folder):
         self.tokens = self.write("tokens", TOKEN)
 
     def test_a_token_is_required_and_the_third_wrong_one_closes(self):
         self.start("--token-file", self.tokens)
         wire = self.connect()
-        self.assertTrue(wire.ask(b"load beamfall").startswith(b"error unauthorized "))
-        self.assertIn(b" admitted=1 ", wire.ask(b"hello token=" + TOKEN.encode()))
-        self.assertTrue(wire.ask(b"load beamfall").startswith(b"ok "))
+        assert wire.ask(b"load beamfall").startswith(b"error unauthorized ")
+        assert b" admitted=1 " in wire.ask(b"hello token=" + TOKEN.encode())
+        assert wire.ask(b"load beamfall").startswith(b"ok ")
         wire = self.connect()
         for _ in range(3):
             wire.send(b"hello token=0123456789abcdeX")
         for _ in range(2):
-            self.assertTrue(wire.line().startswith(b"error unauthorized "))
+            assert wire.line().startswith(b"error unauthorized ")
         line, code = wire.end()
-        self.assertTrue(line.startswith(b"error unauthorized "))
-        self.assertEqual(code, 1008)
+        assert line.startswith(b"error unauthorized ")
+        assert code == 1008
 
     def test_before_the_token_a_message_is_short(self):
         self.start("--token-file", self.tokens)
-        self.assertEqual(self.too_long(self.connect(), 4099), 1009)
+        assert self.too_long(self.connect(), 4099) == 1009
         wire = self.connect()
         wire.ask(b"hello token=" + TOKEN.encode())
-        self.assertTrue(wire.ask(b"help" + b" " * 5000).startswith(b"ok "))
-        self.assertEqual(self.too_long(wire, (1 << 20) + 3), 1009)
+        assert wire.ask(b"help" + b" " * 5000).startswith(b"ok ")
+        assert self.too_long(wire, (1 << 20) + 3) == 1009
 
     def too_long(self, wire, size):
         wire.write(frame(TEXT, b"", length=size))
@@ -115,38 +112,32 @@ class Tokens(Case, Folder):
             for byte in request("x" * 4000):  # one byte at a time
                 slow.sendall(bytes([byte]))
                 time.sleep(0.01)
-        self.assertLess(time.monotonic() - start, PATIENCE)
-        self.assertEqual((silent.recv(1), half.recv(1)), (b"", b""))
-        self.assertEqual(other.end(), (b"error unauthorized no token came within 1 seconds", 1008))
+        assert time.monotonic() - start < PATIENCE
+        assert (silent.recv(1), half.recv(1)) == (b"", b"")
+        assert other.end() == (b"error unauthorized no token came within 1 seconds", 1008)
         self.server.wait_for("no handshake came within 1 seconds")
 
     def test_beyond_this_machine_tokens_are_demanded(self):
         status, _, errors = run("serve", "--listen", "ws://0.0.0.0:0")
-        self.assertEqual((status, len(errors)), (1, 1), errors)
-        self.assertIn("--token-file", errors[0])
+        assert (status, len(errors)) == (1, 1), errors
+        assert "--token-file" in errors[0]
 
 
-class OverTls(unittest.TestCase):
-    def test_a_session_and_the_page_run_over_TLS(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        certificate, key = make_certificate(folder.name)
+class TestOverTls:
+    def test_a_session_and_the_page_run_over_TLS(self, tmp_path):
+        certificate, key = make_certificate(str(tmp_path))
         keys = ("--tls-cert", certificate, "--tls-key", key)
         context = ssl.create_default_context(cafile=certificate)
         with Server("serve", "--listen", "wss://127.0.0.1:0", *keys, "--grace", "0") as server:
             port = port_of(server, "wss")
             wire = WebSocket(port, tls=context)
-            self.assertTrue(wire.ask(b"load beamfall seed=1").startswith(b"ok game=beamfall"))
+            assert wire.ask(b"load beamfall seed=1").startswith(b"ok game=beamfall")
             wire.send(b"look screen:raw")
-            self.assertEqual(wire.line(), b"ok screen=33600 raw=33600")
-            self.assertEqual(len(wire.message()[1]), 33600)
+            assert wire.line() == b"ok screen=33600 raw=33600"
+            assert len(wire.message()[1]) == 33600
             with urllib.request.urlopen(f"https://127.0.0.1:{port}/", context=context, timeout=PATIENCE) as page:
-                self.assertIn(b"<html", page.read())
+                assert b"<html" in page.read()
             server.process.send_signal(signal.SIGTERM)
-            self.assertEqual(wire.end(), (b"error stopping the server stops", 1001))
+            assert wire.end() == (b"error stopping the server stops", 1001)
             wire.close()
-            self.assertEqual(server.wait(), 0)
-
-
-if __name__ == "__main__":
-    main()
+            assert server.wait() == 0

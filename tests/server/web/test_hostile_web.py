@@ -3,21 +3,20 @@
 import contextlib
 import os
 import socket
-import sys
 import time
-import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import PATIENCE, Server, main, sanitized, thread_sanitized
+import pytest
+from harness import PATIENCE, Server, sanitized, thread_sanitized
 from test_hostile import JUMP_TO_ITSELF, load_inline
 from web_case import Case, port_of
 from web_socket import BINARY, PING, TEXT, WebSocket, frame, request
 
 
-class Hostile(Case):
+class TestHostile(Case):
     """What one client does, another does not notice."""
 
-    def setUp(self):
+    @pytest.fixture(autouse=True)
+    def set_up(self):
         self.start("--threads", "1")
         self.bystander = self.connect()
         self.bystander.ask(b"load beamfall max_episode_frames=0")
@@ -26,15 +25,15 @@ class Hostile(Case):
         waits = []
         for _ in range(15):
             start = time.monotonic()
-            self.assertTrue(self.bystander.ask(b"act NOOP*10").startswith(b"ok "))
+            assert self.bystander.ask(b"act NOOP*10").startswith(b"ok ")
             waits.append(time.monotonic() - start)
-        self.assertLess(sorted(waits)[len(waits) // 2], 0.1)
+        assert sorted(waits)[len(waits) // 2] < 0.1
 
     def memory(self):
         with open(f"/proc/{self.server.process.pid}/statm") as sizes:
             return int(sizes.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
-    def test_frames_that_break_the_rules_close_the_connection(self):
+    def test_frames_that_break_the_rules_close_the_connection(self, subtests):
         cases = {
             "a binary message": (frame(BINARY, b"act NOOP"), 1003),
             "an empty binary message": (frame(BINARY, b""), 1003),
@@ -53,21 +52,21 @@ class Hostile(Case):
         }
         before = self.memory()
         for name, (data, code) in cases.items():
-            with self.subTest(name):
+            with subtests.test(name):
                 wire = self.connect()
                 wire.write(data)
-                self.assertEqual(wire.end()[1], code)
+                assert wire.end()[1] == code
         self.check_bystander()
-        self.assertLess(self.memory() - before, 16 << 20)
+        assert self.memory() - before < 16 << 20
 
     def test_an_invalid_handshake_is_refused(self):
         port = port_of(self.server)
         for fields in ({"Upgrade": None}, {"Connection": None}, {"Connection": "close"}, {"Upgrade": "h2c"}):
-            self.assertEqual(self.refusal(**fields).status, 426, fields)
+            assert self.refusal(**fields).status == 426, fields
         for fields in ({"Sec-WebSocket-Key": None}, {"Sec-WebSocket-Key": "x" * 100}, {"Host": None}):
-            self.assertEqual(self.refusal(**fields).status, 400, fields)
-        self.assertEqual(self.refusal(**{"Sec-WebSocket-Version": "8"}).status, 426)
-        self.assertEqual(self.refusal(path="/other").status, 404)
+            assert self.refusal(**fields).status == 400, fields
+        assert self.refusal(**{"Sec-WebSocket-Version": "8"}).status == 426
+        assert self.refusal(path="/other").status == 404
         for nonsense in (
             os.urandom(4096),
             b"\0" * 100,
@@ -79,7 +78,7 @@ class Hostile(Case):
                 with contextlib.suppress(OSError):
                     connection.sendall(nonsense)
                     connection.shutdown(socket.SHUT_WR)
-                    self.assertNotIn(b" 101 ", connection.recv(4096))
+                    assert b" 101 " not in connection.recv(4096)
         self.check_bystander()
 
     def test_pings_without_end_delay_no_one(self):
@@ -108,11 +107,11 @@ class Hostile(Case):
         time.sleep(0.2)
         before = self.memory()
         self.check_bystander()
-        self.assertLess(self.memory() - before, 4 << 20)
+        assert self.memory() - before < 4 << 20
 
     def test_one_that_leaves_in_a_long_request_is_noticed(self):
         wire = self.connect()
-        self.assertTrue(wire.ask(load_inline(JUMP_TO_ITSELF) + b" frame_skip=1000").startswith(b"ok "))
+        assert wire.ask(load_inline(JUMP_TO_ITSELF) + b" frame_skip=1000").startswith(b"ok ")
         wire.send(b"act NOOP*1999")
         self.server.wait_until_it_works()
         wire.close()
@@ -126,9 +125,9 @@ class Hostile(Case):
             connection.sendall(b"GET /session HTTP/1.1\r\n")
         self.check_bystander()
         for wire in crowd[::50]:
-            self.assertTrue(wire.ask(b"hello").startswith(b"ok "))
+            assert wire.ask(b"hello").startswith(b"ok ")
 
-    @unittest.skipIf(sanitized() or thread_sanitized(), "a sanitizer needs more memory")
+    @pytest.mark.skipif(sanitized() or thread_sanitized(), reason="a sanitizer needs more memory")
     def test_memory_is_limited(self):
         with (
             Server("serve", "--listen", "ws://127.0.0.1:0", "--max-memory", "80M") as server,
@@ -142,9 +141,5 @@ class Hostile(Case):
             wire.ask(b"load beamfall")
             for number in range(256, 0, -64):
                 is_refused |= wire.ask(b"open %d" % number).startswith(b"error limit ")
-            self.assertTrue(is_refused)
-            self.assertTrue(small.ask(b"act NOOP").startswith(b"ok "))
-
-
-if __name__ == "__main__":
-    main()
+            assert is_refused
+            assert small.ask(b"act NOOP").startswith(b"ok ")

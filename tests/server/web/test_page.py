@@ -3,39 +3,35 @@
 import gzip
 import os
 import socket
-import sys
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import PATIENCE, SOURCE, main
+from harness import PATIENCE, SOURCE
 from web_case import Case, port_of
 
 
-class Page(Case):
+class TestPage(Case):
     def test_it_is_served_with_fields_that_keep_it_to_itself(self):
         self.start()
         status, fields, text = self.get("/")
         with open(os.path.join(SOURCE, "viewer", "dist", "index.html"), "rb") as file:
-            self.assertEqual((status, text), (200, file.read()))
-        self.assertEqual(fields["Content-Type"], "text/html; charset=utf-8")
-        self.assertEqual(fields["X-Content-Type-Options"], "nosniff")
-        self.assertTrue(fields["Content-Security-Policy"].startswith("default-src 'none'; script-src 'self'; "))
-        self.assertEqual(self.get("/index.html")[2], text)
+            assert (status, text) == (200, file.read())
+        assert fields["Content-Type"] == "text/html; charset=utf-8"
+        assert fields["X-Content-Type-Options"] == "nosniff"
+        assert fields["Content-Security-Policy"].startswith("default-src 'none'; script-src 'self'; ")
+        assert self.get("/index.html")[2] == text
 
-    def test_every_file_is_there_compressed_and_cached(self):
+    def test_every_file_is_there_compressed_and_cached(self, subtests):
         self.start()
         folder = os.path.join(SOURCE, "viewer", "dist")
         names = [
             os.path.relpath(os.path.join(path, name), folder) for path, _, files in os.walk(folder) for name in files
         ]
-        self.assertIn("index.html", names)
+        assert "index.html" in names
         for name in names:
-            with self.subTest(name), open(os.path.join(folder, name), "rb") as file:
+            with subtests.test(name), open(os.path.join(folder, name), "rb") as file:
                 status, fields, text = self.get("/" + name, **{"Accept-Encoding": "br, gzip"})
-                self.assertEqual(
-                    (status, fields["Content-Encoding"], gzip.decompress(text)), (200, "gzip", file.read())
-                )
-                self.assertEqual(self.get("/" + name, **{"If-None-Match": fields["ETag"]})[::2], (304, b""))
-                self.assertEqual(self.get("/" + name, **{"If-None-Match": '"other"'})[0], 200)
+                assert (status, fields["Content-Encoding"], gzip.decompress(text)) == (200, "gzip", file.read())
+                assert self.get("/" + name, **{"If-None-Match": fields["ETag"]})[::2] == (304, b"")
+                assert self.get("/" + name, **{"If-None-Match": '"other"'})[0] == 200
 
     def answers(self, *pieces):
         """What the server says after each piece of a request, and then until it closes."""
@@ -55,13 +51,11 @@ class Page(Case):
                 b"Expect: 100-continue\r\n\r\n",
                 b"body",
             )
-            self.assertEqual(first, b"HTTP/1.1 100 Continue\r\n\r\n")
-            self.assertTrue(second.startswith(status), second)
-        self.assertTrue(
-            self.answers(b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 4000\r\nExpect: 100-continue\r\n\r\n")[
-                0
-            ].startswith(b"HTTP/1.1 413 ")
-        )
+            assert first == b"HTTP/1.1 100 Continue\r\n\r\n"
+            assert second.startswith(status), second
+        assert self.answers(b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 4000\r\nExpect: 100-continue\r\n\r\n")[
+            0
+        ].startswith(b"HTTP/1.1 413 ")
 
     def test_a_request_that_cannot_be_read_gets_an_error(self):
         self.start("--http", "127.0.0.1:0")
@@ -79,7 +73,7 @@ class Page(Case):
                     reply = b""
                     while piece := connection.recv(65536):
                         reply += piece
-                    self.assertTrue(reply.startswith(status), (status, reply))
+                    assert reply.startswith(status), (status, reply)
 
     def test_other_paths_are_not(self):
         self.start()
@@ -90,8 +84,4 @@ class Page(Case):
             ("/metrics", 404),
             ("/session", 426),
         ):
-            self.assertEqual(self.get(path)[0], status, path)
-
-
-if __name__ == "__main__":
-    main()
+            assert self.get(path)[0] == status, path

@@ -6,16 +6,13 @@ tests compare the fastest tenth.
 
 import contextlib
 import multiprocessing
-import os
 import re
 import resource
 import selectors
-import sys
 import threading
 import time
-import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import pytest
 from harness import PATIENCE, Server, ask, connect_tcp, main
 from web_socket import TEXT, WebSocket, frame
 
@@ -87,27 +84,31 @@ def ask_ahead(port, count, ahead, seconds, is_ready, total):
                     connection.send(frame(TEXT, REQUEST) * pictures)
 
 
-class Watchers(unittest.TestCase):
+class TestWatchers:
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
     def serve(self, *options):
         server = Server(
             "serve", "--listen", "tcp://127.0.0.1:0", "--listen", "ws://127.0.0.1:0", "--grace", "0", *options
         )
-        self.addCleanup(server.__exit__)
+        self.cleanup(server.__exit__)
         self.process = server.process.pid
         self.port = int(server.wait_for(r"listening on ws://127\.0\.0\.1:(\d+)$")[1])
         agent = Agent(server.port())
-        self.addCleanup(agent.stop)
+        self.cleanup(agent.stop)
         return agent
 
     def check_not_held_up(self, agent, alone):
         """Plays for a second. `alone`: how long an act takes that nobody watches."""
         usual, slowest = agent.measure(1)
-        self.assertLess(usual, 2 * alone + 0.002)
-        self.assertLess(slowest, LONGEST)
+        assert usual < 2 * alone + 0.002
+        assert slowest < LONGEST
 
     def watcher(self):
         wire = WebSocket(self.port)
-        self.addCleanup(wire.close)
+        self.cleanup(wire.close)
         return wire
 
     def memory(self):
@@ -117,7 +118,7 @@ class Watchers(unittest.TestCase):
     def watch(self, wire):
         """The frame of the newest picture."""
         reply = wire.ask(REQUEST)
-        self.assertEqual(len(wire.message()[1]), 160 * 210)
+        assert len(wire.message()[1]) == 160 * 210
         return number(reply, "frame")
 
     def test_a_tab_that_sleeps_holds_up_nothing_and_goes_on_when_it_wakes(self):
@@ -133,29 +134,29 @@ class Watchers(unittest.TestCase):
         for _ in range(5):
             self.check_not_held_up(agent, alone)
             screens.append(self.watch(other))
-        self.assertEqual(screens, sorted(set(screens)))
-        self.assertLess(self.memory() - before, 8 << 20)
+        assert screens == sorted(set(screens))
+        assert self.memory() - before < 8 << 20
         agent.go_on()
         frames = []
         for _ in range(1000):
             frames.append(number(sleeper.line(), "frame"))
-            self.assertEqual(len(sleeper.message()[1]), 160 * 210)
-        self.assertEqual(frames, sorted(frames))
-        self.assertGreater(frames[-1], screens[-1])  # the last is new, not from before the sleep
+            assert len(sleeper.message()[1]) == 160 * 210
+        assert frames == sorted(frames)
+        assert frames[-1] > screens[-1]  # the last is new, not from before the sleep
 
     def test_a_tab_that_sleeps_too_long_is_closed(self):
         agent = self.serve("--idle", "1")
         ask_again = self.watcher()
-        self.assertTrue(ask_again.ask(b"hello").startswith(b"ok "))
+        assert ask_again.ask(b"hello").startswith(b"ok ")
         sleeper = self.watcher()
         for _ in range(1000):
             sleeper.send(REQUEST)
         end = time.monotonic() + PATIENCE
         _, slowest = agent.measure(2.5)
-        self.assertLess(slowest, LONGEST)
+        assert slowest < LONGEST
         with contextlib.suppress(OSError, TypeError):
             while sleeper.message() is not None:
-                self.assertLess(time.monotonic(), end)
+                assert time.monotonic() < end
 
     def test_a_thousand_watchers_of_one_session(self):
         agent = self.serve("--max-sessions", "1100")
@@ -164,20 +165,20 @@ class Watchers(unittest.TestCase):
         crowd = [self.watcher() for _ in range(1000)]
         seen, rounds = set(), 0
         while rounds < 3 or len(seen) <= rounds:  # until the agent acts among the replies of a round
-            self.assertLess(rounds, 12, "no round has two pictures")
+            assert rounds < 12, "no round has two pictures"
             rounds += 1
             agent.times = []
             for wire in crowd:
                 wire.send(b"watch room screen:delta")
             for wire in crowd:
                 reply = wire.line()
-                self.assertTrue(reply.startswith(b"ok game=beamfall "), reply[:80])
+                assert reply.startswith(b"ok game=beamfall "), reply[:80]
                 seen.add(number(reply, "frame"))
-            self.assertLess(max(agent.times, default=0), LONGEST)
+            assert max(agent.times, default=0) < LONGEST
         refusal = self.watcher().ask(b"watch room")
-        self.assertTrue(refusal.startswith(b"error limit "), refusal)
+        assert refusal.startswith(b"error limit "), refusal
         grown = (self.memory() - before) / 1000
-        self.assertLess(grown, 150 << 10)
+        assert grown < 150 << 10
         self.check_not_held_up(agent, alone)  # those that do not ask cost nothing
 
     def acts_for_each_picture(self, agent, watchers, seconds):
@@ -187,17 +188,17 @@ class Watchers(unittest.TestCase):
             target=ask_ahead, args=(self.port, watchers, 30, seconds, is_ready, total), daemon=True
         )
         crowd.start()
-        self.assertTrue(is_ready.wait(PATIENCE))
+        assert is_ready.wait(PATIENCE)
         before = agent.acts
         crowd.join()
-        self.assertEqual(crowd.exitcode, 0)
+        assert crowd.exitcode == 0
         return (agent.acts - before) * watchers / total.value
 
     def test_watchers_that_always_have_a_request_in_flight(self):
         agent = self.serve("--threads", "1")
         shares = []
         while max(shares, default=0) < 0.2:  # usually about 1, and 0.05 where the agent waits for all that they sent
-            self.assertLess(len(shares), 5, shares)
+            assert len(shares) < 5, shares
             shares.append(self.acts_for_each_picture(agent, 200, 2))
 
 

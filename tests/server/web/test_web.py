@@ -1,27 +1,25 @@
 """Sessions over WebSocket, alone and beside the page."""
 
-import os
 import re
 import signal
 import struct
-import sys
 
-sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import Server, main, run
+import pytest
+from harness import Server, run
 from test_documents import conversations, pattern
 from test_hostile import ENDLESS
 from web_case import Case, port_of
 from web_socket import BINARY, CLOSE, PING, PONG, TEXT, Refused, WebSocket, frame
 
 
-class Conversation(Case):
-    def test_the_conversations_of_the_line_protocol_are_real(self):
+class TestConversation(Case):
+    def test_the_conversations_of_the_line_protocol_are_real(self, subtests):
         for command, requests, replies in conversations("protocol/PROTOCOL.md"):
             options = [word for word in command[2:] if word != "--stdio"]
             if "--strict" in options:  # on streams only
                 continue
             with (
-                self.subTest(command=command, said=requests),
+                subtests.test(command=command, said=requests),
                 Server("serve", "--listen", "ws://127.0.0.1:0", *options) as server,
             ):
                 wire = WebSocket(port_of(server))
@@ -34,10 +32,10 @@ class Conversation(Case):
                     found += text + b"\n"
                     if re.search(rb" raw=\d+\Z", text):
                         opcode, payload = wire.message()
-                        self.assertEqual(opcode, BINARY)
+                        assert opcode == BINARY
                         found += payload
                 wire.close()
-                self.assertRegex(found.decode("latin-1"), f"\\A{pattern(replies)}\\Z")
+                assert re.search(f"\\A{pattern(replies)}\\Z", found.decode("latin-1"))
 
     def test_a_message_is_one_line_or_several_in_any_number_of_frames(self):
         self.start()
@@ -50,28 +48,28 @@ class Conversation(Case):
         ):
             wire.send(text)
             for _ in range(replies):
-                self.assertTrue(wire.line().startswith(b"ok "), text)
+                assert wire.line().startswith(b"ok "), text
         wire.write(
             frame(TEXT, b"help", final=False)
             + frame(PING, b"between")
             + b"".join(frame(0, bytes([byte]), final=False) for byte in b" load")
             + frame(0, b"")
         )
-        self.assertEqual(wire.message(), (PONG, b"between"))
-        self.assertTrue(wire.line().startswith(b"ok load "))
-        self.assertEqual(wire.ask(b""), b"error bad-line the line is empty; help lists the commands")
+        assert wire.message() == (PONG, b"between")
+        assert wire.line().startswith(b"ok load ")
+        assert wire.ask(b"") == b"error bad-line the line is empty; help lists the commands"
 
     def test_a_long_reply_and_a_long_request_arrive_whole(self):
         self.start()
         wire = self.connect()
         wire.ask(b"load beamfall seed=1")
-        self.assertEqual(len(wire.ask(b"look rgb:hex")), len("ok rgb=") + 2 * 3 * 160 * 210)
+        assert len(wire.ask(b"look rgb:hex")) == len("ok rgb=") + 2 * 3 * 160 * 210
         wire.send(b"look screen:raw ram:raw")
-        self.assertEqual(wire.line(), b"ok screen=33600 ram=128 raw=33728")
+        assert wire.line() == b"ok screen=33600 ram=128 raw=33728"
         opcode, payload = wire.message()
-        self.assertEqual((opcode, len(payload)), (BINARY, 33728))
+        assert (opcode, len(payload)) == (BINARY, 33728)
         many = b"act" + b" NOOP" * 20000
-        self.assertTrue(wire.ask(many).startswith(b"ok reward="))
+        assert wire.ask(many).startswith(b"ok reward=")
 
     def test_requests_sent_ahead_are_answered_in_order(self):
         self.start()
@@ -82,38 +80,38 @@ class Conversation(Case):
             )
         )
         wire.line(), wire.line()
-        self.assertEqual([wire.line() for _ in range(1, 300)], [b"ok acts=%d" % n for n in range(1, 300)])
+        assert [wire.line() for _ in range(1, 300)] == [b"ok acts=%d" % n for n in range(1, 300)]
 
     def test_either_side_closes_in_good_order(self):
         self.start()
         wire = self.connect()
         wire.send(b"quit")
-        self.assertEqual(wire.end(), (b"ok", 1000))
+        assert wire.end() == (b"ok", 1000)
         wire = self.connect()
         wire.write(frame(CLOSE, struct.pack("!H", 1000)))
-        self.assertEqual(wire.end(), (None, 1000))
+        assert wire.end() == (None, 1000)
         self.server.wait_for(r"client 2: 0 requests")
         wire = self.connect()
         wire.ask(b"load beamfall")
         self.server.process.send_signal(signal.SIGTERM)
-        self.assertEqual(wire.end(), (b"error stopping the server stops", 1001))
-        self.assertEqual(self.server.wait(), 0)
+        assert wire.end() == (b"error stopping the server stops", 1001)
+        assert self.server.wait() == 0
 
     def test_idle_sessions_get_an_error_and_are_closed(self):
         self.start("--idle", "1")
-        self.assertEqual(self.connect().end(), (b"error idle nothing came or went for 1 seconds", 1008))
+        assert self.connect().end() == (b"error idle nothing came or went for 1 seconds", 1008)
 
     def test_it_is_one_of_the_addresses(self):
         self.start("--ready-file", "ready", "--announce", "announce")
-        self.assertEqual(self.server.addresses("ready"), [f"ws://127.0.0.1:{port_of(self.server)}"])
+        assert self.server.addresses("ready") == [f"ws://127.0.0.1:{port_of(self.server)}"]
 
     def test_the_classic_protocol_is_refused(self):
         for options in (["--listen", "classic+ws://127.0.0.1:0"], ["--listen", "ws://127.0.0.1:0", "--classic"]):
             status, _, errors = run("serve", *options, "--rom", "builtin:beamfall")
-            self.assertEqual((status, len(errors)), (2, 1), errors)
+            assert (status, len(errors)) == (2, 1), errors
 
 
-class BesideThePage(Case):
+class TestBesideThePage(Case):
     """Sessions on the port of --http."""
 
     def start(self, *options, listen="tcp://127.0.0.1:0"):
@@ -122,25 +120,21 @@ class BesideThePage(Case):
     def test_a_session_runs_and_counts_as_one(self):
         self.start("--max-sessions", "1", "--threads", "2")
         wire = self.connect("http")
-        self.assertTrue(wire.ask(b"load beamfall").startswith(b"ok game=beamfall"))
-        self.assertIn(b'racebeam_sessions_total{protocol="line"} 1\n', self.get("/metrics", "http")[2])
+        assert wire.ask(b"load beamfall").startswith(b"ok game=beamfall")
+        assert b'racebeam_sessions_total{protocol="line"} 1\n' in self.get("/metrics", "http")[2]
         reply = self.refusal("http")
-        self.assertEqual(reply.status, 503)
-        self.assertIn("there are 1 sessions", reply.text)
-        self.assertTrue(wire.ask(b"act NOOP").startswith(b"ok "))
+        assert reply.status == 503
+        assert "there are 1 sessions" in reply.text
+        assert wire.ask(b"act NOOP").startswith(b"ok ")
 
     def test_a_server_without_the_line_protocol_offers_no_session(self):
         self.start("--rom", "builtin:beamfall", listen="classic+tcp://127.0.0.1:0")
-        self.assertEqual(self.refusal("http").status, 403)
+        assert self.refusal("http").status == 403
 
     def test_beyond_this_machine_sessions_need_tokens(self):
         with Server("serve", "--listen", "unix:s", "--http", "0.0.0.0:0") as server:
             port = int(server.wait_for(r"health and metrics on http://0\.0\.0\.0:(\d+)").group(1))
-            with self.assertRaises(Refused) as refused:
+            with pytest.raises(Refused) as refused:
                 WebSocket(port)
-            self.assertEqual(refused.exception.status, 403)
-            self.assertIn("--token-file", refused.exception.text)
-
-
-if __name__ == "__main__":
-    main()
+            assert refused.value.status == 403
+            assert "--token-file" in refused.value.text

@@ -3,9 +3,10 @@
 import os
 import socket
 import sys
-import unittest
 import urllib.error
 import urllib.request
+
+import pytest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from harness import PATIENCE, Server
@@ -16,28 +17,32 @@ def port_of(server, scheme="ws"):
     return int(server.wait_for(scheme + r"://127\.0\.0\.1:(\d+)$").group(1))
 
 
-class Case(unittest.TestCase):
+class Case:
     """A server, and connections to it, which are closed at the end of the test."""
+
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
 
     def start(self, *options, listen="ws://127.0.0.1:0"):
         self.server = Server("serve", "--listen", listen, "--grace", "0", *options)
-        self.addCleanup(self.server.__exit__)
+        self.cleanup(self.server.__exit__)
         return self.server
 
     def connect(self, scheme="ws", **fields):
         wire = WebSocket(port_of(self.server, scheme), **fields)
-        self.addCleanup(wire.close)
+        self.cleanup(wire.close)
         return wire
 
     def raw(self):
         connection = socket.create_connection(("127.0.0.1", port_of(self.server)), timeout=PATIENCE)
-        self.addCleanup(connection.close)
+        self.cleanup(connection.close)
         return connection
 
     def refusal(self, scheme="ws", **fields):
-        with self.assertRaises(Refused) as found:
+        with pytest.raises(Refused) as found:
             self.connect(scheme, **fields)
-        return found.exception
+        return found.value
 
     def get(self, path, scheme="ws", **fields):
         request = urllib.request.Request(f"http://127.0.0.1:{port_of(self.server, scheme)}{path}", headers=fields)
