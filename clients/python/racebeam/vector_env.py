@@ -190,8 +190,8 @@ class AtariVectorEnv(PlayedVector):
         machines: Machines
         if server is None:
             machines = make_local_machines(names, game_of_env, rom, options, own_file)
-        elif unplayed := [*options._console(), *(["sound_obs"] if options.sound_obs else [])]:
-            raise WrongValue(f"{' and '.join(unplayed)} cannot be given with server; AtariEnv takes both")
+        elif options.sound_obs:
+            raise WrongValue("sound_obs cannot be given with server; AtariEnv takes both")
         else:
             machines = make_remote_machines(names, rom, options, server, token, seconds("timeout", timeout))
         for warning in machines.image_warnings():

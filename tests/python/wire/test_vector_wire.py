@@ -50,6 +50,15 @@ SETTINGS = (
     },
     {"preset": "dqn2015", "autoreset_mode": "Disabled", "maxpool": False, "frameskip": 60, "rules": "fixed"},
     {"full_action_space": "console", "repeat_action_probability": 0.25},
+    {
+        "left": "paddles",
+        "right": "keyboard",
+        "scheme": "2K",
+        "format": "pal",
+        "ystart": 40,
+        "height": 220,
+        "obs_type": "rgb",
+    },
     {"use_fire_reset": False, "start": "fire-noops", "life_loss": "reported", "frameskip": 60, "seed": 0},
 )
 

@@ -57,7 +57,7 @@ class RemoteMachines(Halves):
         self._turn = threading.Lock()
         self._machine = RemoteInterface(server, token, timeout)
         self._session = self._machine.session
-        self._load(game, rom, settings, options.rules)
+        self._load(game, rom, settings, {"rules": options.rules, **options._console()})
         self._actions = self._read_actions(settings)
         field = _field(settings, self.height())
         self.last = LastReply(self._session, self._count, field)
@@ -70,7 +70,7 @@ class RemoteMachines(Halves):
         )
         self._open(settings)
 
-    def _load(self, game: str, rom: Any, settings: VectorSettings, rules: str) -> None:
+    def _load(self, game: str, rom: Any, settings: VectorSettings, more: dict[str, str]) -> None:
         limits = {"reward_min": settings.reward_min, "reward_max": settings.reward_max}
         self._machine.load(
             rom,
@@ -82,7 +82,7 @@ class RemoteMachines(Halves):
                 "max_episode_frames": settings.max_episode_frames,
                 "action_set": _word(settings.action_set),
                 "noop_max": settings.noop_max,
-                "rules": rules,
+                **more,
                 **{side: "none" if limit in NO_LIMITS else limit for side, limit in limits.items()},
             },
         )
