@@ -4,14 +4,15 @@ import glob
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
-import unittest
 
 import bench_picture
 import bench_report
 import bench_settings
+import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BINARY = os.environ.get("RACEBEAM_BINARY", str(SOURCE / "build/release/racebeam"))
@@ -61,18 +62,18 @@ def results(ratios):
     }
 
 
-class Reports(unittest.TestCase):
+class TestReports:
     def test_the_summary_has_the_geomean_and_the_worst(self):
         for mean, worst, game in bench_report.summary(results({"one": 2, "other": 8})).values():
-            self.assertAlmostEqual(mean, 4)
-            self.assertEqual((worst, game), (2, "one"))
+            assert mean == pytest.approx(4, rel=0, abs=0.5e-7)
+            assert (worst, game) == (2, "one")
 
     def test_the_picture_has_a_bar_a_game_the_shortest_first(self):
         picture = bench_picture.draw({"fast": 9.5, "slow": 3.25, "middle": 5}, "Heading")
         places = [picture.index(f">{words}<") for words in ("slow", "3.25", "middle", "5.00", "fast", "9.50")]
-        self.assertEqual(places, sorted(places))
-        self.assertIn(">10x<", picture)
-        self.assertIn("worst 3.25 (slow)", picture)
+        assert places == sorted(places)
+        assert ">10x<" in picture
+        assert "worst 3.25 (slow)" in picture
 
     def test_the_summary_goes_between_the_markers_of_the_page_and_the_games_into_a_file(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -83,29 +84,29 @@ class Reports(unittest.TestCase):
             bench_report.PAGE.write_text(f"before\n{bench_report.BEGIN}\nold\n{bench_report.END}\nafter\n")
             bench_report.write(results({"one": 2}))
             page = bench_report.PAGE.read_text()
-            self.assertRegex(page, r"(?s)^before\n.*\(figures/picture\.svg\).*\| 2\.00 \| 2\.00 \| one \|.*\nafter\n$")
-            self.assertNotIn("| one | 100", page)
-            self.assertIn("| one | 100 | 200 | 2.00 |", bench_report.FIGURES.read_text())
-            self.assertNotIn("old", page)
-            self.assertTrue(bench_report.PICTURE.exists())
-            self.assertIn("means of 1 games", bench_report.SUMMARY.read_text())
+            assert re.search(r"(?s)^before\n.*\(figures/picture\.svg\).*\| 2\.00 \| 2\.00 \| one \|.*\nafter\n$", page)
+            assert "| one | 100" not in page
+            assert "| one | 100 | 200 | 2.00 |" in bench_report.FIGURES.read_text()
+            assert "old" not in page
+            assert bench_report.PICTURE.exists()
+            assert "means of 1 games" in bench_report.SUMMARY.read_text()
             bench_report.PAGE.write_text("a page without markers")
-            with self.assertRaisesRegex(OSError, "lacks the lines"):
+            with pytest.raises(OSError, match="lacks the lines"):
                 bench_report.write(results({"one": 2}))
 
 
-class Actions(unittest.TestCase):
+class TestActions:
     def test_a_game_gets_the_same_actions_each_time_and_others_get_others(self):
         def draw(game):
             return bench_settings.draw_actions(game, range(18), 1000)
 
-        self.assertEqual(draw("pong"), draw("pong"))
-        self.assertNotEqual(draw("pong"), draw("qbert"))
-        self.assertEqual(set(draw("pong")), set(range(18)))
+        assert draw("pong") == draw("pong")
+        assert draw("pong") != draw("qbert")
+        assert set(draw("pong")) == set(range(18))
 
 
-@unittest.skipIf(PYTHON is None, "ale-py is missing here and in .venv (scripts/reference installs it)")
-class Measuring(unittest.TestCase):
+@pytest.mark.skipif(PYTHON is None, reason="ale-py is missing here and in .venv (scripts/reference installs it)")
+class TestMeasuring:
     def measure(self, binary, *words):
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder) / "core.json"
@@ -137,30 +138,30 @@ class Measuring(unittest.TestCase):
 
     def test_every_setting_is_measured(self):
         done, found = self.measure(BINARY)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        assert done.returncode == 0, done.stderr
         game = found["games"]["pong"]
-        self.assertEqual(list(game), ["every", "last", "none", "states"])
+        assert list(game) == ["every", "last", "none", "states"]
         for name in bench_settings.SETTINGS:
-            self.assertEqual([frames for _, _, frames in game[name]["chunks"]], [500, 500])
-            self.assertGreater(game[name]["ratio"], 0)
-        self.assertTrue(all(value > 0 for value in game["states"].values()))
+            assert [frames for _, _, frames in game[name]["chunks"]] == [500, 500]
+            assert game[name]["ratio"] > 0
+        assert all(value > 0 for value in game["states"].values())
 
-    def test_a_difference_makes_the_run_fail_and_is_named(self):
-        for command, field, setting in (
+    @pytest.mark.parametrize(
+        "command, field, setting",
+        (
             ("play", "screen", "every"),
             ("play", "ram", "none"),
             ("check", "digest", "last"),
             ("play", "reward", "none"),
             ("reset", "screen", "states"),
-        ):
-            with self.subTest(command=command, field=field):
-                done = self.measure_liar(command, field, "--settings", setting)
-                self.assertEqual(done.returncode, 1, done.stderr)
-                self.assertRegex(
-                    done.stderr, rf"bench: pong differs from the reference in setting {setting}, .*: {field} "
-                )
+        ),
+    )
+    def test_a_difference_makes_the_run_fail_and_is_named(self, command, field, setting):
+        done = self.measure_liar(command, field, "--settings", setting)
+        assert done.returncode == 1, done.stderr
+        assert re.search(rf"bench: pong differs from the reference in setting {setting}, .*: {field} ", done.stderr)
 
     def test_a_game_without_an_image_is_named(self):
         done, _ = self.measure(BINARY, "--games", "pang")
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("no image of pang was found in", done.stderr)
+        assert done.returncode == 1
+        assert "no image of pang was found in" in done.stderr

@@ -1,76 +1,67 @@
 """The small mistakes of scripts/check/mutants."""
 
-import pathlib
-import sys
-import unittest
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-import mutations  # noqa: E402
+import mutations
 
 
 def edits(line):
     return set(mutations.edits_of(line))
 
 
-class Edits(unittest.TestCase):
+class TestEdits:
     def test_limits_and_conditions_are_turned(self):
         turned = {"  if (a <= b && !c) return;", "  if (a < b || !c) return;", "  if (a < b && c) return;"}
-        self.assertEqual(edits("  if (a < b && !c) return;"), turned)
-        self.assertEqual(edits("  return a == b;"), {"  return a != b;"})
-        self.assertEqual(edits("  return std::min(a, b);"), {"  return std::max(a, b);", "  return std::min(b, a);"})
+        assert edits("  if (a < b && !c) return;") == turned
+        assert edits("  return a == b;") == {"  return a != b;"}
+        assert edits("  return std::min(a, b);") == {"  return std::max(a, b);", "  return std::min(b, a);"}
 
     def test_a_number_is_one_too_large_and_arguments_are_exchanged(self):
-        self.assertEqual(edits("  const int most = 15;"), {"  const int most = 16;"})
-        self.assertEqual(edits("  return call(a, b.c);"), {"  return call(b.c, a);"})
-        self.assertEqual(edits("  return x0 - 0x1F;"), {"  return x0 + 0x1F;"})
+        assert edits("  const int most = 15;") == {"  const int most = 16;"}
+        assert edits("  return call(a, b.c);") == {"  return call(b.c, a);"}
+        assert edits("  return x0 - 0x1F;") == {"  return x0 + 0x1F;"}
 
     def test_a_statement_is_dropped_but_no_declaration(self):
         for line in ("  call(a);", "  a.b->c[i] = d;", "  ++count;", "  count_ += more;"):
-            self.assertIn("", edits(line), line)
+            assert "" in edits(line), line
         for line in ("  return a;", "  const int a = b;", "  using std::min;", "  throw Error(a);"):
-            self.assertNotIn("", edits(line), line)
+            assert "" not in edits(line), line
 
     def test_texts_comments_and_angle_brackets_are_not_code(self):
-        self.assertEqual(edits('  return "a < b";  // 7 && 8'), set())
-        self.assertEqual(edits("  return std::vector<int>(a);"), set())
-        self.assertEqual(mutations.mutants("#include <a>\n// a < 1\nstatic_assert(a < 1);\n"), [])
+        assert edits('  return "a < b";  // 7 && 8') == set()
+        assert edits("  return std::vector<int>(a);") == set()
+        assert mutations.mutants("#include <a>\n// a < 1\nstatic_assert(a < 1);\n") == []
 
 
-class Python(unittest.TestCase):
+class TestPython:
     def edits(self, line):
         return set(mutations.edits_of(line, mutations.PYTHON))
 
     def test_words_and_divisions_are_exchanged(self):
-        self.assertEqual(self.edits("    if not a and b in c:"), {"    if a and b in c:", "    if not a or b in c:"})
-        self.assertEqual(self.edits("    return a / max(b)"), {"    return a * max(b)", "    return a / min(b)"})
-        self.assertEqual(self.edits("    return a not in b"), {"    return a in b"})
+        assert self.edits("    if not a and b in c:") == {"    if a and b in c:", "    if not a or b in c:"}
+        assert self.edits("    return a / max(b)") == {"    return a * max(b)", "    return a / min(b)"}
+        assert self.edits("    return a not in b") == {"    return a in b"}
 
     def test_a_statement_that_defines_a_name_is_not_dropped(self):
         for line in ("    call(a)", "    a.b = c", "    a[b] = c", "    a += b"):
-            self.assertIn("    pass", self.edits(line), line)
+            assert "    pass" in self.edits(line), line
         for line in ("    a = b", "    return call(a)", "    raise Error(a)"):
-            self.assertNotIn("    pass", self.edits(line), line)
+            assert "    pass" not in self.edits(line), line
 
     def test_docstrings_are_not_code_and_each_mutant_compiles(self):
         source = 'def f(a):\n    """a < 1\n\n    b < 2."""\n    return a < 3\n'
         found = mutations.mutants(source, mutations.PYTHON)
-        self.assertEqual([each.after.strip() for each in found], ["return a <= 3", "return a < 4"])
-        self.assertEqual(mutations.mutants("call(1,\n     b)\n", mutations.PYTHON)[0].after, "call(2,")
-        self.assertFalse(mutations.compiles("call(\n"))
+        assert [each.after.strip() for each in found] == ["return a <= 3", "return a < 4"]
+        assert mutations.mutants("call(1,\n     b)\n", mutations.PYTHON)[0].after == "call(2,"
+        assert not mutations.compiles("call(\n")
 
 
-class Mutants(unittest.TestCase):
+class TestMutants:
     SOURCE = "int f(int a) {\n  return a + 1;\n}\n"
 
     def test_each_changes_one_line(self):
         found = mutations.mutants(self.SOURCE)
-        self.assertEqual([mutant.line for mutant in found], [2, 2])
-        self.assertEqual(
-            [mutant.apply(self.SOURCE) for mutant in found],
-            ["int f(int a) {\n  return a - 1;\n}\n", "int f(int a) {\n  return a + 2;\n}\n"],
-        )
-        self.assertEqual(str(found[0]), "2: return a + 1;\n    return a - 1;")
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert [mutant.line for mutant in found] == [2, 2]
+        assert [mutant.apply(self.SOURCE) for mutant in found] == [
+            "int f(int a) {\n  return a - 1;\n}\n",
+            "int f(int a) {\n  return a + 2;\n}\n",
+        ]
+        assert str(found[0]) == "2: return a + 1;\n    return a - 1;"

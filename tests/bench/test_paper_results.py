@@ -3,11 +3,10 @@
 import json
 import pathlib
 import sys
-import tempfile
-import unittest
 
 import paper_results
 import plan_figures
+import pytest
 from paper.parts import PLANS
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
@@ -51,11 +50,10 @@ def results(folder, agents, scores, seconds="2.0", frames="1000"):
     )
 
 
-class PaperResults(unittest.TestCase):
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.folder = pathlib.Path(place.name)
+class TestPaperResults:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.folder = tmp_path
 
     def text(self):
         """The document, by way of the files of figures."""
@@ -68,18 +66,18 @@ class PaperResults(unittest.TestCase):
     def test_plans_without_whole_results_count_as_not_run(self):
         text = self.text()
         for plan in PLANS:
-            self.assertIn(f"| `{plan}` | not run yet |", text)
-        self.assertIn("Not run yet: `racebeam experiment uct`.", text)
+            assert f"| `{plan}` | not run yet |" in text
+        assert "Not run yet: `racebeam experiment uct`." in text
 
     def test_unfinished_results_count_with_what_is_finished(self):
         results(self.folder / "uct", ["uct"], {"uct": [[5]]})
         (self.folder / "uct/work").mkdir()
-        self.assertIn("| `uct` | 1, goes on | 1 |", self.text())
+        assert "| `uct` | 1, goes on | 1 |" in self.text()
         (self.folder / "uct/work").rmdir()
-        self.assertIn("| `uct` | 1 | 1 |", self.text())
+        assert "| `uct` | 1 | 1 |" in self.text()
 
     def test_a_folder_without_results_is_refused(self):
-        with self.assertRaisesRegex(SystemExit, "has no results"):
+        with pytest.raises(SystemExit, match="has no results"):
             plan_figures.Results(self.folder / "uct")
 
     def test_baselines_stand_beside_the_paper(self):
@@ -89,9 +87,9 @@ class PaperResults(unittest.TestCase):
             {"random": [[100, 400]], "const_noop": [[10]], "const_up": [[70, 72]], "perturb_up": [[33]]},
         )
         text = self.text()
-        self.assertIn("| asterix | 250.0 | 288.1 | 71.0 | up | 650.0 | 33.0 | up | 337.8 | const, perturb |", text)
-        self.assertIn("these agree: 1 in Random, 0 in Const, 0 in Perturb.", " ".join(text.split()))
-        self.assertIn("| `baselines` | random | largest | 4 | at most 12,288 |", text)
+        assert "| asterix | 250.0 | 288.1 | 71.0 | up | 650.0 | 33.0 | up | 337.8 | const, perturb |" in text
+        assert "these agree: 1 in Random, 0 in Const, 0 in Perturb." in " ".join(text.split())
+        assert "| `baselines` | random | largest | 4 | at most 12,288 |" in text
 
     def test_baselines_of_some_games_that_were_run_again_are_shown_as_such(self):
         agents = ["random", "const", "perturb"]
@@ -103,46 +101,46 @@ class PaperResults(unittest.TestCase):
             text = plan.read_text().replace("[agent.perturb]\nframe_skip = 5", "[agent.perturb]\nframe_skip = 1")
             plan.write_text(text)
         text = " ".join(self.text().split())
-        self.assertIn("1 in Perturb.", text)
-        self.assertIn("| asterix | 100.0 | 288.1 | 10.0 | noop | 650.0 | 330.0 | up | 337.8 | random, const |", text)
-        self.assertIn("| `baselines`, 1 games again | 3 |", text)
+        assert "1 in Perturb." in text
+        assert "| asterix | 100.0 | 288.1 | 10.0 | noop | 650.0 | 330.0 | up | 337.8 | random, const |" in text
+        assert "| `baselines`, 1 games again | 3 |" in text
         (self.folder / "figures/baselines-partial.json").unlink()
         (self.folder / "baselines-partial/plan.toml").unlink()
         text = " ".join(self.text().split())
-        self.assertIn("0 in Perturb.", text)
+        assert "0 in Perturb." in text
 
-    def test_perturb_that_is_far_from_the_paper_has_a_cause(self):
+    def test_perturb_that_is_far_from_the_paper_has_a_cause(self, subtests):
         results(self.folder / "baselines", ["random", "const"], {"random": [[1]], "const_noop": [[1]]})
         for others, cause in (
             ([330, 340], "chance of 30 episodes: the others are within a fifth"),
             ([100, 300], "chance: the others are within two standard errors"),
             ([90, 90.2], "the emulator or the rules of 2012: the others differ, too"),
         ):
-            with self.subTest(cause=cause):
+            with subtests.test(cause=cause):
                 results(self.folder / "perturb", ["perturb"], {"perturb_up": [[90, 110]]})
                 results(self.folder / "perturb-again", ["perturb"], {"perturb_up": [others]})
                 mean, error = sum(others) / 2, abs(others[1] - others[0]) / 2
                 row = f"| asterix | perturb up | 100.0 (10.0) | {mean:.1f} ({error:.1f}) | 337.8 | {cause} |"
-                self.assertIn(row, self.text())
+                assert row in self.text()
 
-    def test_const_that_differs_from_the_paper_has_a_cause(self):
+    def test_const_that_differs_from_the_paper_has_a_cause(self, subtests):
         results(self.folder / "baselines", ["random", "const"], {"random": [[288.1]], "const_up": [[600]]})
-        self.assertIn("| asterix | const up | 600.0 | - | 650.0 | not known |", self.text())
+        assert "| asterix | const up | 600.0 | - | 650.0 | not known |" in self.text()
         for others, cause in (
             ([700, 650, 600], "the frame in which play begins: after some no-ops, it is the paper's score"),
             ([600, 700, 600], "the frame in which play begins: no-ops give lower and higher scores"),
             ([600, 500], "the emulator or the rules of 2012: no start gives the paper's score"),
         ):
-            with self.subTest(cause=cause):
+            with subtests.test(cause=cause):
                 results(self.folder / "const-again", ["const"], {"const_up": [others]})
                 row = f"| asterix | const up | 600.0 | {min(others):.1f} to {max(others):.1f} | 650.0 | {cause} |"
-                self.assertIn(row, self.text())
+                assert row in self.text()
 
     def test_learners_have_scores_and_speeds(self):
         results(self.folder / "hour", ["random", "basic"], {"random": [[10]], "basic": [[20, 40], [60]]})
         text = self.text()
-        self.assertIn("| asterix | 10.0 (288.1) | 45.0 (862.3) |", text)
-        self.assertIn("| basic | 1 | 120 | 120 | 120 | 8,000 |", text)  # 1,500 frames of 5 in 2.5 s
+        assert "| asterix | 10.0 (288.1) | 45.0 (862.3) |" in text
+        assert "| basic | 1 | 120 | 120 | 120 | 8,000 |" in text  # 1,500 frames of 5 in 2.5 s
 
     def test_searches_have_times_and_their_part_of_the_bench(self):
         for name in ("uct", "uct10", "uct50", "uct150"):
@@ -150,8 +148,8 @@ class PaperResults(unittest.TestCase):
         write(self.folder / "bench/asterix-search.json", ['{"frames_per_second": 20000}'])
         text = self.text()
         agrees = "unknown: one episode has no interval"
-        self.assertIn(f"| uct | asterix | 500.0 | 290,700.0 | {agrees} | 100,000 | 200 | 0.01 | 15,000 | 0.75 |", text)
-        self.assertIn("| asterix | 500.0 (1) | 500.0 (1) | 500.0 (1) | 500.0 (1) |", text)
+        assert f"| uct | asterix | 500.0 | 290,700.0 | {agrees} | 100,000 | 200 | 0.01 | 15,000 | 0.75 |" in text
+        assert "| asterix | 500.0 (1) | 500.0 (1) | 500.0 (1) | 500.0 (1) |" in text
 
     def test_verification_is_quoted(self):
         results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
@@ -160,9 +158,9 @@ class PaperResults(unittest.TestCase):
             ["1 rows confirmed, 0 wrong, 0 could not be checked; 1000 frames in 9.0 s", "processor seconds: 0.05"],
         )
         write(self.folder / "iw1.ale", ["1 rows agree with ALE, 0 do not, 0 have no image"])
-        self.assertIn("| `iw1` | 1 | 0 | 0 | 20,000 | - | 2.0% | 1 | 0 |", self.text())
+        assert "| `iw1` | 1 | 0 | 0 | 20,000 | - | 2.0% | 1 | 0 |" in self.text()
         write(self.folder / "bench/asterix-none-5.json", ['{"frames_per_second": 25000}'])
-        self.assertIn("| `iw1` | 1 | 0 | 0 | 20,000 | 0.80 | 2.0% | 1 | 0 |", self.text())
+        assert "| `iw1` | 1 | 0 | 0 | 20,000 | 0.80 | 2.0% | 1 | 0 |" in self.text()
 
     def test_figures_of_agents_that_have_changed_are_named(self):
         results(
@@ -172,14 +170,14 @@ class PaperResults(unittest.TestCase):
         )
         results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
         text = self.text()
-        self.assertIn("| `baselines` | perturb | an action for 5 frames; now for each frame |", text)
-        self.assertIn("| `iw1` | iw1 | built its tree anew", text)
-        self.assertNotIn("| `hour` | disco |", text)
+        assert "| `baselines` | perturb | an action for 5 frames; now for each frame |" in text
+        assert "| `iw1` | iw1 | built its tree anew" in text
+        assert "| `hour` | disco |" not in text
         for name in ("baselines", "iw1"):
             plan = self.folder / name / "plan.toml"
             settings = plan.read_text().replace("[agent.perturb]\nframe_skip = 5", "[agent.perturb]\nframe_skip = 1")
             plan.write_text(settings.replace("[agent.iw1]", "[agent.iw1]\nreuse_tree = 1"))
-        self.assertNotIn("Agents that have changed", self.text())
+        assert "Agents that have changed" not in self.text()
 
     def test_whole_training_stands_beside_the_paper(self):
         results(self.folder / "learners", ["disco"], {"disco": [[700, 800], [770]]})
@@ -187,9 +185,9 @@ class PaperResults(unittest.TestCase):
         write(self.folder / "learners/curves.csv", ["unit,game,agent,trial,episode,score,frames,decisions", *curves])
         text = self.text()
         # half the difference of 20, times 12.706
-        self.assertIn("| asterix | disco | 2 | 3 | 760.0 | 632.9 to 887.1 | 754.6 | 1.01 | yes |", text)
-        self.assertIn("| asterix | disco | 5 | 25 | 45 | 65 | 85 | 105 | 125 | 145 | 165 | 185 |", text)
-        self.assertIn("Not run yet: `racebeam experiment ram`.", text)
+        assert "| asterix | disco | 2 | 3 | 760.0 | 632.9 to 887.1 | 754.6 | 1.01 | yes |" in text
+        assert "| asterix | disco | 5 | 25 | 45 | 65 | 85 | 105 | 125 | 145 | 165 | 185 |" in text
+        assert "Not run yet: `racebeam experiment ram`." in text
 
     def test_perturb_of_some_games_stands_beside_the_paper(self):
         results(
@@ -199,7 +197,7 @@ class PaperResults(unittest.TestCase):
         )
         results(self.folder / "perturb", ["perturb"], {"perturb_up": [[300]], "perturb_down": [[301]]})
         row = "| asterix | 100.0 | 288.1 | 10.0 | up | 650.0 | 301.0 | down | 337.8 | random, const |"
-        self.assertIn(row, self.text())
+        assert row in self.text()
 
     def test_kept_units_have_no_logs_and_parts_of_a_verification_add_up(self):
         results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
@@ -207,15 +205,11 @@ class PaperResults(unittest.TestCase):
         part = ["1 rows confirmed, 0 wrong, 0 could not be checked; 1000 frames in 9.0 s", "processor seconds: 0.05"]
         write(self.folder / "iw1.verify", [*part, *part])
         write(self.folder / "iw1.ale", ["1 rows agree with ALE, 0 do not, 0 have no image"] * 2)
-        self.assertIn("| `iw1` | 2 | 0 | 0 | 20,000 | - | 4.0% | 2 | 0 |", self.text())
+        assert "| `iw1` | 2 | 0 | 0 | 20,000 | - | 4.0% | 2 | 0 |" in self.text()
 
     def test_the_document_is_laid_out_as_all_are(self):
         results(self.folder / "uct", ["uct"], {"uct": [[5]]})
         write(self.folder / "machine.txt", ["processor: one", "version: 0.1.0"])
         text = self.text()
-        self.assertEqual([*layout.width_faults(text), *layout.table_faults(text)], [])
-        self.assertIn("| `uct` | 1 | 1 | 0 | 0.00 | one | 0.1.0 |", text)
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert [*layout.width_faults(text), *layout.table_faults(text)] == []
+        assert "| `uct` | 1 | 1 | 0 | 0.00 | one | 0.1.0 |" in text

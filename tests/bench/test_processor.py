@@ -1,8 +1,7 @@
 """scripts/measure/processor.py: figures name the design of the processor, not only its brand."""
 
-import unittest
-
 import processor
+import pytest
 
 CPUINFO = """processor\t: 0
 vendor_id\t: {vendor}
@@ -15,28 +14,26 @@ model name\t: Another brand
 """
 
 
-class Processor(unittest.TestCase):
-    def test_designs_that_share_a_brand_are_told_apart(self):
-        for vendor, family, model, design in [
+class TestProcessor:
+    @pytest.mark.parametrize(
+        "vendor, family, model, design",
+        [
             ("AuthenticAMD", 25, 1, "Zen 3"),
             ("AuthenticAMD", 25, 17, "Zen 4"),
             ("AuthenticAMD", 26, 2, "Zen 5"),
             ("GenuineIntel", 6, 0x55, "Skylake-SP or Cascade Lake"),
-        ]:
-            with self.subTest(design):
-                text = CPUINFO.format(vendor=vendor, family=family, model=model)
-                self.assertEqual(processor.describe(text), f"A brand ({design})")
+        ],
+    )
+    def test_designs_that_share_a_brand_are_told_apart(self, vendor, family, model, design):
+        text = CPUINFO.format(vendor=vendor, family=family, model=model)
+        assert processor.describe(text) == f"A brand ({design})"
 
     def test_an_unknown_design_is_given_by_its_numbers(self):
         text = CPUINFO.format(vendor="GenuineIntel", family=6, model=1)
-        self.assertEqual(processor.describe(text), "A brand (family 6, model 1)")
+        assert processor.describe(text) == "A brand (family 6, model 1)"
 
     def test_a_description_without_a_name(self):
-        self.assertIsNone(processor.describe("processor\t: 0\nBogoMIPS\t: 50.00\n"))
+        assert processor.describe("processor\t: 0\nBogoMIPS\t: 50.00\n") is None
 
     def test_this_machine_has_a_name(self):
-        self.assertTrue(processor.name())
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert processor.name()

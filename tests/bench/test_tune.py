@@ -2,7 +2,6 @@
 
 import pathlib
 import re
-import unittest
 
 import bench_tune
 import cartridges
@@ -16,7 +15,7 @@ def sources():
         yield from (path for path in (ROOT / folder).rglob("*.[hc]pp"))
 
 
-class Ledgers(unittest.TestCase):
+class TestLedgers:
     rows = [row for file in bench_tune.LEDGERS for row in bench_tune.read_ledger(file)]
 
     def test_every_row_is_read_with_its_meaning(self):
@@ -25,48 +24,44 @@ class Ledgers(unittest.TestCase):
             for path in sources()
             for _ in re.finditer(r"^RACEBEAM_TUNED\(", path.read_text(), re.MULTILINE)
         ]
-        self.assertEqual(sorted(calls), sorted(row["file"] for row in self.rows))
-        self.assertGreater(len(self.rows), 40)
+        assert sorted(calls) == sorted(row["file"] for row in self.rows)
+        assert len(self.rows) > 40
 
     def test_names_are_unique_and_used(self):
         names = [row["name"] for row in self.rows]
-        self.assertEqual(len(names), len(set(names)))
+        assert len(names) == len(set(names))
         ledgers = {ROOT / file for file in bench_tune.LEDGERS}
         text = "".join(path.read_text() for path in sources() if path not in ledgers)
-        self.assertEqual([name for name in names if f"tuning::{name}" not in text], [])
+        assert [name for name in names if f"tuning::{name}" not in text] == []
 
     def test_what_measures_a_row_exists(self):
-        self.assertLessEqual({row["measure"] for row in self.rows}, {*bench_tune.MEASURES, "none"})
+        assert {row["measure"] for row in self.rows} <= {*bench_tune.MEASURES, "none"}
 
     def test_policies_are_switched_off_by_rows(self):
         numbers = {name for values in bench_tune.POLICIES.values() for name in values}
-        self.assertLessEqual(numbers, {row["name"] for row in self.rows})
+        assert numbers <= {row["name"] for row in self.rows}
 
-    def test_the_page_has_each_row_with_its_value(self):
+    def test_the_page_has_each_row_with_its_value(self, subtests):
         page = pathlib.Path(bench_tune.PAGE).read_text()
         for row in self.rows:
-            with self.subTest(row["name"]):
-                self.assertIn(f"| `{row['name']}` | {row['value']:,} | {row['unit']} | {row['measure']} |", page)
+            with subtests.test(row["name"]):
+                assert f"| `{row['name']}` | {row['value']:,} | {row['unit']} | {row['measure']} |" in page
 
 
-class Figures(unittest.TestCase):
+class TestFigures:
     def test_the_ratio_of_a_variant_is_the_median_of_the_turns(self):
         times = [[1.0, 2.0, 0.5], [2.0, 4.0, 1.0], [1.0, 9.0, 0.1]]
-        self.assertEqual(bench_tune.ratios(times), [1.0, 2.0, 0.5])
+        assert bench_tune.ratios(times) == [1.0, 2.0, 0.5]
 
-    def test_a_row_has_the_mean_of_the_games_and_the_worst(self):
+    def test_a_row_has_the_mean_of_the_games_and_the_worst(self, cleanup):
         of_game = {"pong": [1.0, 2.0], "qbert": [1.0, 0.5]}
         bench_tune.MEASURES["test"] = lambda game, variants, options: of_game[game]
-        self.addCleanup(bench_tune.MEASURES.pop, "test")
+        cleanup(bench_tune.MEASURES.pop, "test")
 
         class Options:
             games = ["pong", "qbert"]
 
-        self.assertEqual(bench_tune.measure("test", [{}, {}], Options), [(1.0, 2.0, "pong")])
+        assert bench_tune.measure("test", [{}, {}], Options) == [(1.0, 2.0, "pong")]
 
     def test_other_numbers_are_told_by_the_environment(self):
-        self.assertEqual(bench_tune.variable({"kA": 1, "kB": 2}), {"RACEBEAM_TUNING": "kA=1 kB=2"})
-
-
-if __name__ == "__main__":
-    unittest.main()
+        assert bench_tune.variable({"kA": 1, "kB": 2}) == {"RACEBEAM_TUNING": "kA=1 kB=2"}

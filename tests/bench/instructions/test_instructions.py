@@ -4,12 +4,13 @@ skipped."""
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
-import unittest
 
 import callgrind
+import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 TOOL = SOURCE / "scripts/instructions"
@@ -48,43 +49,37 @@ fn=(3) memset
 """
 
 
-class Reading(unittest.TestCase):
-    def setUp(self):
+class TestReading:
+    @pytest.fixture(autouse=True)
+    def set_up(self, cleanup):
         with tempfile.NamedTemporaryFile("w", delete=False) as file:
             file.write(CALLGRIND.format(root=SOURCE))
-        self.addCleanup(os.unlink, file.name)
+        cleanup(os.unlink, file.name)
         self.counts = callgrind.read(pathlib.Path(file.name))
 
     def test_what_callees_cost_counts_once(self):
-        self.assertEqual(self.counts.total, 47)
-        self.assertEqual(self.counts.functions, {"draw": 18, callgrind.MADE_AT_RUN_TIME: 20, "memset": 9})
+        assert self.counts.total == 47
+        assert self.counts.functions == {"draw": 18, callgrind.MADE_AT_RUN_TIME: 20, "memset": 9}
 
     def test_what_is_inlined_counts_for_its_file_and_the_standard_library_for_its_user(self):
-        self.assertEqual(
-            self.counts.files,
-            {
-                "emulator/tia/tia.cpp": 16,
-                "emulator/tia/beam.hpp": 2,
-                callgrind.MADE_AT_RUN_TIME: 20,
-                "libc.so.6 (not in the tree)": 9,
-            },
-        )
+        assert self.counts.files == {
+            "emulator/tia/tia.cpp": 16,
+            "emulator/tia/beam.hpp": 2,
+            callgrind.MADE_AT_RUN_TIME: 20,
+            "libc.so.6 (not in the tree)": 9,
+        }
 
 
-@unittest.skipUnless(callgrind.available(), "valgrind is missing; scripts/setup installs it")
-class Checking(unittest.TestCase):
+@pytest.mark.skipif(not callgrind.available(), reason="valgrind is missing; scripts/setup installs it")
+class TestChecking:
+    @pytest.fixture(scope="class", autouse=True)
     @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.path = pathlib.Path(cls.folder.name) / "baseline.json"
+    def set_up_class(cls, tmp_path_factory):
+        cls.path = tmp_path_factory.mktemp("checking") / "baseline.json"
         done = cls.run_tool("--rebaseline")
         if done.returncode == SKIPPED:
-            raise unittest.SkipTest(done.stdout.strip())
+            pytest.skip(done.stdout.strip())
         cls.baseline = json.loads(cls.path.read_text())
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     @classmethod
     def run_tool(cls, *words, **environment):
@@ -109,35 +104,31 @@ class Checking(unittest.TestCase):
 
     def test_a_second_count_is_the_same(self):
         done = self.scaled(1)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertEqual(done.stdout.count("+0.0%"), 2, done.stdout)
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert done.stdout.count("+0.0%") == 2, done.stdout
 
     def test_five_percent_more_is_a_failure(self):
         done = self.scaled(1 / 1.06)
-        self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertRegex(done.stdout, r"beamfall .* \+6\.0%  DEARER")
-        self.assertIn("--rebaseline", done.stdout)
+        assert done.returncode == 1, done.stdout
+        assert re.search(r"beamfall .* \+6\.0%  DEARER", done.stdout)
+        assert "--rebaseline" in done.stdout
 
     def test_less_than_that_is_not(self):
-        self.assertEqual(self.scaled(1 / 1.04).returncode, 0)
+        assert self.scaled(1 / 1.04).returncode == 0
 
     def test_five_percent_less_is_reported(self):
         done = self.scaled(1 / 0.94)
-        self.assertEqual(done.returncode, 0)
-        self.assertRegex(done.stdout, r"beamfall .* -6\.0%  cheaper")
+        assert done.returncode == 0
+        assert re.search(r"beamfall .* -6\.0%  cheaper", done.stdout)
 
     def test_a_game_that_the_baseline_lacks_is_a_failure(self):
         done = self.check_against(lambda baseline: baseline["translator"].pop("updraft"))
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("NOT IN THE BASELINE", done.stdout)
+        assert done.returncode == 1
+        assert "NOT IN THE BASELINE" in done.stdout
 
     def test_another_compiler_or_no_valgrind_is_skipped_and_says_so(self):
         other = self.check_against(lambda baseline: baseline.update(build="g++ 2.95 Release"))
         without = self.check_against(lambda baseline: None, PATH="/nowhere")
         for done, reason in ((other, "counted with 'g++ 2.95 Release'"), (without, "valgrind is missing")):
-            self.assertEqual(done.returncode, SKIPPED, done.stdout + done.stderr)
-            self.assertIn(reason, done.stdout)
-
-
-if __name__ == "__main__":
-    unittest.main()
+            assert done.returncode == SKIPPED, done.stdout + done.stderr
+            assert reason in done.stdout

@@ -4,7 +4,6 @@ byte."""
 import os
 import subprocess
 import sys
-import unittest
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 PROBE = os.environ.get("RACEBEAM_BATCH_PROBE", os.path.join(SOURCE, "build/release/tests/environment/batch_probe"))
@@ -88,9 +87,13 @@ class Probe:
         self.process.wait()
 
 
-class Batch(unittest.TestCase):
+class TestBatch:
+    @pytest.fixture(autouse=True)
+    def keep_subtests(self, subtests):
+        self.subtests = subtests
+
     def same(self, name, ours, theirs, step):
-        self.assertTrue(np.array_equal(ours, theirs), f"{name} of step {step}: {ours} instead of {theirs}")
+        assert np.array_equal(ours, theirs), f"{name} of step {step}: {ours} instead of {theirs}"
 
     def check_counters(self, ours, info, step):
         for name in ("lives", "frame_number", "episode_frame_number"):
@@ -135,9 +138,9 @@ class Batch(unittest.TestCase):
     def check(self, cases, least_ends):
         ends = 0
         for number, (game, steps, options) in enumerate(cases):
-            with self.subTest(game=game, **options):
+            with self.subtests.test(game=game, **options):
                 ends += self.compare(game, 11 + number, steps, **options)
-        self.assertGreaterEqual(ends, least_ends, "too few episodes ended for the test to mean much")
+        assert ends >= least_ends, "too few episodes ended for the test to mean much"
 
     def test_defaults(self):
         self.check([(game, 400, {}) for game in ("breakout", "pong", "ms_pacman", "seaquest", "air_raid")], 3)
@@ -217,7 +220,3 @@ class Batch(unittest.TestCase):
             ],
             3,
         )
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -4,9 +4,11 @@ import dataclasses
 import importlib.machinery
 import importlib.util
 import pathlib
+import re
 import sys
 import tempfile
-import unittest
+
+import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(SOURCE / "protocol/description"))
@@ -35,37 +37,33 @@ def folders(files):
     return {path.split("/")[1] for path in files if path.startswith("clients/")}
 
 
-class Rows(unittest.TestCase):
+class TestRows:
     def test_the_description_is_what_the_tree_has(self):
-        self.assertEqual(changed(""), {})
+        assert changed("") == {}
 
     def test_a_field_of_bytes_reaches_every_client(self):
         files = changed(
             '[[field]]\nname = "shadow"\nshape = ["height", 160]\nencoding = "delta"\nsummary = "what was"\n'
         )
-        self.assertEqual(folders(files), set(CLIENTS))
+        assert folders(files) == set(CLIENTS)
         for path, text in files.items():
-            self.assertIn("shadow", text, path)
-        self.assertIn("| `shadow` | what was | delta |\n", files["protocol/PROTOCOL.md"])
-        self.assertIn(".B shadow\nwhat was\n", files["protocol/racebeam-protocol.7"])
+            assert "shadow" in text, path
+        assert "| `shadow` | what was | delta |\n" in files["protocol/PROTOCOL.md"]
+        assert ".B shadow\nwhat was\n" in files["protocol/racebeam-protocol.7"]
 
     def test_a_preset_of_evaluation_reaches_those_who_read_plans_and_logs(self):
         sets = "frame_skip=3 sticky=0.5 action_set=legal max_episode_frames=77 noop_max=0"
         files = changed(f'[[evaluation_preset]]\nname = "brief"\nsets = "{sets}"\n')
-        self.assertEqual(
-            {
-                path: next(line.strip() for line in text.splitlines() if '"brief"' in line)
-                for path, text in files.items()
-            },
-            {
-                "environment/settings/setting_tables.hpp": f'{{"brief", "{sets}"}},',
-                "evaluation/racebeam_evaluation/plan.py": '"brief": ("3", "0.5", "legal", "77", "0"),',
-                "clients/python/racebeam/single/submission.py": '"brief": (3, 0.5, "legal", 77),',
-            },
-        )
+        assert {
+            path: next(line.strip() for line in text.splitlines() if '"brief"' in line) for path, text in files.items()
+        } == {
+            "environment/settings/setting_tables.hpp": f'{{"brief", "{sets}"}},',
+            "evaluation/racebeam_evaluation/plan.py": '"brief": ("3", "0.5", "legal", "77", "0"),',
+            "clients/python/racebeam/single/submission.py": '"brief": (3, 0.5, "legal", 77),',
+        }
 
     def test_a_preset_of_evaluation_sets_what_decides_scores(self):
-        with self.assertRaisesRegex(ValueError, "evaluation_preset brief: sets 'sticky=0'; it sets frame_skip, sticky"):
+        with pytest.raises(ValueError, match="evaluation_preset brief: sets 'sticky=0'; it sets frame_skip, sticky"):
             changed('[[evaluation_preset]]\nname = "brief"\nsets = "sticky=0"\n')
 
     def test_a_command_has_a_method_in_every_client_and_completes_in_bash(self):
@@ -73,14 +71,12 @@ class Rows(unittest.TestCase):
             '[[command]]\nname = "rewind"\nneeds = "game"\nsummary = "go back"\nreturns = "first"\n'
             'arguments = [{ word = "count", text = "N", type = "int" }]\n'
         )
-        self.assertEqual(folders(files), set(CLIENTS))
-        self.assertIn("[rewind]=''", files["clients/shell/completion.bash"])
-        self.assertIn(".B rewind N\ngo back\n", files["protocol/racebeam-protocol.7"])
-        self.assertIn("def rewind(self, count: int) -> Values:", files["clients/python/racebeam/wire/commands.py"])
-        self.assertIn(
-            "public Group rewind(long count) throws", files["clients/java/src/main/java/racebeam/Commands.java"]
-        )
-        self.assertIn("run_rewind, ", files["protocol/description/command_rows.inc"])
+        assert folders(files) == set(CLIENTS)
+        assert "[rewind]=''" in files["clients/shell/completion.bash"]
+        assert ".B rewind N\ngo back\n" in files["protocol/racebeam-protocol.7"]
+        assert "def rewind(self, count: int) -> Values:" in files["clients/python/racebeam/wire/commands.py"]
+        assert "public Group rewind(long count) throws" in files["clients/java/src/main/java/racebeam/Commands.java"]
+        assert "run_rewind, " in files["protocol/description/command_rows.inc"]
 
     def test_a_setting_and_an_error_code_reach_the_program_and_the_document(self):
         for text, table in (
@@ -91,10 +87,10 @@ class Rows(unittest.TestCase):
             ('[[error]]\ncode = "too-dark"\nmeaning = "nothing is seen"\n', "protocol/description/tables.hpp"),
         ):
             files = changed(text)
-            self.assertIn("protocol/PROTOCOL.md", files)
-            self.assertIn(table, files)
-            self.assertIn("protocol/racebeam-protocol.7", files)
-            self.assertEqual(set(files) & {path for path in files if path.startswith("clients/")}, {COMPLETION})
+            assert "protocol/PROTOCOL.md" in files
+            assert table in files
+            assert "protocol/racebeam-protocol.7" in files
+            assert set(files) & {path for path in files if path.startswith("clients/")} == {COMPLETION}
 
     def test_what_is_true_or_false_is_known_where_0_would_be_true(self):
         for text in (
@@ -103,13 +99,13 @@ class Rows(unittest.TestCase):
             '[command.reply]\n"tint?" = "flag"\n',
         ):
             files = changed(text)
-            self.assertEqual(folders(files), {"lua", "shell"})
-            self.assertIn(", tint = true", files["clients/lua/racebeam/field_table.lua"])
+            assert folders(files) == {"lua", "shell"}
+            assert ", tint = true" in files["clients/lua/racebeam/field_table.lua"]
 
     def test_what_is_deprecated_is_marked(self):
         files = changed('[[encoding]]\nname = "old"\nsummary = "as before"\ndeprecated = "hex"\n')
-        self.assertNotIn("protocol/PROTOCOL.md", files)  # its tables have what is current
-        self.assertIn('{"old", "as before (deprecated: use hex)"}', files["protocol/description/tables.hpp"])
+        assert "protocol/PROTOCOL.md" not in files  # its tables have what is current
+        assert '{"old", "as before (deprecated: use hex)"}' in files["protocol/description/tables.hpp"]
 
     def test_an_old_word_reaches_the_program_the_document_and_the_clients_with_types(self):
         files = changed(
@@ -117,16 +113,16 @@ class Rows(unittest.TestCase):
             'arguments = [{ key = "frames", text = "N", type = "int", optional = true, old = "steps",'
             ' old_values = { 0 = "1" } }, { key = "loop", text = "N", type = "int", optional = true }]\n'
         )
-        self.assertIn('{"rewind", "steps", "frames", true}', files["protocol/description/tables.hpp"])
-        self.assertIn('{"rewind", "frames=0", "frames=1", true}', files["protocol/description/tables.hpp"])
-        self.assertIn("| `rewind` | `steps` | `frames` |\n", files["protocol/PROTOCOL.md"])
+        assert '{"rewind", "steps", "frames", true}' in files["protocol/description/tables.hpp"]
+        assert '{"rewind", "frames=0", "frames=1", true}' in files["protocol/description/tables.hpp"]
+        assert "| `rewind` | `steps` | `frames` |\n" in files["protocol/PROTOCOL.md"]
         python = files["clients/python/racebeam/wire/commands.py"]
-        self.assertIn("*key_values(frames=frames, loop=loop, steps=steps)", python)
-        self.assertIn("steps: Old name of `frames`.", python)
-        self.assertIn("steps?: number", files["clients/js/src/index.d.ts"])
+        assert "*key_values(frames=frames, loop=loop, steps=steps)" in python
+        assert "steps: Old name of `frames`." in python
+        assert "steps?: number" in files["clients/js/src/index.d.ts"]
 
 
-class Mistakes(unittest.TestCase):
+class TestMistakes:
     def test_a_mistake_in_the_description_is_named(self):
         for text, sentence in (
             (
@@ -140,15 +136,15 @@ class Mistakes(unittest.TestCase):
             ),
             ('[[command]]\nname = "x"\nneeds = "luck"\nsummary = ""\nreturns = "own"\n', "needs is 'luck'"),
         ):
-            with self.assertRaisesRegex(ValueError, sentence):
+            with pytest.raises(ValueError, match=sentence):
                 changed(text)
 
     def test_a_file_without_its_region_is_refused(self):
-        with self.assertRaisesRegex(ValueError, "the file has no region fields"):
+        with pytest.raises(ValueError, match="the file has no region fields"):
             regions.with_region("nothing\n", "", "#", "fields", "")
 
 
-class SingleFile(unittest.TestCase):
+class TestSingleFile:
     def test_it_has_the_definitions_of_the_modules_and_the_imports_of_all(self):
         text = python_single_file.joined(
             {
@@ -161,15 +157,15 @@ class SingleFile(unittest.TestCase):
         )
         names = {}
         exec(text, names)
-        self.assertIs(names["B"], names["A"])
-        self.assertEqual((names["__all__"], names["__doc__"]), (["B"], "What it is."))
+        assert names["B"] is names["A"]
+        assert (names["__all__"], names["__doc__"]) == (["B"], "What it is.")
 
     def test_two_modules_that_define_one_name_are_refused(self):
-        with self.assertRaisesRegex(ValueError, "two modules of the client in Python define A"):
+        with pytest.raises(ValueError, match="two modules of the client in Python define A"):
             python_single_file.joined({"one": "A = 1\n", "client": "A = 2\n"})
 
 
-class Versions(unittest.TestCase):
+class TestVersions:
     def test_every_row_says_since_when_it_is_there(self):
         protocol = description.read()
         for table in (
@@ -181,8 +177,4 @@ class Versions(unittest.TestCase):
             protocol.errors,
         ):
             for row in table:
-                self.assertRegex(dataclasses.asdict(row)["since"], r"^\d+\.\d+\.\d+$")
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)
+                assert re.search(r"^\d+\.\d+\.\d+$", dataclasses.asdict(row)["since"])
