@@ -3,23 +3,22 @@ or other settings."""
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
-import tempfile
-import unittest
 
+import pytest
 from session import BINARY
 
 TOOL = pathlib.Path(__file__).parent
 IMAGE = TOOL.parents[1] / "games/homebrew/beamfall.bin"
 
 
-class Tool(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+class TestTool:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.folder = tmp_path
         shutil.copy(IMAGE, self.folder)
 
     def reference(self, command):
@@ -40,22 +39,22 @@ class Tool(unittest.TestCase):
 
     def test_the_same_server_is_identical(self):
         status, output = self.compare(f"exec '{BINARY}' classic \"$@\"", "--seed", "1", "--seeds", "6")
-        self.assertEqual(status, 0, output)
-        self.assertIn("6 of 6 runs identical, of 1 games", output)
+        assert status == 0, output
+        assert "6 of 6 runs identical, of 1 games" in output
 
     def test_a_difference_is_reported_with_the_line_and_its_run_can_be_played_again(self):
         (self.folder / "other").write_text("repeat_action_probability = 0.9\n")
         command = f"exec '{BINARY}' classic -config '{self.folder}/other' \"$@\""
         for options in (("--seed", "1", "--seeds", "2"), ("--run", "beamfall:sticky=0.0,seed=5,lines=200")):
             status, output = self.compare(command, *options)
-            self.assertEqual(status, 1, output)
-            self.assertRegex(output, r"beamfall:\S+seed=\d+,lines=200: line \d+, after '\d+,\d+': RAM [89A-F]")
+            assert status == 1, output
+            assert re.search(r"beamfall:\S+seed=\d+,lines=200: line \d+, after '\d+,\d+': RAM [89A-F]", output)
 
     def test_a_game_that_the_reference_does_not_know_is_not_a_difference(self):
         status, output = self.compare("exit 1", "--seed", "1")
-        self.assertEqual(status, 1)  # nothing was compared
-        self.assertIn("1 games that the reference does not know: beamfall", output)
-        self.assertIn("0 of 0 runs identical", output)
+        assert status == 1  # nothing was compared
+        assert "1 games that the reference does not know: beamfall" in output
+        assert "0 of 0 runs identical" in output
 
     def test_the_record_is_the_output_of_the_reference(self):
         from recorded import digest, read
@@ -65,9 +64,9 @@ class Tool(unittest.TestCase):
             f"exec '{BINARY}' classic \"$@\"", "--seed", "1", "--seeds", "2", "--record", str(self.folder / "recorded")
         )
         runs = read(self.folder / "recorded")
-        self.assertEqual(len(runs), 2)
+        assert len(runs) == 2
         for run, expected in runs:
-            self.assertEqual(digest(play([BINARY, "classic"], run, str(IMAGE))), expected)
+            assert digest(play([BINARY, "classic"], run, str(IMAGE))) == expected
 
     def test_nonsense_is_named(self):
         for options, hint in (
@@ -76,11 +75,7 @@ class Tool(unittest.TestCase):
             (("--games", "unheard_of"), "'unheard_of'"),
         ):
             status, output = self.compare("exit 1", *options)
-            self.assertEqual(status, 2, output)
-            self.assertIn(hint, output.splitlines()[-1])
+            assert status == 2, output
+            assert hint in output.splitlines()[-1]
         status, output = self.compare("exit 1", "--reference", "/nowhere/ale")
-        self.assertEqual((status, "'/nowhere/ale' is not a program" in output), (2, True), output)
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)
+        assert (status, "'/nowhere/ale' is not a program" in output) == (2, True), output
