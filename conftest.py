@@ -18,14 +18,14 @@ SKIPPED = 77  # the exit status that ctest reads as "skipped"
 os.environ.setdefault("RACEBEAM_BINARY", str(SOURCE / "build/release/racebeam"))
 sys.path[:0] = [str(SOURCE / folder) for folder in ("tests/server", "tests/support", "scripts/measure")]
 
+import harness  # noqa: E402
+
 
 def _has_module(name):
     return importlib.util.find_spec(name) is not None
 
 
 def _missing_roms(games):
-    import harness
-
     return [f"an image of {game}" for game in games or ("pong",) if not harness.rom(game)]
 
 

@@ -165,8 +165,15 @@ def socket_activation(chance, times):
             process = subprocess.Popen([*command, "--until-idle", "1"], stderr=subprocess.DEVNULL)
         except FileNotFoundError:
             raise Lacking("systemd-socket-activate is missing") from None
-        time.sleep(0.3)
-        wire = connect_tcp(port)
+        until = time.monotonic() + PATIENCE
+        while True:  # until the port is open
+            try:
+                wire = connect_tcp(port)
+                break
+            except ConnectionRefusedError:
+                if time.monotonic() > until:
+                    raise
+                time.sleep(0.01)
         yield fault_of_line(ask(wire, LOAD))
         wire.close()
         yield "" if process.wait(PATIENCE) == 0 else f"the status is {process.returncode}"

@@ -2,11 +2,10 @@
 
 import os
 import pathlib
-import tempfile
 import time
-import unittest
 
 import package
+import pytest
 
 package.require("gymnasium", "numpy", "submitit")
 
@@ -27,11 +26,10 @@ def processes(mark):
     return found
 
 
-class Servers(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+class TestServers:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.folder = tmp_path
 
     def servers(self, n, image=None, **options):
         return SlurmServers(
@@ -42,18 +40,18 @@ class Servers(unittest.TestCase):
         until = time.monotonic() + 30
         while processes(str(self.folder)) and time.monotonic() < until:
             time.sleep(0.05)
-        self.assertEqual(processes(str(self.folder)), [])
-        self.assertEqual([path.name for path in self.folder.iterdir()], ["logs"])
+        assert processes(str(self.folder)) == []
+        assert [path.name for path in self.folder.iterdir()] == ["logs"]
 
     def test_environments_on_all_servers(self):
         with self.servers(3, timeout_min=5) as addresses:
             envs = racebeam.AtariVectorEnv("beamfall", 6, server=addresses, seed=1)
             here = racebeam.AtariVectorEnv("beamfall", 6, seed=1)
             for _ in range(5):
-                self.assertTrue((envs.step([1] * 6)[0] == here.step([1] * 6)[0]).all())
+                assert (envs.step([1] * 6)[0] == here.step([1] * 6)[0]).all()
             envs.close()
             sessions = [racebeam.connect(address) for address in addresses]
-            self.assertEqual(len({session.address for session in sessions}), 3)
+            assert len({session.address for session in sessions}) == 3
         self.nothing_is_left()
 
     def test_images_and_options(self):
@@ -62,18 +60,18 @@ class Servers(unittest.TestCase):
         image.write_bytes(os.urandom(4096))
         with self.servers(1, image, options=["--max-machines", "2"], listen="tcp://127.0.0.1:0") as (address,):
             with racebeam.connect(address) as session:
-                self.assertEqual(session.hello()["max_machines"], 2)
+                assert session.hello()["max_machines"] == 2
         image.unlink()
         image.parent.rmdir()
         self.nothing_is_left()
 
     def test_an_exception_ends_the_servers(self):
-        with self.assertRaises(KeyError), self.servers(2) as addresses:
+        with pytest.raises(KeyError), self.servers(2) as addresses:
             racebeam.connect(addresses[0]).close_connection()
             raise KeyError
         self.nothing_is_left()
 
-    def test_bad_input(self):
-        for arguments in ({"n": 0}, {"n": "two"}, {"n": 1, "image": "/nonexistent"}):
-            with self.subTest(**arguments), self.assertRaises(racebeam.InvalidInput):
-                SlurmServers(**arguments)
+    @pytest.mark.parametrize("arguments", ({"n": 0}, {"n": "two"}, {"n": 1, "image": "/nonexistent"}))
+    def test_bad_input(self, arguments):
+        with pytest.raises(racebeam.InvalidInput):
+            SlurmServers(**arguments)

@@ -6,7 +6,6 @@ import importlib
 import inspect
 import pkgutil
 import typing
-import unittest
 
 import package
 
@@ -21,7 +20,7 @@ def modules():
     """All modules of the package whose own needs are installed."""
     names = [module.name for module in pkgutil.walk_packages(racebeam.__path__, "racebeam.", onerror=lambda name: None)]
     for name in ["racebeam", *names]:
-        if name not in NEEDS or package._is_there(NEEDS[name]):
+        if name not in NEEDS or package.has(NEEDS[name]):
             yield importlib.import_module(name)
 
 
@@ -31,16 +30,16 @@ def needs_no_example(kind):
     return records or getattr(kind, "_is_protocol", False)
 
 
-class Docstrings(unittest.TestCase):
-    def test_the_examples_run(self):
+class TestDocstrings:
+    def test_the_examples_run(self, subtests):
         for module in modules():
             finder = doctest.DocTestFinder(exclude_empty=True)
             runner = doctest.DocTestRunner(verbose=False)
             output = []
             for test in finder.find(module, module.__name__):
                 runner.run(test, out=output.append)
-            with self.subTest(module=module.__name__):
-                self.assertEqual("".join(output), "")
+            with subtests.test(module=module.__name__):
+                assert "".join(output) == ""
 
     def test_each_class_that_is_exported_has_an_example(self):
         missing = []
@@ -51,4 +50,4 @@ class Docstrings(unittest.TestCase):
                     continue
                 if ">>> " not in (kind.__doc__ or ""):
                     missing.append(f"{module.__name__}.{name}")
-        self.assertEqual(missing, [])
+        assert missing == []

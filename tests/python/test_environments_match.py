@@ -66,6 +66,7 @@ def test_racebeam_has_each_id_of_ale():
     assert set(names()) - set(names("racebeam")) == set()
 
 
+@pytest.mark.slow
 @pytest.mark.needs_roms
 def test_no_run_of_today_differs():
     found, count = differences()

@@ -124,6 +124,7 @@ def differences():
     return found, count
 
 
+@pytest.mark.slow
 @pytest.mark.needs_roms
 def test_no_run_of_today_differs():
     found, count = differences()

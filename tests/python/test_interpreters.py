@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import unittest
 
 import package
 
@@ -36,17 +35,16 @@ REFUSED = (
 )
 
 
-class Interpreters(unittest.TestCase):
+class TestInterpreters:
     def output_of(self, program):
         done = subprocess.run(
             [sys.executable, "-W", "error", "-c", SECOND + program], capture_output=True, text=True, timeout=120
         )
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        assert (done.returncode, done.stderr) == (0, "")
         return done.stdout.splitlines()
 
     def test_a_sub_interpreter_is_refused_and_the_main_one_goes_on(self):
-        self.assertEqual(
-            self.output_of(f"""
+        assert self.output_of(f"""
 import racebeam
 in_second({IMPORT!r})
 in_second({IMPORT!r})
@@ -58,12 +56,11 @@ try:
     ale.loadROM("/nowhere")
 except RuntimeError as error:
     print(type(error).__name__)
-"""),
-            [REFUSED, REFUSED, "1 (210, 160) 0 True", "InvalidInput"],
-        )
+""") == [REFUSED, REFUSED, "1 (210, 160) 0 True", "InvalidInput"]
 
     def test_the_main_interpreter_has_it_after_a_sub_interpreter_was_refused(self):
-        self.assertEqual(
-            self.output_of(f"in_second({IMPORT!r})\nin_second({IMPORT!r})\nexec({IMPORT!r})"),
-            [REFUSED, REFUSED, "ALEInterface"],
-        )
+        assert self.output_of(f"in_second({IMPORT!r})\nin_second({IMPORT!r})\nexec({IMPORT!r})") == [
+            REFUSED,
+            REFUSED,
+            "ALEInterface",
+        ]

@@ -1,7 +1,6 @@
 """The examples that learn run, at a small scale, and draw their curves. Each is skipped where what it needs is not
 installed."""
 
-import importlib.util
 import json
 import os
 import pathlib
@@ -9,9 +8,9 @@ import re
 import subprocess
 import sys
 import tempfile
-import unittest
 
 import package
+import pytest
 
 package.require("gymnasium", "numpy")
 
@@ -20,19 +19,15 @@ import racebeam.program
 CLIENT = package.SOURCE / "clients/python"
 
 
-def needs(*modules):
-    missing = [module for module in modules if importlib.util.find_spec(module) is None]
-    return unittest.skipIf(missing, f"not installed: {' and '.join(missing)}")
-
-
-class Examples(unittest.TestCase):
+@pytest.mark.slow
+class TestExamples:
     def refuse(self, example, *options):
         done = subprocess.run(
             [sys.executable, CLIENT / "examples" / example, "nogame", *options], capture_output=True, text=True
         )
-        self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr.splitlines()[-1], f"^{example}: unknown game 'nogame'")
-        self.assertNotIn("Traceback", done.stderr)
+        assert done.returncode == 1
+        assert re.search(f"^{example}: unknown game 'nogame'", done.stderr.splitlines()[-1])
+        assert "Traceback" not in done.stderr
 
     def run_example(self, example, *options):
         """Returns what the example prints. It draws a curve, if it has --curve."""
@@ -42,18 +37,18 @@ class Examples(unittest.TestCase):
             done = subprocess.run(
                 [sys.executable, CLIENT / example, *options], capture_output=True, text=True, cwd=folder
             )
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertNotIn("is the old name of", done.stderr)
+            assert done.returncode == 0, done.stderr
+            assert "is the old name of" not in done.stderr
             if str(curve) in options:
-                self.assertEqual(curve.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+                assert curve.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
             return done.stdout
 
-    @needs("matplotlib")
+    @pytest.mark.needs_modules("matplotlib")
     def test_sarsa(self):
         output = self.run_example(
             "sarsa.py", racebeam.program.path(), "--training", 3, "--frames", 3000, "--curve", "CURVE"
         )
-        self.assertEqual(len(re.findall(r"training episode \d+: score \d+", output)), 3)
+        assert len(re.findall(r"training episode \d+: score \d+", output)) == 3
 
     def verify(self, log):
         return subprocess.run([racebeam.program.path(), "verify", log], capture_output=True, text=True)
@@ -65,9 +60,9 @@ class Examples(unittest.TestCase):
                 "sarsa.py", racebeam.program.path(), "--frames", 3000, "--steps", 700, "--evaluation", 1, "--log", log
             )
             steps = [int(count) for count in re.findall(r"training episode .* in (\d+) decisions", output)]
-            self.assertTrue(sum(steps[:-1]) < 700 <= sum(steps), output)
+            assert sum(steps[:-1]) < 700 <= sum(steps), output
             score = re.search(r"evaluation episode \d+: score (\d+)", output)[1]
-            self.assertRegex(self.verify(log).stdout, rf"^last.episode \(beamfall, basic, score {score}\): confirmed; ")
+            assert re.search(rf"^last.episode \(beamfall, basic, score {score}\): confirmed; ", self.verify(log).stdout)
 
     def test_what_sarsa_learned_is_kept_and_played_and_filmed(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -80,39 +75,39 @@ class Examples(unittest.TestCase):
             again.append(
                 self.run_example("sarsa.py", racebeam.program.path(), *play[:2], "--seed", 3, "--play", learned)
             )
-            self.assertEqual(len(set(again)), 1)
-            self.assertRegex(again[0], r"^evaluation episode 1: score \d+ in \d+ decisions\n$")
-            self.assertRegex(first, r"evaluation episode 3: score \d+")
+            assert len(set(again)) == 1
+            assert re.search(r"^evaluation episode 1: score \d+ in \d+ decisions\n$", again[0])
+            assert re.search(r"evaluation episode 3: score \d+", first)
             done = subprocess.run(
                 [sys.executable, CLIENT / "sarsa.py", racebeam.program.path(), "--training", "1", "--film", "film"],
                 capture_output=True,
                 text=True,
                 cwd=folder,
             )
-            self.assertRegex(
-                done.stderr,
+            assert re.search(
                 r"\nplan: 1 episode with learning and 0 episodes without, of up to 18,000 frames; "
                 r"at most 3,600 steps in \d:\d\d:\d\d ",
+                done.stderr,
             )
-            self.assertEqual(pathlib.Path(folder, "film.gif").read_bytes()[:6], b"GIF89a")
+            assert pathlib.Path(folder, "film.gif").read_bytes()[:6] == b"GIF89a"
             pathlib.Path(folder, "wrong").write_bytes(b"x")
             done = subprocess.run(
                 [sys.executable, CLIENT / "sarsa.py", racebeam.program.path(), "--play", pathlib.Path(folder, "wrong")],
                 capture_output=True,
                 text=True,
             )
-            self.assertRegex(done.stderr, r"sarsa.py: --play is '.*wrong': .*; it takes a file of --keep\n$")
+            assert re.search(r"sarsa.py: --play is '.*wrong': .*; it takes a file of --keep\n$", done.stderr)
 
-    @needs("jax", "optax", "tqdm", "matplotlib")
+    @pytest.mark.needs_modules("jax", "optax", "tqdm", "matplotlib")
     def test_ppo_on_ram(self):
         output = self.run_example("examples/ppo.py", "updraft", "--steps", 8192, "--curve", "CURVE")
-        self.assertRegex(
-            output,
+        assert re.search(
             r"^plan: 2 updates of 32 x 128 steps, 8,192 steps in about \d:\d\d:\d\d .*\n"
             r"update 1: .*\nupdate 2: [1-9]\d* games",
+            output,
         )
 
-    @needs("jax", "optax", "tqdm", "PIL")
+    @pytest.mark.needs_modules("jax", "optax", "tqdm", "PIL")
     def test_a_policy_is_kept_and_played_and_filmed(self):
         from PIL import Image
 
@@ -121,59 +116,59 @@ class Examples(unittest.TestCase):
             one = ("updraft", "--envs", 2, "--horizon", 8, "--steps", 16, "--games", 3)
             self.run_example("examples/ppo.py", *one, "--keep", policy)
             outputs = [self.run_example("examples/ppo.py", *one, "--play", policy, "--film", film) for _ in range(2)]
-            self.assertRegex(outputs[0], r"^3 games: mean score \d+\.\d, from \d+ to \d+\n$")
-            self.assertEqual(*outputs)
+            assert re.search(r"^3 games: mean score \d+\.\d, from \d+ to \d+\n$", outputs[0])
+            assert outputs[0] == outputs[1]
             with Image.open(film) as frames:
-                self.assertEqual(frames.size, (320, 210))
-                self.assertGreater(frames.n_frames, 10)
+                assert frames.size == (320, 210)
+                assert frames.n_frames > 10
             self.refuse("ppo.py", "--play", policy)
 
-    @needs("jax", "optax", "tqdm")
-    def test_the_log_of_a_policy_is_confirmed(self):
-        for observe in ("ram", "pixels"):
-            with tempfile.TemporaryDirectory() as folder, self.subTest(observe=observe):
-                log = pathlib.Path(folder, "game.episode")
-                small = ("--observe", observe, "--envs", 2, "--horizon", 8, "--steps", 16)
-                self.assertIn("racebeam verify confirms it", self.run_example("examples/ppo.py", *small, "--log", log))
-                done = self.verify(log)
-                self.assertRegex(done.stdout, r"^game.episode \(updraft, ppo, score \d+\): confirmed; ", done.stderr)
-                log.write_bytes(log.read_bytes()[:-1])
-                self.assertEqual(self.verify(log).returncode, 1)
+    @pytest.mark.needs_modules("jax", "optax", "tqdm")
+    @pytest.mark.parametrize("observe", ("ram", "pixels"))
+    def test_the_log_of_a_policy_is_confirmed(self, observe):
+        with tempfile.TemporaryDirectory() as folder:
+            log = pathlib.Path(folder, "game.episode")
+            small = ("--observe", observe, "--envs", 2, "--horizon", 8, "--steps", 16)
+            assert "racebeam verify confirms it" in self.run_example("examples/ppo.py", *small, "--log", log)
+            done = self.verify(log)
+            assert re.search(r"^game.episode \(updraft, ppo, score \d+\): confirmed; ", done.stdout), done.stderr
+            log.write_bytes(log.read_bytes()[:-1])
+            assert self.verify(log).returncode == 1
 
-    @needs("matplotlib")
+    @pytest.mark.needs_modules("matplotlib")
     def test_the_cells_of_the_notebook_run(self):
         notebook = json.loads((CLIENT / "examples/learning_curve.ipynb").read_text())
         cells = [("".join(cell["source"]), cell) for cell in notebook["cells"] if cell["cell_type"] == "code"]
-        self.assertTrue(all(not cell["outputs"] and cell["execution_count"] is None for _, cell in cells))
+        assert all(not cell["outputs"] and cell["execution_count"] is None for _, cell in cells)
         code = "\n".join(source for source, _ in cells)
         code, count = re.subn(r"(?m)^GENERATIONS = \d+", "GENERATIONS = 2", code)
-        self.assertEqual(count, 1)
+        assert count == 1
         done = subprocess.run(
             [sys.executable, "-c", code], capture_output=True, text=True, env={**os.environ, "MPLBACKEND": "Agg"}
         )
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, r"random play: \d+\.\d\n(generation \d+: .*\n){2}")
+        assert done.returncode == 0, done.stderr
+        assert re.search(r"random play: \d+\.\d\n(generation \d+: .*\n){2}", done.stdout)
 
-    @needs("jax", "optax", "tqdm")
+    @pytest.mark.needs_modules("jax", "optax", "tqdm")
     def test_ppo_on_pixels(self):
         output = self.run_example(
             "examples/ppo.py", "--observe", "pixels", "--steps", 32, "--horizon", 8, "--envs", 4, "--epochs", 1
         )
-        self.assertRegex(output, r"\d+ steps a second")
+        assert re.search(r"\d+ steps a second", output)
         self.refuse("ppo.py")
 
-    @needs("stable_baselines3")
+    @pytest.mark.needs_modules("stable_baselines3")
     def test_stable_baselines(self):
         output = self.run_example("examples/stable_baselines.py", "--steps", 64, "--steps-of-update", 16, "--envs", 4)
-        self.assertRegex(output, r"total_timesteps\s*\|\s*64")
+        assert re.search(r"total_timesteps\s*\|\s*64", output)
         self.refuse("stable_baselines.py")
 
-    @needs("stable_baselines3")
+    @pytest.mark.needs_modules("stable_baselines3")
     def test_stable_baselines_leaves_a_submission(self):
         with tempfile.TemporaryDirectory() as scratch:
             folder, small = pathlib.Path(scratch, "ppo"), ("--steps", 64, "--steps-of-update", 16, "--envs", 4)
             self.run_example("examples/stable_baselines.py", *small, "--log", folder)
-            self.assertRegex(self.verify(folder).stdout, "^3 rows confirmed, 0 wrong, 0 could not be checked")
+            assert re.search("^3 rows confirmed, 0 wrong, 0 could not be checked", self.verify(folder).stdout)
             results = (folder / "results.csv").read_text()
             (folder / "results.csv").write_text(results.replace(",terminated,", ",truncated,", 1))
-            self.assertEqual(self.verify(folder).returncode, 1)
+            assert self.verify(folder).returncode == 1

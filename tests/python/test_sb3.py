@@ -1,10 +1,10 @@
 """racebeam.sb3.VecEnv is an environment of Stable-Baselines3. Skipped where that is not installed."""
 
-import importlib.util
 import os
 import unittest
 
 import package
+import pytest
 
 package.require("numpy", "gymnasium", "stable_baselines3")
 
@@ -48,42 +48,43 @@ class Contract(VectorEnvironmentTests, unittest.TestCase):
         return AsVector(VecEnv("beamfall", count, frameskip=20))
 
 
-class Interface(unittest.TestCase):
-    def setUp(self):
+class TestInterface:
+    @pytest.fixture(autouse=True)
+    def set_up(self):
         self.envs = VecEnv("beamfall", 2, seed=1, frameskip=60, render_mode="rgb_array")
 
     def test_it_shows_what_AtariVectorEnv_shows(self):
-        self.assertIsInstance(self.envs, Base)
+        assert isinstance(self.envs, Base)
         other = AtariVectorEnv(
             "beamfall", 2, seed=1, frameskip=60, autoreset_mode="SameStep", start="baselines", life_loss="end"
         )
-        self.assertTrue(np.array_equal(self.envs.reset(), other.reset()[0]))
+        assert np.array_equal(self.envs.reset(), other.reset()[0])
         returns, episodes, ends = np.zeros(2), 0, 0
         frames_before = np.zeros(2)
         for step in range(120):
             seen, rewards, done, infos = self.envs.step(np.full(2, step % 6))
             expected, theirs, terminated, truncated, other_infos = other.step(np.full(2, step % 6))
-            self.assertTrue(np.array_equal(seen, expected) and np.array_equal(rewards, theirs))
-            self.assertEqual((rewards.dtype, done.tolist()), (np.float32, (terminated | truncated).tolist()))
+            assert np.array_equal(seen, expected) and np.array_equal(rewards, theirs)
+            assert (rewards.dtype, done.tolist()) == (np.float32, (terminated | truncated).tolist())
             returns += other_infos["raw_reward"]
             for env, info in enumerate(infos):
-                self.assertEqual("terminal_observation" in info, done[env])
+                assert ("terminal_observation" in info) == done[env]
                 frames = other_infos["episode_frame_number"][env]
-                self.assertEqual("episode" in info, frames < frames_before[env])
+                assert ("episode" in info) == (frames < frames_before[env])
                 if other_infos["game_over"][env]:
-                    self.assertIn("episode", info)
+                    assert "episode" in info
                 frames_before[env] = frames
                 ends += done[env]
                 if done[env]:
-                    self.assertTrue(np.array_equal(info["terminal_observation"], other_infos["final_obs"][env]))
-                    self.assertIs(info["TimeLimit.truncated"], False)
+                    assert np.array_equal(info["terminal_observation"], other_infos["final_obs"][env])
+                    assert info["TimeLimit.truncated"] is False
                 if "episode" in info:
                     frames = other_infos["final_info"]["episode_frame_number"][env]
-                    self.assertEqual((info["episode"]["r"], info["episode"]["l"]), (returns[env], frames))
+                    assert (info["episode"]["r"], info["episode"]["l"]) == (returns[env], frames)
                     returns[env] = 0
                     episodes += 1
-        self.assertGreater(ends, episodes)
-        self.assertGreater(episodes, 0)
+        assert ends > episodes
+        assert episodes > 0
 
     def test_policies_are_evaluated_by_whole_games(self):
         class Fire:
@@ -91,9 +92,9 @@ class Interface(unittest.TestCase):
                 return np.ones(len(observations), int), state
 
         mean, deviation = evaluate_policy(Fire(), self.envs, n_eval_episodes=4)
-        self.assertGreater(mean, 0)
+        assert mean > 0
 
-    @unittest.skipIf(importlib.util.find_spec("cv2") is None, "make_atari_env needs OpenCV")
+    @pytest.mark.needs_modules("cv2")
     def test_it_plays_what_make_atari_env_plays(self):
         ours = VecEnv("beamfall", 1, noop_max=0, reward_clipping=False)
         theirs = make_atari_env(
@@ -105,23 +106,23 @@ class Interface(unittest.TestCase):
         ours.seed(3)
         observations, expected, ends = ours.reset()[:, -1:], theirs.reset(), 0
         for step in range(800):
-            self.assertLess((observations != expected.transpose(0, 3, 1, 2)).mean(), 0.05)
+            assert (observations != expected.transpose(0, 3, 1, 2)).mean() < 0.05
             action = np.array([ours.action_space.n * (step // 3 * 7 % 11) // 11])
             observations, rewards, done, infos = ours.step(action)
             expected, *rest = theirs.step(action)
             observations = observations[:, -1:]
-            self.assertEqual(
-                (rewards.tolist(), done.tolist(), infos[0]["lives"]),
-                (*(part.tolist() for part in rest[:2]), rest[2][0]["lives"]),
+            assert (rewards.tolist(), done.tolist(), infos[0]["lives"]) == (
+                *(part.tolist() for part in rest[:2]),
+                rest[2][0]["lives"],
             )
             parts = [
                 [info["episode"][key] for key in "rl"] if "episode" in info else None for info in (infos[0], rest[2][0])
             ]
-            self.assertEqual(parts[0], parts[1])
+            assert parts[0] == parts[1]
             ends += parts[0] is not None
-        self.assertGreater(ends, 0)
+        assert ends > 0
 
-    def test_the_infos_have_each_game_that_ends(self):
+    def test_the_infos_have_each_game_that_ends(self, subtests):
         for settings in (
             {"max_num_frames_per_episode": 8},
             {"max_num_frames_per_episode": 40, "life_loss": "restart", "frameskip": 60},
@@ -132,17 +133,17 @@ class Interface(unittest.TestCase):
             for _ in range(60):
                 _, _, done, infos = envs.step(np.ones(2, int))
                 ends += done.sum()
-                with self.subTest(**settings):
-                    self.assertEqual(["episode" in info for info in infos], done.tolist())
-            self.assertGreater(ends, 20)
+                with subtests.test(**settings):
+                    assert ["episode" in info for info in infos] == done.tolist()
+            assert ends > 20
 
-    def test_settings_that_are_not_those_of_a_VecEnv_are_refused(self):
+    def test_settings_that_are_not_those_of_a_VecEnv_are_refused(self, subtests):
         for settings, sentence in (
             ({"autoreset_mode": "NextStep"}, "autoreset_mode is 'NextStep'; VecEnv takes SameStep"),
             ({"life_loss": "reported"}, "VecEnv takes ignored, end, restart"),
             ({"batch_size": 1}, "batch_size is 1; VecEnv takes 0"),
         ):
-            with self.subTest(**settings), self.assertRaisesRegex(ValueError, sentence):
+            with subtests.test(**settings), pytest.raises(ValueError, match=sentence):
                 VecEnv("beamfall", 2, **settings)
         VecEnv("beamfall", 2, autoreset_mode="SAME_STEP")
 
@@ -151,35 +152,33 @@ class Interface(unittest.TestCase):
         first = self.envs.reset()
         self.envs.step(np.zeros(2, int))
         self.envs.seed(5)
-        self.assertTrue(np.array_equal(self.envs.reset(), first))
+        assert np.array_equal(self.envs.reset(), first)
 
     def test_the_methods_that_wrappers_call(self):
-        self.assertEqual(self.envs.env_is_wrapped(Monitor), [True, True])
-        self.assertEqual(self.envs.env_is_wrapped(VecMonitor), [False, False])
-        self.assertEqual(self.envs.get_attr("num_envs", 0), [2])
-        self.assertEqual(len(self.envs.env_method("save")), 2)
-        self.assertEqual(self.envs.get_images()[1].shape, (210, 160, 3))
-        self.assertEqual(
-            (self.envs.render_mode, "rgb_array" in self.envs.metadata["render_modes"]), ("rgb_array", True)
-        )
+        assert self.envs.env_is_wrapped(Monitor) == [True, True]
+        assert self.envs.env_is_wrapped(VecMonitor) == [False, False]
+        assert self.envs.get_attr("num_envs", 0) == [2]
+        assert len(self.envs.env_method("save")) == 2
+        assert self.envs.get_images()[1].shape == (210, 160, 3)
+        assert (self.envs.render_mode, "rgb_array" in self.envs.metadata["render_modes"]) == ("rgb_array", True)
         self.envs.close()
 
-    @unittest.skipIf(importlib.util.find_spec("pygame") is None, "pygame is not installed")
+    @pytest.mark.needs_modules("pygame")
     def test_a_person_sees_the_environments(self):
         os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
         envs = VecEnv("beamfall", 2, render_mode="human", frameskip=1)
         envs.reset()
         envs.step([0, 0])
-        self.assertIsNone(envs.render("human"))
-        self.assertIsNone(envs.render())
+        assert envs.render("human") is None
+        assert envs.render() is None
         envs.close()
 
     def test_the_sound_is_a_part_of_the_observations(self):
         envs = VecEnv("beamfall", 2, sound_obs=True, max_num_frames_per_episode=8)
-        self.assertEqual(envs.reset()["sound"].shape, (2, 512))
+        assert envs.reset()["sound"].shape == (2, 512)
         for _ in range(2):
             *_, infos = envs.step([0, 0])
-        self.assertEqual(set(infos[0]["terminal_observation"]), {"image", "sound"})
+        assert set(infos[0]["terminal_observation"]) == {"image", "sound"}
 
     def test_it_learns(self):
         PPO("CnnPolicy", VecEnv("beamfall", 2, seed=1), n_steps=16, batch_size=16, n_epochs=1).learn(64)

@@ -9,7 +9,6 @@ import subprocess
 import sys
 import tempfile
 import time
-import unittest
 
 import package
 
@@ -119,15 +118,15 @@ def with_current_sentences(text):
         return "".join(f"{line}\n{error}" for line, error in zip(lines, errors))
 
 
-class Sentences(unittest.TestCase):
+class TestSentences:
     def test_each_error_says_what_the_file_says(self):
         self.maxDiff = None
-        self.assertEqual(with_current_sentences(GOLDEN.read_text()), GOLDEN.read_text())
+        assert with_current_sentences(GOLDEN.read_text()) == GOLDEN.read_text()
 
     def test_each_expression_raises_an_error_and_occurs_once(self):
         text = GOLDEN.read_text()
-        self.assertNotIn("nothing is raised", text)
-        self.assertEqual(len(expressions(text)), len(set(expressions(text))))
+        assert "nothing is raised" not in text
+        assert len(expressions(text)) == len(set(expressions(text)))
 
     def test_most_sentences_of_the_package_are_in_the_file(self):
         """Some need another system: no pygame, no display, a server that goes away."""
@@ -141,7 +140,7 @@ class Sentences(unittest.TestCase):
                     words = longest_constant(sentence)
                     if words and words not in text:
                         missing.append(f"{path.name}: {words}")
-        self.assertLessEqual(len(missing), 41, "\n".join(missing))
+        assert len(missing) <= 41, "\n".join(missing)
 
 
 def longest_constant(sentence):

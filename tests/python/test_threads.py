@@ -9,9 +9,9 @@ import subprocess
 import sys
 import threading
 import time
-import unittest
 
 import package
+import pytest
 
 package.require("numpy")
 
@@ -42,7 +42,7 @@ def await_work(process):
         time.sleep(0.01)
 
 
-class Threads(unittest.TestCase):
+class TestThreads:
     def test_two_threads_of_one_game_take_turns(self):
         ale, failures = loaded(), []
         everything = (
@@ -68,7 +68,7 @@ class Threads(unittest.TestCase):
             thread.start()
         for thread in threads:
             thread.join(PATIENCE)
-        self.assertEqual((failures, [thread for thread in threads if thread.is_alive()]), ([], []))
+        assert (failures, [thread for thread in threads if thread.is_alive()]) == ([], [])
 
     def test_one_thread_does_not_hold_up_another(self):
         ale, counted, done = loaded(frame_skip=50_000_000), [0], threading.Event()
@@ -83,7 +83,7 @@ class Threads(unittest.TestCase):
             counted[0] += 1
             time.sleep(0.001)
         thread.join()
-        self.assertGreater(counted[0], 10)
+        assert counted[0] > 10
 
     def test_Ctrl_C_ends_a_long_step(self):
         script = (
@@ -96,12 +96,12 @@ class Threads(unittest.TestCase):
             "except KeyboardInterrupt: print('ended', env.ale.getFrameNumber() > 0)"
         )
         process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
-        self.assertEqual(process.stdout.readline(), "begins\n")
+        assert process.stdout.readline() == "begins\n"
         await_work(process)
         process.send_signal(signal.SIGINT)
-        self.assertEqual(process.communicate(timeout=PATIENCE)[0], "ended True\n")
+        assert process.communicate(timeout=PATIENCE)[0] == "ended True\n"
 
-    def test_Python_ends_while_threads_play(self):
+    def test_Python_ends_while_threads_play(self, subtests):
         head = "import racebeam, threading, time\n"
         makes = [
             "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); play = lambda: ale.act(1)",
@@ -112,7 +112,7 @@ class Threads(unittest.TestCase):
             "ale = racebeam.ALEInterface(); play = lambda: ale.loadROM('builtin:beamfall')",
             "play = lambda: racebeam.ALEInterface.isSupportedROM('builtin:beamfall')",
         ]
-        if package._is_there("gymnasium"):
+        if package.has("gymnasium"):
             makes += [
                 "envs = racebeam.AtariVectorEnv('beamfall', 8); play = lambda: envs.step([0] * 8)",
                 (
@@ -122,14 +122,16 @@ class Threads(unittest.TestCase):
                 "play = lambda: racebeam.AtariVectorEnv('beamfall', 3)",
             ]
         for make in makes:
-            with self.subTest(make=make):
+            with subtests.test(make=make):
                 script = (
                     f"{head}{make}\ndef forever():\n    while True:\n        try: play()\n        except "
                     f"Exception: pass\n"
-                    "for _ in range(3): threading.Thread(target=forever, daemon=True).start()\ntime.sleep(0.3)"
+                    "begin = time.process_time()\n"
+                    "for _ in range(3): threading.Thread(target=forever, daemon=True).start()\n"
+                    "while time.process_time() < begin + 0.2: time.sleep(0.001)"  # until they play
                 )
                 done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=PATIENCE)
-                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                assert (done.returncode, done.stderr) == (0, "")
 
     def test_a_child_of_fork_goes_on_with_the_game(self):
         ale = loaded()
@@ -139,7 +141,7 @@ class Threads(unittest.TestCase):
             os.write(writer, str(sum(ale.act(1) for _ in range(200))).encode())
             os._exit(0)
         os.waitpid(child, 0)
-        self.assertEqual(int(os.read(reader, 100)), sum(ale.act(1) for _ in range(200)))
+        assert int(os.read(reader, 100)) == sum(ale.act(1) for _ in range(200))
         os.close(reader)
         os.close(writer)
 
@@ -160,18 +162,18 @@ class Threads(unittest.TestCase):
         done = subprocess.run(
             [sys.executable, "-W", "ignore", "-c", script], capture_output=True, text=True, timeout=PATIENCE
         )
-        self.assertEqual(done.stdout.strip(), "7", done.stderr)
+        assert done.stdout.strip() == "7", done.stderr
 
-    def test_a_pool_of_processes_takes_games_by_pickling(self):
+    def test_a_pool_of_processes_takes_games_by_pickling(self, subtests):
         import multiprocessing
 
         for method in ("forkserver", "spawn"):
-            with self.subTest(method=method), multiprocessing.get_context(method).Pool(1) as pool:
+            with subtests.test(method=method), multiprocessing.get_context(method).Pool(1) as pool:
                 ale = loaded()
-                self.assertEqual(pool.apply(operator.methodcaller("act", 1), (ale,)), ale.act(1))
+                assert pool.apply(operator.methodcaller("act", 1), (ale,)) == ale.act(1)
 
 
-class Memory(unittest.TestCase):
+class TestMemory:
     def test_the_memory_of_arrays_is_released(self):
         import resource
 
@@ -184,12 +186,12 @@ class Memory(unittest.TestCase):
             return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
         use(500)
-        self.assertLess(use(5000) - use(0), 20000)  # 5,000 arrays have 500,000 KB
+        assert use(5000) - use(0) < 20000  # 5,000 arrays have 500,000 KB
         before = use(0)
-        self.assertLess(use(5000) - before, 20000)
+        assert use(5000) - before < 20000
 
-    def test_impossible_calls_raise_exceptions(self):
+    def test_impossible_calls_raise_exceptions(self, subtests):
         ale = loaded()
         for words in ((0, float("nan"), 1), (0, float("inf"), 1), (99, 1.0, 1), (0, 1.0, 0), (0, 1.0, -5)):
-            with self.subTest(words=words), self.assertRaises(ValueError):
+            with subtests.test(words=words), pytest.raises(ValueError):
                 ale.step(*words, racebeam._core.View.RGB)

@@ -191,6 +191,7 @@ def compares_too_little(count, never_back):
     return never_back > max(1, count // 100)
 
 
+@pytest.mark.slow
 @pytest.mark.needs_roms
 def test_no_run_of_today_differs():
     found, count, _, never_back = differences()

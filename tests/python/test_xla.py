@@ -6,9 +6,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import unittest
 
 import package
+import pytest
 
 package.require("gymnasium", "numpy", "jax")
 
@@ -31,33 +31,35 @@ def both(**settings):
     ]
 
 
-class Compiled(unittest.TestCase):
+class TestCompiled:
     def check(self, shown, expected):
-        self.assertEqual(jax.tree.structure(shown), jax.tree.structure(expected))
+        assert jax.tree.structure(shown) == jax.tree.structure(expected)
         for one, other in zip(jax.tree.leaves(shown), jax.tree.leaves(expected)):
-            self.assertEqual((one.dtype, one.shape), (other.dtype, other.shape))
-            self.assertTrue(np.array_equal(one, other))
+            assert (one.dtype, one.shape) == (other.dtype, other.shape)
+            assert np.array_equal(one, other)
 
-    def test_step_and_reset_under_jit(self):
-        for settings in (
+    @pytest.mark.parametrize(
+        "settings",
+        (
             {},
             {"obs_type": "ram", "autoreset_mode": "Disabled"},
             {"grayscale": False, "stack_num": 1, "reward_clipping": False},
             {"max_num_frames_per_episode": 40},
-        ):
-            with self.subTest(**settings):
-                compiled, plain = both(**settings)
-                handle, reset, step = compiled.xla()
-                plain.xla()  # from now on, a reset without a seed continues the generators, also the first one
-                reset, step = jax.jit(reset), jax.jit(step)
-                mask = np.array([True, False, True])
-                for arguments in ({}, {"seed": 2**31 - 5}, {"seed": np.array([4, -1, 9])}, {"reset_mask": mask}):
-                    handle, result = reset(handle, **arguments)
-                    options = {"reset_mask": arguments["reset_mask"]} if "reset_mask" in arguments else None
-                    self.check(result, plain.reset(seed=arguments.get("seed"), options=options))
-                    for actions in ACTIONS[:12]:
-                        handle, result = step(handle, actions)
-                        self.check(result, plain.step(actions))
+        ),
+    )
+    def test_step_and_reset_under_jit(self, settings):
+        compiled, plain = both(**settings)
+        handle, reset, step = compiled.xla()
+        plain.xla()  # from now on, a reset without a seed continues the generators, also the first one
+        reset, step = jax.jit(reset), jax.jit(step)
+        mask = np.array([True, False, True])
+        for arguments in ({}, {"seed": 2**31 - 5}, {"seed": np.array([4, -1, 9])}, {"reset_mask": mask}):
+            handle, result = reset(handle, **arguments)
+            options = {"reset_mask": arguments["reset_mask"]} if "reset_mask" in arguments else None
+            self.check(result, plain.reset(seed=arguments.get("seed"), options=options))
+            for actions in ACTIONS[:12]:
+                handle, result = step(handle, actions)
+                self.check(result, plain.step(actions))
 
     def test_scan(self):
         compiled, plain = both()
@@ -92,14 +94,14 @@ class Compiled(unittest.TestCase):
         for _ in range(STEPS):
             expected, rewards, *_ = plain.step(expected.sum((1, 2, 3)) % 3)
             sum_of_rewards += rewards
-        self.assertTrue(np.array_equal(observations, expected))
-        self.assertTrue(np.array_equal(total, sum_of_rewards))
+        assert np.array_equal(observations, expected)
+        assert np.array_equal(total, sum_of_rewards)
 
     def test_a_result_that_is_not_used_is_played_all_the_same(self):
         compiled, _ = both()
         handle, _, step = compiled.xla()
         jax.block_until_ready(jax.jit(lambda handle: step(handle, np.zeros(COUNT, np.int32))[0])(handle))
-        self.assertGreater(compiled.show()[1]["episode_frame_number"].min(), 3)
+        assert compiled.show()[1]["episode_frame_number"].min() > 3
 
     def test_unsigned_seeds_of_jax_are_seeds(self):
         compiled, plain = both()
@@ -129,20 +131,22 @@ class Compiled(unittest.TestCase):
         second, _ = step(second, ACTIONS[0])
         self.check(step(second, ACTIONS[1])[1], result)
 
-    @unittest.skipUnless("breakout" in package.roms(), "no image of breakout was found")
+    @pytest.mark.needs_roms("breakout")
     def test_ale_py_returns_the_same(self):
         for name in ("ale_py.vector_env", "chex"):
-            if not package._is_there(name):
-                self.skipTest(f"{name} is not installed")
+            if not package.has(name):
+                pytest.skip(f"{name} is not installed")
         import ale_py.vector_env
 
         ours, theirs = (
             module.AtariVectorEnv("breakout", COUNT) for module in (racebeam.ale_py.vector_env, ale_py.vector_env)
         )
-        self.assertEqual(ours.is_xla_registered, theirs.is_xla_registered)
+        assert ours.is_xla_registered == theirs.is_xla_registered
         (handle, reset, step), (other, other_reset, other_step) = ours.xla(), theirs.xla()
-        self.assertEqual(
-            (ours.is_xla_registered, handle.dtype, handle.shape), (theirs.is_xla_registered, other.dtype, other.shape)
+        assert (ours.is_xla_registered, handle.dtype, handle.shape) == (
+            theirs.is_xla_registered,
+            other.dtype,
+            other.shape,
         )
         for arguments in ({"seed": 3}, {"reset_mask": np.array([True, False, True])}, {"seed": np.array([1, 2, 3])}):
             handle, result = reset(handle, **arguments)
@@ -154,7 +158,7 @@ class Compiled(unittest.TestCase):
                 self.check(result, expected)
 
 
-class Refused(unittest.TestCase):
+class TestRefused:
     def test_errors_before_anything_is_compiled(self):
         envs = both()[0]
         handle, reset, step = envs.xla()
@@ -168,23 +172,24 @@ class Refused(unittest.TestCase):
             (InvalidInput, AtariVectorEnv("beamfall", 2, autoreset_mode="SameStep").xla),
             (InvalidInput, AtariVectorEnv("beamfall", 2, batch_size=1).xla),
         ):
-            with self.assertRaises(error):
+            with pytest.raises(error):
                 call()
         envs.close()
-        self.assertRaises(gymnasium.error.ClosedEnvironmentError, envs.xla)
+        with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+            envs.xla()
 
     def test_a_compiled_program_gets_the_infos(self):
         envs = both()[0]
         handle, _, step = envs.xla()
         for action in (99, -1):
-            with self.assertRaisesRegex(jax.errors.JaxRuntimeError, f"action {action} is out of range; accepted: 0 to"):
+            with pytest.raises(jax.errors.JaxRuntimeError, match=f"action {action} is out of range; accepted: 0 to"):
                 jax.block_until_ready(step(handle, np.array([0, action, 0])))
         jax.block_until_ready(step(handle, ACTIONS[0]))
         for made_up in (np.zeros(8, np.uint8), np.full(8, 255, np.uint8)):
-            with self.assertRaisesRegex(jax.errors.JaxRuntimeError, "were closed"):
+            with pytest.raises(jax.errors.JaxRuntimeError, match="were closed"):
                 jax.block_until_ready(step(jnp.asarray(made_up), ACTIONS[0]))
         envs.close()
-        with self.assertRaisesRegex(jax.errors.JaxRuntimeError, "were closed"):
+        with pytest.raises(jax.errors.JaxRuntimeError, match="were closed"):
             jax.block_until_ready(step(handle, ACTIONS[0]))
 
     def test_environments_may_be_closed_while_a_program_runs(self):
@@ -196,9 +201,9 @@ class Refused(unittest.TestCase):
             try:
                 jax.block_until_ready(result)
             except jax.errors.JaxRuntimeError as error:
-                self.assertIn("were closed", str(error))
+                assert "were closed" in str(error)
 
-    def test_seeds_that_are_too_large(self):
+    def test_seeds_that_are_too_large(self, subtests):
         handle, reset, _ = both()[0].xla()
         for seed in (
             2**31 - COUNT + 1,
@@ -209,8 +214,8 @@ class Refused(unittest.TestCase):
             np.array([1, 2, 2**64 - 1], np.uint64),
         ):
             with (
-                self.subTest(seed=seed),
-                self.assertRaisesRegex(InvalidInput, "the seed is .*; it takes up to 21474836"),
+                subtests.test(seed=seed),
+                pytest.raises(InvalidInput, match="the seed is .*; it takes up to 21474836"),
             ):
                 reset(handle, seed)
 
@@ -218,7 +223,7 @@ class Refused(unittest.TestCase):
         envs = both()[0]
         handle, _, step = envs.xla()
         for actions in (np.array([0, 2**32 + 1, 0]), jnp.array([0, 3 * 10**9, 0], jnp.uint32)):
-            with self.assertRaisesRegex(jax.errors.JaxRuntimeError, "action 2147483647 is out of range"):
+            with pytest.raises(jax.errors.JaxRuntimeError, match="action 2147483647 is out of range"):
                 jax.block_until_ready(step(handle, actions))
 
     def test_without_jax_it_says_what_is_missing(self):
@@ -227,7 +232,7 @@ class Refused(unittest.TestCase):
             "try: racebeam.AtariVectorEnv('beamfall', 2).xla()\nexcept ImportError as error: print(error)"
         )
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
-        self.assertEqual(done.stdout, 'xla() needs JAX; install it with: pip install "jax>=0.5"\n', done.stderr)
+        assert done.stdout == 'xla() needs JAX; install it with: pip install "jax>=0.5"\n', done.stderr
 
 
 # For each structure of core/xla_ffi.hpp, its name in JAX's header, and its members there, in the order of the members
@@ -256,17 +261,17 @@ CONSTANTS = {
 }
 
 
-class Interface(unittest.TestCase):
-    @unittest.skipUnless(shutil.which("g++"), "compiler is not installed")
+class TestInterface:
+    @pytest.mark.skipif(not shutil.which("g++"), reason="compiler is not installed")
     def test_it_is_declared_as_in_the_header_of_jax(self):
         header = package.SOURCE / "clients/python/core/xla_ffi.hpp"
         declared = dict(re.findall(r"^struct (\w+) \{\n(.*?)^\};", header.read_text(), re.M | re.S))
-        self.assertEqual(set(declared), set(STRUCTURES))
+        assert set(declared) == set(STRUCTURES)
         checks = []
         for name, body in declared.items():
             theirs, members = STRUCTURES[name][0], STRUCTURES[name][1].split()
             ours = re.findall(r"(\w+)(?:\)\(.*\))?;", body)
-            self.assertEqual(len(ours), len(members), name)
+            assert len(ours) == len(members), name
             checks += [
                 (
                     f"offsetof(ours::{name}, {one}) == offsetof({theirs}, {other}) && sizeof(ours::{name}::{one}) "
@@ -288,4 +293,4 @@ class Interface(unittest.TestCase):
                 capture_output=True,
                 text=True,
             )
-        self.assertEqual(done.returncode, 0, done.stderr)
+        assert done.returncode == 0, done.stderr

@@ -1,6 +1,7 @@
 """What the tests of the Python package need of it. Who imports this has new memory filled with zeros, as the reference
 requires."""
 
+import importlib.util
 import pathlib
 
 import reference_python
@@ -16,6 +17,14 @@ def require(*modules):
 
     for name in ("racebeam._core", *modules):
         pytest.importorskip(name, reason=f"not installed: {name} (scripts/wheel --venv, build/python/venv/bin/pytest)")
+
+
+def has(module):
+    """Whether a module is installed."""
+    try:
+        return importlib.util.find_spec(module) is not None
+    except ModuleNotFoundError:  # the package of the module
+        return False
 
 
 def roms():

@@ -5,9 +5,9 @@ import pathlib
 import pickle
 import re
 import tempfile
-import unittest
 
 import package
+import pytest
 
 package.require("ale_py", "gymnasium", "numpy")
 
@@ -20,26 +20,27 @@ import racebeam.ale_py._ale_py
 from both import INTERNAL, PONG, in_process, interfaces, pong
 
 
-class Differences(unittest.TestCase):
+class TestDifferences:
     """A test for each number in the docstring."""
 
     def test_each_number_has_a_test(self):
         numbers = [int(number) for number in re.findall(r"(?m)^(\d+)\. ", drop_in.__doc__)]
         tests = sorted(int(name.split("_")[1]) for name in dir(self) if re.match(r"test_\d", name))
-        self.assertEqual(numbers, tests)
+        assert numbers == tests
 
-    def test_01_a_bad_image_is_an_exception(self):
+    def test_01_a_bad_image_is_an_exception(self, subtests):
         with tempfile.TemporaryDirectory() as folder:
             cut = pathlib.Path(folder, "cut.bin")
             cut.write_bytes(pathlib.Path(PONG).read_bytes()[:1000])
             for image in ("/nowhere.bin", str(cut), "/dev/null"):
-                with self.subTest(image=image):
-                    self.assertRaises(RuntimeError, drop_in.ALEInterface().loadROM, image)
+                with subtests.test(image=image):
+                    with pytest.raises(RuntimeError):
+                        drop_in.ALEInterface().loadROM(image)
                     done = in_process(f"import ale_py; ale_py.ALEInterface().loadROM({image!r})")
-                    self.assertNotIn("Traceback", done.stderr)  # it has ended the process itself
-                    self.assertNotEqual(done.returncode, 0)
+                    assert "Traceback" not in done.stderr  # it has ended the process itself
+                    assert done.returncode != 0
 
-    def test_02_without_an_image_every_method_raises_or_answers(self):
+    def test_02_without_an_image_every_method_raises_or_answers(self, subtests):
         unloaded = drop_in.ALEInterface()
         for name in (
             "act",
@@ -63,26 +64,30 @@ class Differences(unittest.TestCase):
             "getAvailableDifficulties",
             "state_hash",
         ):
-            with self.subTest(method=name), self.assertRaisesRegex(RuntimeError, "ROM not set"):
+            with subtests.test(method=name), pytest.raises(RuntimeError, match="ROM not set"):
                 getattr(unloaded, name)(*([0] if name == "act" else []))
         for method, words in ((unloaded.setMode, [0]), (unloaded.setDifficulty, [0]), (unloaded.setRAM, [0, 0])):
-            self.assertRaisesRegex(RuntimeError, "ROM not set", method, *words)
-        self.assertLess(in_process("import ale_py; ale_py.ALEInterface().getRAM()").returncode, 0)
+            with pytest.raises(RuntimeError, match="ROM not set"):
+                method(*words)
+        assert in_process("import ale_py; ale_py.ALEInterface().getRAM()").returncode < 0
 
     def test_03_a_number_that_is_not_an_action(self):
         ours, theirs = pong()
         for number in (18, 99):
-            self.assertRaisesRegex(ValueError, f"action {number} is out of range; accepted: 0 to 17", ours.act, number)
-            self.assertEqual(theirs.act(number), 0)
-        self.assertRaisesRegex(ValueError, "is out of range", ours.act, 2**31)
-        self.assertRaises(IndexError, drop_in.AtariEnv("pong").step, -1)
+            with pytest.raises(ValueError, match=f"action {number} is out of range; accepted: 0 to 17"):
+                ours.act(number)
+            assert theirs.act(number) == 0
+        with pytest.raises(ValueError, match="is out of range"):
+            ours.act(2**31)
+        with pytest.raises(IndexError):
+            drop_in.AtariEnv("pong").step(-1)
         ale_py.AtariEnv("pong").step(-1)
 
     def test_04_choices_are_named(self):
-        self.assertRaisesRegex(RuntimeError, "mode is 77; it takes 0, 1$", pong()[0].setMode, 77)
-        self.assertRaisesRegex(
-            RuntimeError, "pong has no difficulty 77; it offers 0, 1, 2, 3", pong()[0].setDifficulty, 77
-        )
+        with pytest.raises(RuntimeError, match="mode is 77; it takes 0, 1$"):
+            pong()[0].setMode(77)
+        with pytest.raises(RuntimeError, match="pong has no difficulty 77; it offers 0, 1, 2, 3"):
+            pong()[0].setDifficulty(77)
 
     def test_05_states_are_exact(self):
         exact = []
@@ -92,15 +97,15 @@ class Differences(unittest.TestCase):
             [ale.act(step % 6) for step in range(100)]
             ale.restoreState(state)
             exact.append(np.array_equal(ale.getScreenRGB(), screen) and np.array_equal(ale.getAudio(), sound))
-        self.assertEqual(exact, [True, False])
+        assert exact == [True, False]
 
     def test_06_states_hash_as_they_compare(self):
         ours, theirs = pong()
-        self.assertEqual(hash(ours.cloneState()), hash(ours.cloneState()))
+        assert hash(ours.cloneState()) == hash(ours.cloneState())
         two = [theirs.cloneState() for _ in range(2)]
-        self.assertTrue(two[0] == two[1] and hash(two[0]) != hash(two[1]))
-        self.assertFalse(ours.cloneState() == 3)
-        with self.assertRaises(TypeError):
+        assert two[0] == two[1] and hash(two[0]) != hash(two[1])
+        assert not (ours.cloneState() == 3)  # noqa: SIM201
+        with pytest.raises(TypeError):
             theirs.cloneState() == 3  # noqa: B015
 
     def test_07_copies_have_the_game(self):
@@ -110,39 +115,42 @@ class Differences(unittest.TestCase):
             env.reset(seed=1)
             env.step(0)
             frames.append(copy.deepcopy(env).ale.getFrameNumber())
-        self.assertEqual(frames, [4, 0])
-        self.assertEqual(pickle.loads(pickle.dumps(pong()[0])).getInt("random_seed"), 7)
-        self.assertRaises(TypeError, pickle.dumps, pong()[1])
+        assert frames == [4, 0]
+        assert pickle.loads(pickle.dumps(pong()[0])).getInt("random_seed") == 7
+        with pytest.raises(TypeError):
+            pickle.dumps(pong()[1])
 
     def test_08_images_of_other_kinds(self):
         ale = drop_in.ALEInterface()
         ale.loadROM(pathlib.Path(PONG).read_bytes())
-        self.assertEqual(ale.getGame(), "pong")
+        assert ale.getGame() == "pong"
         ale.loadROM("builtin:updraft")
-        self.assertEqual(ale.getGame(), "updraft")
-        self.assertEqual(str(drop_in.roms.get_rom_path("pong")), PONG)
+        assert ale.getGame() == "updraft"
+        assert str(drop_in.roms.get_rom_path("pong")) == PONG
 
     def test_09_nothing_is_logged(self):
         script = "import {} as m; m.ALEInterface.setLoggerMode(m.LoggerMode.Info); m.ALEInterface().loadROM({!r})"
-        self.assertEqual(in_process(script.format("racebeam.ale_py", PONG)).stderr, "")
-        self.assertNotEqual(in_process(script.format("ale_py", PONG)).stderr, "")
+        assert in_process(script.format("racebeam.ale_py", PONG)).stderr == ""
+        assert in_process(script.format("ale_py", PONG)).stderr != ""
 
     def test_10_SDL_is_absent(self):
-        self.assertEqual((drop_in.SDL_SUPPORT, ale_py.SDL_SUPPORT), (False, True))
+        assert (drop_in.SDL_SUPPORT, ale_py.SDL_SUPPORT) == (False, True)
         ale = drop_in.ALEInterface()
         ale.setBool("display_screen", True)
         ale.loadROM(PONG)
         ale.setString("record_screen_dir", "/tmp")
-        self.assertRaisesRegex(RuntimeError, "record_screen_dir is '/tmp'", ale.loadROM, PONG)
+        with pytest.raises(RuntimeError, match="record_screen_dir is '/tmp'"):
+            ale.loadROM(PONG)
 
     def test_11_getters_know_their_type(self):
         ours, theirs = pong()
-        self.assertEqual((ours.getFloat("random_seed"), theirs.getFloat("random_seed")), (-1.0, 7.0))
+        assert (ours.getFloat("random_seed"), theirs.getFloat("random_seed")) == (-1.0, 7.0)
 
     def test_12_a_closed_environment(self):
         env = drop_in.AtariEnv("pong")
         env.close()
-        self.assertRaises(Exception, env.reset)  # noqa: B017
+        with pytest.raises(Exception):  # noqa: B017
+            env.reset()
         theirs = ale_py.AtariEnv("pong")
         theirs.close()
         theirs.reset()
@@ -152,47 +160,63 @@ class Differences(unittest.TestCase):
             envs = drop_in.AtariVectorEnv("pong", 2, autoreset_mode=autoreset, life_loss="end", render_mode="rgb_array")
             envs.reset(seed=[3, 4])
             envs.reset(seed=np.int64(3))
-            self.assertEqual(envs.render()[1].shape, (210, 160, 3))
-            self.assertEqual(
-                set(envs.step(np.zeros(2, np.int64))[4]), {"env_id", "lives", "frame_number", "episode_frame_number"}
-            )
-        self.assertRaises(ValueError, ale_py.AtariVectorEnv, "pong", 2, autoreset_mode="Disabled")
+            assert envs.render()[1].shape == (210, 160, 3)
+            assert set(envs.step(np.zeros(2, np.int64))[4]) == {
+                "env_id",
+                "lives",
+                "frame_number",
+                "episode_frame_number",
+            }
+        with pytest.raises(ValueError):
+            ale_py.AtariVectorEnv("pong", 2, autoreset_mode="Disabled")
         theirs = ale_py.AtariVectorEnv("pong", 2)
         for seed in ([3, 4], np.int64(3)):
-            self.assertRaises(TypeError, theirs.reset, seed=seed)
-        self.assertRaises(NotImplementedError, theirs.render)
-        self.assertIs(theirs.metadata, ale_py.AtariVectorEnv.metadata)
-        self.assertIsNot(envs.metadata, drop_in.AtariVectorEnv.metadata)
+            with pytest.raises(TypeError):
+                theirs.reset(seed=seed)
+        with pytest.raises(NotImplementedError):
+            theirs.render()
+        assert theirs.metadata is ale_py.AtariVectorEnv.metadata
+        assert envs.metadata is not drop_in.AtariVectorEnv.metadata
 
     def test_14_many_environments_raise(self):
         both = [module.AtariVectorEnv("pong", 2) for module in (drop_in, ale_py)]
         for envs in both:
             envs.reset(seed=1)
             for actions in ([0, 0], np.zeros(3, np.int64), np.zeros(2, np.float32)):
-                self.assertRaises(AssertionError, envs.step, actions)
+                with pytest.raises(AssertionError):
+                    envs.step(actions)
             for mask, error in (([True, False], TypeError), (np.array([True]), ValueError)):
-                self.assertRaises(error, envs.reset, options={"reset_mask": mask})
-            self.assertRaises(ValueError, envs.reset, seed=np.array([1]))
-            self.assertRaises(TypeError, envs.reset, seed="x")
-        self.assertRaises(IndexError, both[0].step, np.array([0, 99]))
-        self.assertRaises(gymnasium.error.Error, drop_in.AtariVectorEnv, "pong", 2, stack_num=0)
+                with pytest.raises(error):
+                    envs.reset(options={"reset_mask": mask})
+            with pytest.raises(ValueError):
+                envs.reset(seed=np.array([1]))
+            with pytest.raises(TypeError):
+                envs.reset(seed="x")
+        with pytest.raises(IndexError):
+            both[0].step(np.array([0, 99]))
+        with pytest.raises(gymnasium.error.Error):
+            drop_in.AtariVectorEnv("pong", 2, stack_num=0)
         ale_py.AtariVectorEnv("pong", 2, stack_num=0)
         for envs in both:
             envs.close()
-        self.assertRaises(gymnasium.error.ClosedEnvironmentError, both[0].step, np.zeros(2, np.int64))
+        with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+            both[0].step(np.zeros(2, np.int64))
         both[1].step(np.zeros(2, np.int64))
 
     def test_15_ALEVectorInterface_and_xla(self):
         for name in INTERNAL:
-            self.assertFalse(hasattr(drop_in, name) or hasattr(drop_in._ale_py, name), name)
+            assert not (hasattr(drop_in, name) or hasattr(drop_in._ale_py, name)), name
         ours, theirs = interfaces(3)
         for each in (ours, theirs):
-            self.assertRaises(RuntimeError, each.reset, [0], [4])
+            with pytest.raises(RuntimeError):
+                each.reset([0], [4])
         ours.reset([0, 1, 2], [4, 5, 6])
         ours.send([0, 1, 2], [1.0] * 3)
-        self.assertRaises(IndexError, ours.send, [0, 99, 0], [1.0] * 3)
+        with pytest.raises(IndexError):
+            ours.send([0, 99, 0], [1.0] * 3)
         ours.recv()
-        self.assertRaises(racebeam.InvalidInput, drop_in.ALEVectorInterface, __file__, 2)
+        with pytest.raises(racebeam.InvalidInput):
+            drop_in.ALEVectorInterface(__file__, 2)
 
     def test_16_a_strength_is_finite(self):
         for radius in (np.nan, np.inf, -np.inf):
@@ -203,16 +227,20 @@ class Differences(unittest.TestCase):
                 env.reset(seed=1)
             with np.errstate(invalid="ignore"):
                 theirs.step(action)
-                self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", ours.step, action)
-            self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", many.step, np.array([action] * 2))
-            self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", ours.ale.act, 0, radius)
+                with pytest.raises(racebeam.InvalidInput, match="must be a finite number"):
+                    ours.step(action)
+            with pytest.raises(racebeam.InvalidInput, match="must be a finite number"):
+                many.step(np.array([action] * 2))
+            with pytest.raises(racebeam.InvalidInput, match="must be a finite number"):
+                ours.ale.act(0, radius)
         for env, action in (
             (ours, np.array([0, np.inf, 0], np.float32)),
             (many, np.array([[0, 0, 0], [0, 0, np.inf]], np.float32)),
         ):
-            self.assertRaisesRegex(racebeam.InvalidInput, "finite number", env.step, action)
+            with pytest.raises(racebeam.InvalidInput, match="finite number"):
+                env.step(action)
 
-    def test_17_arguments_of_AtariEnv_are_checked(self):
+    def test_17_arguments_of_AtariEnv_are_checked(self, subtests):
         for arguments in (
             {"repeat_action_probability": 2},
             {"max_num_frames_per_episode": -5},
@@ -220,25 +248,29 @@ class Differences(unittest.TestCase):
             {"continuous_action_threshold": "x"},
             {"continuous_action_threshold": float("nan"), "continuous": True},
         ):
-            with self.subTest(**arguments):
-                self.assertRaises(gymnasium.error.Error, drop_in.AtariEnv, "pong", **arguments)
+            with subtests.test(**arguments):
+                with pytest.raises(gymnasium.error.Error):
+                    drop_in.AtariEnv("pong", **arguments)
                 ale_py.AtariEnv("pong", **arguments)
         drop_in.AtariEnv("pong", frameskip=np.int64(4))
-        self.assertRaises(gymnasium.error.Error, ale_py.AtariEnv, "pong", frameskip=np.int64(4))
+        with pytest.raises(gymnasium.error.Error):
+            ale_py.AtariEnv("pong", frameskip=np.int64(4))
 
-    def test_18_limits_of_many_environments(self):
-        for arguments in (
+    @pytest.mark.parametrize(
+        "arguments",
+        (
             {"img_width": 321},
             {"img_height": 421},
             {"img_height": 8},
             {"stack_num": 17},
             {"noop_max": 1001},
             {"frameskip": 1001},
-        ):
-            with self.subTest(**arguments):
-                with self.assertRaises((gymnasium.error.Error, racebeam.InvalidInput)):
-                    drop_in.AtariVectorEnv("pong", 1, **arguments)
-                ale_py.AtariVectorEnv("pong", 1, **arguments)
+        ),
+    )
+    def test_18_limits_of_many_environments(self, arguments):
+        with pytest.raises((gymnasium.error.Error, racebeam.InvalidInput)):
+            drop_in.AtariVectorEnv("pong", 1, **arguments)
+        ale_py.AtariVectorEnv("pong", 1, **arguments)
 
     def test_screens_that_grow_are_the_same(self):
         for size in ((224, 224), (256, 256), (420, 320), (84, 200), (211, 100)):
@@ -248,14 +280,14 @@ class Differences(unittest.TestCase):
                 envs = module.AtariVectorEnv("pong", 1, **settings)
                 envs.reset(seed=1)
                 results.append(np.stack([envs.step(np.array([step % 3]))[0] for step in range(10)]))
-            self.assertTrue(np.array_equal(*results), size)
+            assert np.array_equal(*results), size
 
     def test_19_no_frames(self):
         ours, theirs = (module.AtariVectorEnv("pong", 2, max_num_frames_per_episode=0) for module in (drop_in, ale_py))
         for envs, ends in ((ours, False), (theirs, True)):
             envs.reset(seed=1)
             for _ in range(5):
-                self.assertEqual(envs.step(np.zeros(2, np.int64))[3].tolist(), [ends] * 2)
+                assert envs.step(np.zeros(2, np.int64))[3].tolist() == [ends] * 2
 
     def test_20_means_of_a_half(self):
         ours, theirs = (module.AtariVectorEnv("pong", 2, img_height=105, img_width=80) for module in (drop_in, ale_py))
@@ -265,4 +297,4 @@ class Differences(unittest.TestCase):
         for step in range(20):
             one, other = (envs.step(np.full(2, step % 3))[0].astype(int) for envs in (ours, theirs))
             far = max(far, np.abs(one - other).max())
-        self.assertLessEqual(far, 1)
+        assert far <= 1

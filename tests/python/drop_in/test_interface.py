@@ -4,9 +4,9 @@ import inspect
 import pathlib
 import pickle
 import tempfile
-import unittest
 
 import package
+import pytest
 
 package.require("ale_py", "gymnasium", "numpy")
 
@@ -14,8 +14,8 @@ import numpy as np
 from both import PONG, pong
 
 
-@unittest.skipIf(PONG is None, "no image of pong was found")
-class Interface(unittest.TestCase):
+@pytest.mark.needs_roms("pong")
+class TestInterface:
     def outcome(self, call, ale):
         """What a call returns, or exactly which type it raises."""
         try:
@@ -116,11 +116,11 @@ class Interface(unittest.TestCase):
         lambda ale: ale.getAudio(),
     ]
 
-    def test_all_calls_have_the_same_outcome(self):
+    def test_all_calls_have_the_same_outcome(self, subtests):
         ours, theirs = pong()
         for number, call in enumerate(self.CALLS):
-            with self.subTest(call=number, line=inspect.getsource(call).strip()[:60]):
-                self.assertEqual(self.outcome(call, ours), self.outcome(call, theirs))
+            with subtests.test(call=number, line=inspect.getsource(call).strip()[:60]):
+                assert self.outcome(call, ours) == self.outcome(call, theirs)
 
     def test_buffers_are_filled(self):
         for ale in pong():
@@ -132,10 +132,10 @@ class Interface(unittest.TestCase):
                 (ale.getAudio, (512,)),
             ):
                 buffer = np.full(shape, 99, np.uint8)
-                self.assertIsNone(method(buffer))
-                self.assertTrue(np.array_equal(buffer, method()))
+                assert method(buffer) is None
+                assert np.array_equal(buffer, method())
 
-    def test_settings_have_the_effect_that_they_have_in_ale(self):
+    def test_settings_have_the_effect_that_they_have_in_ale(self, subtests):
         settings = (
             (),
             (("setInt", "frame_skip", 3),),
@@ -147,7 +147,7 @@ class Interface(unittest.TestCase):
             (("setInt", "system_random_seed", 5),),
         )
         for setting in settings:
-            with self.subTest(settings=setting):
+            with subtests.test(settings=setting):
                 results = []
                 for ale in pong():
                     for setter, key, value in setting:
@@ -164,7 +164,7 @@ class Interface(unittest.TestCase):
                             ale.getFrameNumber(),
                         )
                     )
-                self.assertEqual(results[0], results[1])
+                assert results[0] == results[1]
 
     def test_states_agree_on_what_is_played_after_them(self):
         results = []
@@ -185,7 +185,7 @@ class Interface(unittest.TestCase):
                     ([ale.act(step * 5 % 6) for step in range(100)], ale.getRAM().tobytes(), ale.getScreen().tobytes())
                 )
             results.append(rewards)
-        self.assertEqual(results[0], results[1])
+        assert results[0] == results[1]
 
     def test_a_picture_is_the_same_file_to_a_reader(self):
         import struct
@@ -204,7 +204,7 @@ class Interface(unittest.TestCase):
                 at += size + 12
             rows = zlib.decompress(packed)
             width, height = struct.unpack(">II", head[:8])
-            self.assertEqual({rows[row * (3 * width + 1)] for row in range(height)}, {0})
+            assert {rows[row * (3 * width + 1)] for row in range(height)} == {0}
             return head[:10], rows
 
         with tempfile.TemporaryDirectory() as folder:
@@ -212,4 +212,4 @@ class Interface(unittest.TestCase):
             for ale, file in zip(pong(), files):
                 ale.act(1)
                 ale.saveScreenPNG(file)
-            self.assertEqual(pixels(files[0]), pixels(files[1]))
+            assert pixels(files[0]) == pixels(files[1])

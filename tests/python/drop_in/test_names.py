@@ -3,9 +3,9 @@
 import inspect
 import re
 import sys
-import unittest
 
 import package
+import pytest
 
 package.require("ale_py", "gymnasium", "numpy")
 
@@ -21,7 +21,7 @@ from ale_py import _ale_py
 from both import INTERNAL, PONG, in_process
 
 
-class Names(unittest.TestCase):
+class TestNames:
     def test_every_public_name_is_there(self):
         for ours, theirs in (
             (drop_in, ale_py),
@@ -45,7 +45,7 @@ class Names(unittest.TestCase):
                 "roms",
                 "vector_env",
             }
-            self.assertEqual({name for name in names if not hasattr(ours, name)}, set())
+            assert {name for name in names if not hasattr(ours, name)} == set()
         for module in ("env", "registration", "roms", "vector_env"):
             ours = __import__(f"racebeam.ale_py.{module}", fromlist=["x"])
             theirs = sys.modules[f"ale_py.{module}"]
@@ -54,33 +54,31 @@ class Names(unittest.TestCase):
                 for name, value in vars(theirs).items()
                 if getattr(value, "__module__", "").startswith("ale_py.") and not name.startswith("_")
             }
-            self.assertEqual({name for name in additions if not hasattr(ours, name)}, set(), module)
-        self.assertEqual(set(ale_py.__all__) - INTERNAL, set(drop_in.__all__) - INTERNAL)
+            assert {name for name in additions if not hasattr(ours, name)} == set(), module
+        assert set(ale_py.__all__) - INTERNAL == set(drop_in.__all__) - INTERNAL
 
     def test_every_method_is_there(self):
         for name in ("ALEInterface", "ALEState", "ALEVectorInterface", "AtariEnv", "AtariVectorEnv"):
             theirs, ours = getattr(ale_py, name), getattr(drop_in, name)
-            self.assertEqual(
-                {method for method in dir(theirs) if not hasattr(ours, method)} - {"__slotnames__"}, set(), name
-            )
+            assert {method for method in dir(theirs) if not hasattr(ours, method)} - {"__slotnames__"} == set(), name
 
     def test_the_arguments_of_AtariEnv_are_in_the_same_order(self):
         theirs = list(inspect.signature(ale_py.AtariEnv).parameters)
-        self.assertEqual(list(inspect.signature(drop_in.AtariEnv).parameters)[: len(theirs)], theirs)
+        assert list(inspect.signature(drop_in.AtariEnv).parameters)[: len(theirs)] == theirs
 
     def test_the_arguments_of_ALEVectorInterface_are_the_same(self):
         theirs = re.findall(r"(\w+): [^=,]*(?: = ([^,)]*))?[,)]", ale_py.ALEVectorInterface.__init__.__doc__)
         ours = inspect.signature(drop_in.ALEVectorInterface).parameters.values()
-        self.assertEqual([(one.name, "" if one.default is one.empty else repr(one.default)) for one in ours], theirs)
+        assert [(one.name, "" if one.default is one.empty else repr(one.default)) for one in ours] == theirs
 
     def test_actions_are_the_same_enumeration(self):
-        self.assertEqual(
-            {name: action.value for name, action in drop_in.Action.__members__.items()},
-            {name: action.value for name, action in ale_py.Action.__members__.items()},
-        )
-        self.assertNotEqual(drop_in.Action.FIRE, 1)
-        self.assertRaises(TypeError, int, drop_in.Action.FIRE)
-        self.assertEqual([mode.name for mode in drop_in.LoggerMode], [mode.name for mode in ale_py.LoggerMode])
+        assert {name: action.value for name, action in drop_in.Action.__members__.items()} == {
+            name: action.value for name, action in ale_py.Action.__members__.items()
+        }
+        assert drop_in.Action.FIRE != 1
+        with pytest.raises(TypeError):
+            int(drop_in.Action.FIRE)
+        assert [mode.name for mode in drop_in.LoggerMode] == [mode.name for mode in ale_py.LoggerMode]
 
     def test_code_for_ale_runs_on_it(self):
         script = (
@@ -99,11 +97,11 @@ class Names(unittest.TestCase):
             "print(len(roms.get_all_rom_ids()))"
         )
         if PONG is None:
-            self.skipTest("no image of pong was found")
+            pytest.skip("no image of pong was found")
         done = in_process(script)
-        self.assertEqual((done.returncode, done.stdout), (0, "108\n"), done.stderr)
+        assert (done.returncode, done.stdout) == (0, "108\n"), done.stderr
 
-    def test_each_module_can_be_imported_in_the_place_of_ale_py(self):
+    def test_each_module_can_be_imported_in_the_place_of_ale_py(self, subtests):
         script = (
             "import sys, racebeam.ale_py\n"
             "sys.modules['ale_py'] = racebeam.ale_py\n"
@@ -125,17 +123,17 @@ class Names(unittest.TestCase):
             "import ale_py.env, ale_py.registration, ale_py.roms",
             "from ale_py import *; AtariEnv, AtariVectorEnv",
         ):
-            with self.subTest(line=line):
+            with subtests.test(line=line):
                 done = in_process(script.format(line))
-                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                assert (done.returncode, done.stderr) == (0, "")
 
     def test_names_that_are_imported_late_are_listed(self):
         names = in_process(
             "import racebeam, racebeam.ale_py; print(*dir(racebeam)); print(*dir(racebeam.ale_py))"
         ).stdout.splitlines()
-        self.assertLessEqual(set(racebeam.__all__), set(names[0].split()))
-        self.assertLessEqual(
-            {*drop_in.__all__, "env", "registration", "roms", "vector_env", "register_v5_envs"}, set(names[1].split())
+        assert set(racebeam.__all__) <= set(names[0].split())
+        assert {*drop_in.__all__, "env", "registration", "roms", "vector_env", "register_v5_envs"} <= set(
+            names[1].split()
         )
 
     def test_the_ids_are_those_of_ale_py(self):
@@ -148,5 +146,5 @@ class Names(unittest.TestCase):
             in_process(tell.format("racebeam.ale_py", "racebeam")),
             in_process(tell.format("ale_py", "ale_py")),
         )
-        self.assertEqual(ours.stdout, theirs.stdout)
-        self.assertEqual(ours.stdout.count("'repeat_action_probability'"), 352)
+        assert ours.stdout == theirs.stdout
+        assert ours.stdout.count("'repeat_action_probability'") == 352

@@ -1,23 +1,22 @@
 """Code that catches the exceptions of ale_py catches those of racebeam.ale_py."""
 
-import unittest
 import warnings
 
 import package
+import pytest
 
 package.require("ale_py", "gymnasium", "numpy")
 
 import ale_py
 import numpy as np
 import racebeam.ale_py as drop_in
-from both import PONG
 
 
-@unittest.skipIf(PONG is None, "no image of pong was found")
-class Refusals(unittest.TestCase):
+@pytest.mark.needs_roms("pong")
+class TestRefusals:
     """Code that catches what ale_py raises catches what the drop-in raises."""
 
-    def test_every_type_is_caught(self):
+    def test_every_type_is_caught(self, subtests):
         def make(name, *arguments, **named):
             return lambda module: getattr(module, name)(*arguments, **named)
 
@@ -92,14 +91,14 @@ class Refusals(unittest.TestCase):
             lambda module: self.make(module, "AtariVectorEnv").ale.send([0, 0], [1.0]),
         ]
         for number, refused_call in enumerate(calls):
-            with self.subTest(call=number):
+            with subtests.test(call=number):
                 raised = []
                 for module in (ale_py, drop_in):
-                    with warnings.catch_warnings(), self.assertRaises(Exception) as refusal:
+                    with warnings.catch_warnings(), pytest.raises(Exception) as refusal:
                         warnings.simplefilter("ignore")
                         refused_call(module)
-                    raised.append(type(refusal.exception))
-                self.assertTrue(issubclass(raised[1], raised[0]), raised)
+                    raised.append(type(refusal.value))
+                assert issubclass(raised[1], raised[0]), raised
 
     def make(self, module, name):
         env = getattr(module, name)(*(["pong", 2] if name == "AtariVectorEnv" else ["pong"]))

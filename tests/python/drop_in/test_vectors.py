@@ -1,8 +1,7 @@
 """Many environments of racebeam.ale_py show what those of ale_py show."""
 
-import unittest
-
 import package
+import pytest
 
 package.require("ale_py", "gymnasium", "numpy")
 
@@ -12,17 +11,19 @@ import racebeam.ale_py as drop_in
 from both import PONG, interfaces
 
 
-@unittest.skipIf(PONG is None, "no image of pong was found")
-class Vectors(unittest.TestCase):
+@pytest.mark.needs_roms("pong")
+class TestVectors:
     def check(self, one, other):
         if isinstance(other, dict):
-            self.assertEqual(set(one), set(other))
+            assert set(one) == set(other)
             one, other = [one[key] for key in other], list(other.values())
         if isinstance(other, (tuple, list)):
-            self.assertEqual(len(one), len(other))
-            return [self.check(*pair) for pair in zip(one, other)]
-        self.assertEqual((one.dtype, one.shape), (other.dtype, other.shape))
-        return self.assertTrue(np.array_equal(one, other))
+            assert len(one) == len(other)
+            for pair in zip(one, other):
+                self.check(*pair)
+            return
+        assert (one.dtype, one.shape) == (other.dtype, other.shape)
+        assert np.array_equal(one, other)
 
     def check_step(self, one, other):
         """Compares a step. ale_py's final_obs is not defined where no episode ended."""
@@ -32,35 +33,30 @@ class Vectors(unittest.TestCase):
                 info["final_obs"] = info["final_obs"][done]
         self.check(one, other)
 
-    def test_all_calls_have_the_same_outcome(self):
-        for settings in (
+    @pytest.mark.parametrize(
+        "settings",
+        (
             {},
             {"autoreset_mode": "SameStep", "max_episode_steps": 20},
             {"grayscale": False, "stack_num": 2},
             {"full_action_space": True},
+        ),
+    )
+    def test_all_calls_have_the_same_outcome(self, settings):
+        ours, theirs = both = interfaces(3, **settings)
+        assert [action.name for action in ours.get_action_set()] == [action.name for action in theirs.get_action_set()]
+        assert (ours.get_num_envs(), ours.get_observation_shape()) == (3, theirs.get_observation_shape())
+        assert (ours.handle().dtype, ours.handle().shape) == (theirs.handle().dtype, theirs.handle().shape)
+        for ids, seeds in (
+            ([0, 1, 2], [5, 6, 7]),
+            ([1], [9]),
+            ([2, 0], [-1, -1]) if not settings else ([0], [3]),
         ):
-            with self.subTest(**settings):
-                ours, theirs = both = interfaces(3, **settings)
-                self.assertEqual(
-                    [action.name for action in ours.get_action_set()],
-                    [action.name for action in theirs.get_action_set()],
-                )
-                self.assertEqual(
-                    (ours.get_num_envs(), ours.get_observation_shape()), (3, theirs.get_observation_shape())
-                )
-                self.assertEqual(
-                    (ours.handle().dtype, ours.handle().shape), (theirs.handle().dtype, theirs.handle().shape)
-                )
-                for ids, seeds in (
-                    ([0, 1, 2], [5, 6, 7]),
-                    ([1], [9]),
-                    ([2, 0], [-1, -1]) if not settings else ([0], [3]),
-                ):
-                    self.check(*(each.reset(ids, seeds) for each in both))
-                    for step in range(8):
-                        for each in both:
-                            each.send([step % 3, 1, 2], [1.0, 0.5, 0.0])
-                        self.check_step(*(each.recv() for each in both))
+            self.check(*(each.reset(ids, seeds) for each in both))
+            for step in range(8):
+                for each in both:
+                    each.send([step % 3, 1, 2], [1.0, 0.5, 0.0])
+                self.check_step(*(each.recv() for each in both))
 
     def test_bad_input_is_refused_as_ale_py_does(self):
         ours, theirs = both = interfaces(3)
@@ -74,7 +70,8 @@ class Vectors(unittest.TestCase):
             (lambda each: type(each)(PONG, 2, autoreset_mode="x"), Exception),
         ):
             for each in both:
-                self.assertRaises(error, call, each)
+                with pytest.raises(error):
+                    call(each)
 
     def test_the_environments_of_AtariVectorEnv(self):
         ours, theirs = both = [module.AtariVectorEnv("pong", 2) for module in (drop_in, ale_py)]
@@ -94,11 +91,11 @@ class Vectors(unittest.TestCase):
                 self.check(*(envs.reset(seed=seed, options={"reset_mask": selection}) for envs in both))
                 self.check(*(envs.step(np.array([1, 2, 3])) for envs in both))
             for envs in both:
-                self.assertRaises(ValueError, envs.reset, seed=np.arange(4), options={"reset_mask": selection})
+                with pytest.raises(ValueError):
+                    envs.reset(seed=np.arange(4), options={"reset_mask": selection})
         for envs in both:
-            self.assertRaises(
-                ValueError, envs.reset, seed=np.arange(3), options={"reset_mask": np.array([True, False, False])}
-            )
+            with pytest.raises(ValueError):
+                envs.reset(seed=np.arange(3), options={"reset_mask": np.array([True, False, False])})
 
     def test_a_reset_drops_what_was_not_received(self):
         for batch_size in (2, 4):
@@ -106,5 +103,5 @@ class Vectors(unittest.TestCase):
                 envs = module.AtariVectorEnv("pong", 4, batch_size=batch_size)
                 for seed in (1, 2):
                     _, info = envs.reset(seed=seed)
-                    self.assertEqual(info["env_id"].shape, (batch_size,))
+                    assert info["env_id"].shape == (batch_size,)
                     envs.send(np.zeros(batch_size, np.int64))

@@ -12,6 +12,7 @@ import unittest
 import unittest.mock
 
 import package
+import pytest
 
 package.require("gymnasium", "numpy")
 
@@ -23,9 +24,9 @@ from racebeam import images
 HOMEBREW = package.SOURCE / "games/homebrew"
 
 
-class BadInput(unittest.TestCase):
+class TestBadInput:
     def check_refusal(self, error, sentence, call, *words, **arguments):
-        with self.assertRaisesRegex(error, sentence):
+        with pytest.raises(error, match=sentence):
             call(*words, **arguments)
 
     def test_arguments(self):
@@ -95,17 +96,17 @@ class BadInput(unittest.TestCase):
         before = env.ale.getFrameNumber()
         for action in (3, np.int64(3), np.array(3), np.uint8(3), True):
             env.step(action)
-        self.assertEqual(env.ale.getFrameNumber(), before + 20)
+        assert env.ale.getFrameNumber() == before + 20
 
     def test_images(self):
         good = (HOMEBREW / "beamfall.bin").read_bytes()
         env = racebeam.AtariEnv("beamfall", rom=good)
-        self.assertEqual(env.reset(seed=1)[0].tobytes(), racebeam.AtariEnv("beamfall").reset(seed=1)[0].tobytes())
+        assert env.reset(seed=1)[0].tobytes() == racebeam.AtariEnv("beamfall").reset(seed=1)[0].tobytes()
         for rom in (bytearray(good), memoryview(good), np.frombuffer(good, np.uint8)):
             env = racebeam.AtariEnv("beamfall", rom=rom)
-            self.assertEqual(pickle.loads(pickle.dumps(env)).reset(seed=1)[0].tobytes(), env.reset(seed=1)[0].tobytes())
+            assert pickle.loads(pickle.dumps(env)).reset(seed=1)[0].tobytes() == env.reset(seed=1)[0].tobytes()
             env.ale.loadROM(rom)
-            self.assertEqual(racebeam.ALEInterface.isSupportedROM(rom), "beamfall")
+            assert racebeam.ALEInterface.isSupportedROM(rom) == "beamfall"
         for rom in (5, [1], env):
             for call in (lambda rom: racebeam.AtariEnv("beamfall", rom=rom), env.ale.loadROM, env.ale.isSupportedROM):
                 self.check_refusal(TypeError, "^rom ", call, rom)
@@ -121,7 +122,7 @@ class BadInput(unittest.TestCase):
         env = racebeam.AtariEnv("beamfall")
         for seed in (-1, 1.5, "x", np.int64(3)):
             self.check_refusal(gym.error.Error, "Seed must be", env.reset, seed=seed)
-        self.assertEqual(len(env.reset(seed=2**100)[1]["seeds"]), 2)
+        assert len(env.reset(seed=2**100)[1]["seeds"]) == 2
 
     def test_the_error_for_a_missing_image_names_the_searched_places(self):
         script = (
@@ -136,16 +137,15 @@ class BadInput(unittest.TestCase):
         done = subprocess.run(
             [sys.executable, "-c", blind + script], env=with_path, capture_output=True, text=True, check=True
         )
-        self.assertIn(
+        assert (
             "MissingImage no cartridge image of pong was found; racebeam searched RACEBEAM_ROMS, /nowhere (not a "
             "folder); "
-            f"ALE_ROMS_DIR, {HOMEBREW} (no file has an MD5 of the game); an installed ale_py",
-            done.stdout,
-        )
+            f"ALE_ROMS_DIR, {HOMEBREW} (no file has an MD5 of the game); an installed ale_py"
+        ) in done.stdout
 
     def test_an_image_is_found_by_its_md5(self):
         if "pong" not in package.roms():
-            self.skipTest("no image of pong was found")
+            pytest.skip("no image of pong was found")
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "something.a26").write_bytes(pathlib.Path(racebeam.find_image("pong")).read_bytes())
             pathlib.Path(folder, "pong.bin").write_bytes(b"no image of pong")
@@ -157,7 +157,7 @@ class BadInput(unittest.TestCase):
                 text=True,
                 check=True,
             )
-            self.assertEqual(done.stdout.strip(), str(pathlib.Path(folder, "something.a26")))
+            assert done.stdout.strip() == str(pathlib.Path(folder, "something.a26"))
 
     def test_a_file_that_is_overwritten_is_identified_again(self):
         with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ, RACEBEAM_ROMS=folder):
@@ -165,34 +165,33 @@ class BadInput(unittest.TestCase):
             with unittest.mock.patch.object(images, "built_in", frozenset):
                 for name, expected in (("updraft", str(image)), ("beamfall", None), ("updraft", str(image))):
                     image.write_bytes((HOMEBREW / f"{name}.bin").read_bytes())
-                    self.assertEqual(images.find_all().get(game), expected)
+                    assert images.find_all().get(game) == expected
                     if expected is None:
                         self.check_refusal(
                             racebeam.MissingImage, "no file has an MD5 of the game", racebeam.find_image, game
                         )
                     else:
-                        self.assertEqual(racebeam.find_image(game), expected)
+                        assert racebeam.find_image(game) == expected
 
     def test_what_counts_as_an_image_is_in_the_document(self):
         table = re.search(
             r"A file that ends in (.*?) is identified",
             (package.SOURCE / "docs/python/reference.md").read_text().replace("\n", " "),
         )[1]
-        self.assertEqual(table, "`.bin`, `.a26` or `.rom`, also with `.gz` after it,")
+        assert table == "`.bin`, `.a26` or `.rom`, also with `.gz` after it,"
         with tempfile.TemporaryDirectory() as folder:
             names = ("a.bin", "b.a26", "c.rom", "d.bin.gz", "e.BIN", "f", "g.foo", "h.bin.bak", "i.zip", "sub/j.bin")
             pathlib.Path(folder, "sub").mkdir()
             for name in names:
                 pathlib.Path(folder, name).write_bytes(b"x")
-            self.assertEqual(
-                racebeam._core.image_files(folder),
-                [str(pathlib.Path(folder, name)) for name in (*names[:5], "i.zip")],
-            )
+            assert racebeam._core.image_files(folder) == [
+                str(pathlib.Path(folder, name)) for name in (*names[:5], "i.zip")
+            ]
 
     def test_the_list_of_games_belongs_to_the_caller(self):
         racebeam.games().clear()
-        self.assertEqual(len(racebeam.games()), 110)
-        self.assertEqual(racebeam.games()["beamfall"], "Beamfall")
+        assert len(racebeam.games()) == 110
+        assert racebeam.games()["beamfall"] == "Beamfall"
 
     def test_after_close(self):
         env = racebeam.AtariEnv("beamfall")
@@ -214,7 +213,7 @@ class BadInput(unittest.TestCase):
             lambda: pickle.dumps(env),
         ):
             self.check_refusal(gym.error.ClosedEnvironmentError, "was closed", call)
-        self.assertEqual(env.get_action_meanings(), ours.get_action_meanings())
+        assert env.get_action_meanings() == ours.get_action_meanings()
 
     def test_states(self):
         env = racebeam.AtariEnv("beamfall")
@@ -232,4 +231,4 @@ class BadInput(unittest.TestCase):
         self.check_refusal(
             racebeam.InvalidInput, "the state is of", racebeam.AtariEnv("updraft").restore_state, env.clone_state()
         )
-        self.assertEqual(env.clone_state().serialize(), whole)
+        assert env.clone_state().serialize() == whole

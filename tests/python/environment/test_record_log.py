@@ -4,6 +4,7 @@ import csv
 import fcntl
 import os
 import pathlib
+import re
 import resource
 import subprocess
 import tempfile
@@ -46,10 +47,11 @@ def plain_umask():
     os.umask(before)
 
 
-class Submissions(unittest.TestCase):
-    def setUp(self):
+class TestSubmissions:
+    @pytest.fixture(autouse=True)
+    def set_up(self, cleanup):
         self.scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(self.scratch.cleanup)
+        cleanup(self.scratch.cleanup)
         self.folder = pathlib.Path(self.scratch.name, "mine")
 
     def record(self, games=2, phrase=None, agent="random", **arguments):
@@ -70,7 +72,7 @@ class Submissions(unittest.TestCase):
             table.writeheader()
             table.writerows(rows)
 
-    def test_episodes_are_confirmed(self):
+    def test_episodes_are_confirmed(self, subtests):
         for number, arguments in enumerate(
             (
                 {"preset": "machado2018"},
@@ -82,29 +84,25 @@ class Submissions(unittest.TestCase):
             )
         ):
             self.folder = pathlib.Path(self.scratch.name, str(number))
-            with self.subTest(**arguments):
+            with subtests.test(**arguments):
                 env = self.record(**arguments)
-                self.assertEqual((env.logged, env.unlogged), (2, 0))
+                assert (env.logged, env.unlogged) == (2, 0)
                 status, output = self.verify()
-                self.assertEqual(
-                    (status, output.split(";")[0]), (0, "2 rows confirmed, 0 wrong, 0 could not be checked")
-                )
-                self.assertIn(
-                    f'preset = "{arguments.get("preset", "other")}"', (self.folder / "agent.toml").read_text()
-                )
+                assert (status, output.split(";")[0]) == (0, "2 rows confirmed, 0 wrong, 0 could not be checked")
+                assert f'preset = "{arguments.get("preset", "other")}"' in (self.folder / "agent.toml").read_text()
 
     def test_the_seed_of_reset_and_the_hash_are_those_of_the_log(self):
         env = RecordLog(racebeam.AtariEnv("beamfall"), self.folder)
         _, info = env.reset(seed=5)
         env = play_games(env, 1, seed=5)
         (row,) = self.rows()
-        self.assertEqual(row["environment_seed"], str(info["seeds"][1]))
-        self.assertEqual(row["state_hash"], f"{env.unwrapped.state_hash:016x}")
+        assert row["environment_seed"] == str(info["seeds"][1])
+        assert row["state_hash"] == f"{env.unwrapped.state_hash:016x}"
 
     def test_seeds_follow_from_a_phrase(self):
         self.record(phrase="a headline of tomorrow")
-        self.assertEqual(self.verify()[0], 0)
-        with self.assertRaisesRegex(InvalidInput, "with a phrase, reset takes none"):
+        assert self.verify()[0] == 0
+        with pytest.raises(InvalidInput, match="with a phrase, reset takes none"):
             self.env.reset(seed=1)
 
     def test_what_was_changed_is_refused(self):
@@ -112,13 +110,13 @@ class Submissions(unittest.TestCase):
         rows = self.rows()
         self.write_rows([rows[0] | {"score": str(int(rows[0]["score"]) + 1)}, rows[1]])
         status, output = self.verify()
-        self.assertEqual(status, 1)
-        self.assertRegex(output, "score is '.*'; its log has")
+        assert status == 1
+        assert re.search("score is '.*'; its log has", output)
         swapped = {"environment_seed": rows[1]["environment_seed"]}
         self.write_rows([rows[0] | swapped, rows[1]])
         status, output = self.verify()
-        self.assertEqual(status, 1)
-        self.assertIn("environment_seed", output)
+        assert status == 1
+        assert "environment_seed" in output
 
     def test_an_action_that_was_changed_is_refused(self):
         start = Start("beamfall", 7, 4, max_episode_frames=400)
@@ -130,53 +128,53 @@ class Submissions(unittest.TestCase):
         (self.folder / "agent.toml").write_text('agent = "liar"\n')
         self.write_rows([{column: row[column] for column in COLUMNS.split(",")}])
         status, output = self.verify()
-        self.assertEqual(status, 1, output)
-        self.assertIn("not confirmed", output)
+        assert status == 1, output
+        assert "not confirmed" in output
 
     def test_episodes_that_cannot_be_repeated_have_no_log(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=200), self.folder)
         env.reset()
         env.step(1)
-        with self.assertWarnsRegex(UserWarning, "no log: it was left before its end"):
+        with pytest.warns(UserWarning, match="no log: it was left before its end"):
             env.reset()
         state = env.unwrapped.clone_state()
         for _ in range(20):
             env.step(1)
         env.unwrapped.restore_state(state)
-        with self.assertWarnsRegex(UserWarning, "no log: .* a state was restored in it"):
+        with pytest.warns(UserWarning, match="no log: .* a state was restored in it"):
             for _ in range(60):
                 env.step(2)
-        self.assertEqual((env.logged, env.unlogged, self.rows()), (0, 2, []))
+        assert (env.logged, env.unlogged, self.rows()) == (0, 2, [])
 
     def test_a_full_disk_is_reported_and_the_game_goes_on(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
         limits = resource.getrlimit(resource.RLIMIT_FSIZE)
         resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
         try:
-            with self.assertWarnsRegex(UserWarning, "no log: .*large"):
+            with pytest.warns(UserWarning, match="no log: .*large"):
                 play_games(env, 1)
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, limits)
         play_games(env, 1)
-        self.assertEqual((env.logged, env.unlogged, len(self.rows())), (1, 1, 1))
-        self.assertEqual(self.verify()[0], 0)
+        assert (env.logged, env.unlogged, len(self.rows())) == (1, 1, 1)
+        assert self.verify()[0] == 0
 
     def test_a_program_that_keeps_the_lock_of_the_table_costs_an_episode_its_log(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
         with open(self.folder / "results.csv", "rb") as table, unittest.mock.patch.object(submission, "PATIENCE", 0.1):
             fcntl.flock(table, fcntl.LOCK_EX)
-            with self.assertWarnsRegex(UserWarning, "no log: another program has had the lock of .*results.csv"):
+            with pytest.warns(UserWarning, match="no log: another program has had the lock of .*results.csv"):
                 play_games(env, 1)
         play_games(env, 1)
-        self.assertEqual((env.logged, env.unlogged, len(self.rows())), (1, 1, 1))
-        self.assertEqual(self.verify()[0], 0)
+        assert (env.logged, env.unlogged, len(self.rows())) == (1, 1, 1)
+        assert self.verify()[0] == 0
 
     def test_bad_arguments_are_refused_and_leave_nothing(self):
         for words in ({"trial": 0}, {"trial": "x"}, {"trial": 2**31}, {"agent_seed": -1}, {"agent_seed": 2**32}):
-            with self.assertRaisesRegex((ValueError, TypeError), f"{next(iter(words))} is .*; it takes"):
+            with pytest.raises((ValueError, TypeError), match=f"{next(iter(words))} is .*; it takes"):
                 RecordLog(racebeam.AtariEnv("beamfall"), self.folder, **words)
         for agent in ("", "../x", "a b", "a/b", "x" * 65):
-            with self.assertRaisesRegex(InvalidInput, "agent is"):
+            with pytest.raises(InvalidInput, match="agent is"):
                 self.record(agent=agent)
         for arguments in (
             {"continuous": True},
@@ -184,12 +182,12 @@ class Submissions(unittest.TestCase):
             {"noop_max": 30},
             {"reward_range": (-1, 1)},
         ):
-            with self.assertRaises(InvalidInput, msg=arguments):
+            with pytest.raises(InvalidInput):
                 self.record(**arguments)
-        self.assertFalse(self.folder.exists())
+        assert not self.folder.exists()
 
     def test_two_programs_cannot_share_a_folder(self):
         self.record(1)
-        with self.assertRaises(FileExistsError):
+        with pytest.raises(FileExistsError):
             self.record(1)
-        self.assertEqual(self.verify()[0], 0)
+        assert self.verify()[0] == 0

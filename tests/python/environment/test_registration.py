@@ -5,10 +5,10 @@ import pathlib
 import subprocess
 import sys
 import tempfile
-import unittest
 import warnings
 
 import package
+import pytest
 
 package.require("gymnasium", "numpy")
 
@@ -17,28 +17,29 @@ import racebeam
 from gymnasium.utils.env_checker import check_env
 
 
-class Registration(unittest.TestCase):
+class TestRegistration:
     def test_every_game_has_an_id_and_ours_can_be_made(self):
         ids = [env_id for env_id in gym.registry if env_id.startswith("racebeam/")]
-        self.assertEqual(len([env_id for env_id in ids if env_id.endswith("-v5")]), len(racebeam.games()))
-        self.assertEqual(len([env_id for env_id in ids if env_id.endswith("NoFrameskip-v4")]), len(racebeam.games()))
-        self.assertEqual(len(ids), 220)
+        assert len([env_id for env_id in ids if env_id.endswith("-v5")]) == len(racebeam.games())
+        assert len([env_id for env_id in ids if env_id.endswith("NoFrameskip-v4")]) == len(racebeam.games())
+        assert len(ids) == 220
         for env_id in ("racebeam/Beamfall-v5", "racebeam/Updraft-v5"):
             env = gym.make(env_id)
-            self.assertEqual(type(env.unwrapped).__name__, "AtariEnv")
-            self.assertEqual(env.unwrapped._frameskip, 4)
-            self.assertEqual(env.unwrapped.ale.getInt("max_num_frames_per_episode"), 108000)
-            self.assertEqual(env.unwrapped.ale.getFloat("repeat_action_probability"), 0.25)
+            assert type(env.unwrapped).__name__ == "AtariEnv"
+            assert env.unwrapped._frameskip == 4
+            assert env.unwrapped.ale.getInt("max_num_frames_per_episode") == 108000
+            assert env.unwrapped.ale.getFloat("repeat_action_probability") == 0.25
 
     def test_ids_without_frame_skipping_are_for_wrappers_that_skip(self):
         env = gym.make("racebeam/BeamfallNoFrameskip-v4")
         env.reset(seed=1)
-        self.assertEqual(env.step(0)[4]["episode_frame_number"], 1)
-        self.assertEqual(env.unwrapped.ale.getFloat("repeat_action_probability"), 0)
-        self.assertEqual(env.unwrapped.ale.getInt("max_num_frames_per_episode"), 108000)
+        assert env.step(0)[4]["episode_frame_number"] == 1
+        assert env.unwrapped.ale.getFloat("repeat_action_probability") == 0
+        assert env.unwrapped.ale.getInt("max_num_frames_per_episode") == 108000
         if importlib.util.find_spec("cv2"):
             gym.wrappers.AtariPreprocessing(env).reset(seed=1)
-            self.assertRaises(ValueError, gym.wrappers.AtariPreprocessing, gym.make("racebeam/Beamfall-v5"))
+            with pytest.raises(ValueError):
+                gym.wrappers.AtariPreprocessing(gym.make("racebeam/Beamfall-v5"))
 
     def warnings_of(self, env):
         with warnings.catch_warnings(record=True) as caught:
@@ -47,27 +48,27 @@ class Registration(unittest.TestCase):
             env.reset()
         return [(str(one.message), one.filename) for one in caught if "skip frames" in str(one.message)]
 
-    def test_frames_that_are_skipped_twice_are_warned_of_once(self):
+    def test_frames_that_are_skipped_twice_are_warned_of_once(self, subtests):
         every_frame, skip = "racebeam/BeamfallNoFrameskip-v4", gym.wrappers.MaxAndSkipObservation
         for env, sentence in (
             (skip(gym.make("racebeam/Beamfall-v5"), 4), "4 x 4 = 16 frames, since AtariEnv and MaxAndSkipObservation"),
             (skip(skip(gym.make(every_frame), 2), 3), "2 x 3 = 6 frames, since MaxAndSkipObservation and MaxAndSkip"),
             (skip(racebeam.AtariEnv("beamfall", frameskip=(2, 5)), 2), "4 x 2 = 8 frames"),
         ):
-            with self.subTest(sentence=sentence):
+            with subtests.test(sentence=sentence):
                 [(message, file)] = self.warnings_of(env)
-                self.assertIn(sentence, message)
-                self.assertEqual(file, __file__)
-        self.assertEqual(self.warnings_of(skip(gym.make(every_frame), 4)), [])
-        self.assertEqual(self.warnings_of(gym.make("racebeam/Beamfall-v5")), [])
+                assert sentence in message
+                assert file == __file__
+        assert self.warnings_of(skip(gym.make(every_frame), 4)) == []
+        assert self.warnings_of(gym.make("racebeam/Beamfall-v5")) == []
 
-    @unittest.skipUnless(importlib.util.find_spec("cv2"), "AtariPreprocessing needs OpenCV")
+    @pytest.mark.needs_modules("cv2")
     def test_AtariPreprocessing_that_skips_twice_is_warned_of(self):
         every_frame, wrap = gym.make("racebeam/BeamfallNoFrameskip-v4"), gym.wrappers.AtariPreprocessing
-        self.assertEqual(self.warnings_of(wrap(every_frame, screen_size=84)), [])
+        assert self.warnings_of(wrap(every_frame, screen_size=84)) == []
         twice = wrap(gym.wrappers.MaxAndSkipObservation(gym.make("racebeam/BeamfallNoFrameskip-v4"), 4))
         [(message, _)] = self.warnings_of(twice)
-        self.assertIn("4 x 4 = 16 frames, since MaxAndSkipObservation and AtariPreprocessing", message)
+        assert "4 x 4 = 16 frames, since MaxAndSkipObservation and AtariPreprocessing" in message
 
     def test_a_spawned_process_makes_an_id_that_names_the_module(self):
         script = (
@@ -81,9 +82,9 @@ class Registration(unittest.TestCase):
             file = pathlib.Path(folder, "spawn.py")
             file.write_text(script)
             done = subprocess.run([sys.executable, file], capture_output=True, text=True)
-        self.assertEqual(done.stdout.strip(), "(2, 210, 160, 3)", done.stderr)
+        assert done.stdout.strip() == "(2, 210, 160, 3)", done.stderr
 
-    @unittest.skipUnless(importlib.util.find_spec("ale_py"), "ale_py is not installed")
+    @pytest.mark.needs_modules("ale_py")
     def test_a_later_import_of_ale_py_does_not_take_the_ids_back(self):
         for ours in ("racebeam.register_ale_ids()", "import racebeam.ale_py"):
             script = (
@@ -94,15 +95,15 @@ class Registration(unittest.TestCase):
                 "print('ALEState' in inspect.getsource(ale_py))"
             )
             done = subprocess.run([sys.executable, "-W", "error", "-c", script], capture_output=True, text=True)
-            self.assertEqual(done.stdout.split("\n")[:2], ["racebeam.ale_py.env:AtariEnv"] * 2, done.stderr)
-            self.assertEqual(done.stdout.split("\n")[2:4], ["True ale_py._ale_py", "True"], done.stderr)
+            assert done.stdout.split("\n")[:2] == ["racebeam.ale_py.env:AtariEnv"] * 2, done.stderr
+            assert done.stdout.split("\n")[2:4] == ["True ale_py._ale_py", "True"], done.stderr
 
-    def test_the_checker_of_gymnasium_finds_nothing(self):
-        for obs_type in ("rgb", "grayscale", "ram"):
-            with self.subTest(obs_type=obs_type), warnings.catch_warnings():
-                warnings.simplefilter("error")
-                env = gym.make("racebeam/Beamfall-v5", obs_type=obs_type, render_mode="rgb_array")
-                check_env(env.unwrapped, skip_render_check=importlib.util.find_spec("pygame") is None)
+    @pytest.mark.parametrize("obs_type", ("rgb", "grayscale", "ram"))
+    def test_the_checker_of_gymnasium_finds_nothing(self, obs_type):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            env = gym.make("racebeam/Beamfall-v5", obs_type=obs_type, render_mode="rgb_array")
+            check_env(env.unwrapped, skip_render_check=importlib.util.find_spec("pygame") is None)
 
     def test_the_ids_of_ale_come_when_they_are_asked_for(self):
         script = (
@@ -113,5 +114,5 @@ class Registration(unittest.TestCase):
             "print(len(before), len(ours), sorted(ours)[0], 'PongNoFrameskip-v4' in ours, 'ALE/Combat-v5' in ours)"
         )
         done = subprocess.run([sys.executable, "-W", "error", "-c", script], capture_output=True, text=True, check=True)
-        self.assertEqual(done.stdout.split(), ["220", "352", "ALE/Adventure-v5", "True", "False"])
-        self.assertEqual(done.stderr, "")
+        assert done.stdout.split() == ["220", "352", "ALE/Adventure-v5", "True", "False"]
+        assert done.stderr == ""

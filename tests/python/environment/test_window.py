@@ -1,12 +1,11 @@
 """The window of render_mode "human"."""
 
-import importlib.util
 import os
 import subprocess
 import sys
-import unittest
 
 import package
+import pytest
 
 package.require("gymnasium", "numpy")
 
@@ -15,8 +14,8 @@ if "DISPLAY" not in os.environ:
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 
-@unittest.skipIf(importlib.util.find_spec("pygame") is None, "pygame is not installed")
-class Window(unittest.TestCase):
+@pytest.mark.needs_modules("pygame")
+class TestWindow:
     """Windows of SDL's driver that shows nothing. To see them on a display, set SDL_VIDEODRIVER."""
 
     def check(self, script, *said, **variables):
@@ -24,7 +23,7 @@ class Window(unittest.TestCase):
         done = subprocess.run(
             [sys.executable, "-c", script], capture_output=True, text=True, env={**os.environ, **variables}
         )
-        self.assertEqual((done.returncode, done.stdout.split()[-len(said) :]), (0, [*said]), done.stderr)
+        assert (done.returncode, done.stdout.split()[-len(said) :]) == (0, [*said]), done.stderr
 
     def test_a_person_sees_each_frame(self):
         script = (

@@ -126,6 +126,7 @@ def run():
     return returned, refusals
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_each_call_returns_or_is_refused(seed):
     chance.seed(seed)

@@ -1,8 +1,7 @@
 """racebeam.envpool: programs that JAX compiles."""
 
-import unittest
-
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -11,11 +10,11 @@ from pools import make
 from racebeam import InvalidInput
 
 
-@unittest.skipUnless(package._is_there("jax"), "jax is not installed")
-class Compiled(unittest.TestCase):
+@pytest.mark.needs_jax
+class TestCompiled:
     """xla()."""
 
-    def test_it_shows_what_the_environments_show(self):
+    def test_it_shows_what_the_environments_show(self, subtests):
         import jax
 
         for env_type in ("gymnasium", "gym", "dm"):
@@ -24,7 +23,7 @@ class Compiled(unittest.TestCase):
                 {"gray_scale": False, "img_height": 30, "max_episode_steps": 7},
                 {"zero_discount_on_life_loss": True, "frame_skip": 60},
             ):
-                with self.subTest(env_type=env_type, **config):
+                with subtests.test(env_type=env_type, **config):
                     envs, others = make(env_type, **config), make(env_type, **config)
                     handle, recv, send, step = envs.xla()
                     envs.async_reset()
@@ -44,10 +43,10 @@ class Compiled(unittest.TestCase):
         import jax
 
         ours, theirs = jax.tree.flatten(compiled), jax.tree.flatten(shown)
-        self.assertEqual(ours[1], theirs[1])
+        assert ours[1] == theirs[1]
         for one, other in zip(ours[0], theirs[0]):
-            self.assertEqual((one.dtype, one.shape), (other.dtype, other.shape))
-            self.assertTrue(np.array_equal(one, other))
+            assert (one.dtype, one.shape) == (other.dtype, other.shape)
+            assert np.array_equal(one, other)
 
     def test_a_loop_of_some_at_a_time(self):
         import jax
@@ -62,9 +61,9 @@ class Compiled(unittest.TestCase):
             return send(handle, jax.numpy.ones(2, np.int32), info["env_id"]), steps.at[info["env_id"]].add(1)
 
         _, steps = jax.jit(lambda: jax.lax.fori_loop(0, 30, step, (handle, jax.numpy.zeros(6, np.int32))))()
-        self.assertEqual(int(steps.sum()), 60)
-        self.assertEqual(envs.recv()[4]["env_id"].shape, (2,))
-        with self.assertRaisesRegex(InvalidInput, "env_id is None"):
+        assert int(steps.sum()) == 60
+        assert envs.recv()[4]["env_id"].shape == (2,)
+        with pytest.raises(InvalidInput, match="env_id is None"):
             send(handle, np.ones(2, np.int32))
 
     def test_bad_input(self):
@@ -72,17 +71,17 @@ class Compiled(unittest.TestCase):
 
         envs = make()
         handle, recv, send, step = envs.xla()
-        self.assertRaisesRegex(
-            InvalidInput, r"actions have the shape \(2,\); they must have \(3,\)", send, handle, np.ones(2, np.int32)
-        )
-        self.assertRaises(TypeError, send, handle, np.ones(3))
+        with pytest.raises(InvalidInput, match=r"actions have the shape \(2,\); they must have \(3,\)"):
+            send(handle, np.ones(2, np.int32))
+        with pytest.raises(TypeError):
+            send(handle, np.ones(3))
         for function, arguments, words in (
             (recv, (), "0 machines play, and a receive takes 3"),
             (step, (np.full(3, 99),), "out of range"),
             (step, (np.ones(1, np.int32), np.array([7])), "machine 7 is out of range"),
         ):
-            with self.assertRaisesRegex(jax.errors.JaxRuntimeError, words):
+            with pytest.raises(jax.errors.JaxRuntimeError, match=words):
                 jax.block_until_ready(function(handle, *arguments))
         envs.close()
-        with self.assertRaisesRegex(jax.errors.JaxRuntimeError, "closed"):
+        with pytest.raises(jax.errors.JaxRuntimeError, match="closed"):
             jax.block_until_ready(step(handle, np.ones(3, np.int32)))

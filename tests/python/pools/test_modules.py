@@ -4,9 +4,9 @@ import copy
 import pickle
 import subprocess
 import sys
-import unittest
 
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -16,7 +16,7 @@ from pools import make
 from racebeam import InvalidInput, envpool
 
 
-class Modules(unittest.TestCase):
+class TestModules:
     """What programs import from EnvPool."""
 
     def test_in_the_place_of_envpool(self):
@@ -34,22 +34,22 @@ class Modules(unittest.TestCase):
             "print(envs.reset()[0].shape)"
         )
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
-        self.assertEqual((done.returncode, done.stdout), (0, "(2, 4, 84, 84)\n"), done.stderr)
+        assert (done.returncode, done.stdout) == (0, "(2, 4, 84, 84)\n"), done.stderr
 
     def test_a_spec_of_settings(self):
         config = envpool.EnvSpec.gen_config(task="beamfall", num_envs=4, batch_size=5)
-        self.assertEqual((config.batch_size, config.max_episode_steps), (5, 2**31 - 1))
-        self.assertRaisesRegex(ValueError, "batch_size is 5; it takes 0 to 4", envpool.EnvSpec, config)
-        self.assertRaisesRegex(TypeError, "unknown setting 'foo'", envpool.EnvSpec.gen_config, foo=3)
-        self.assertRaisesRegex(InvalidInput, "there are 2 values; there must be 26", envpool.EnvSpec, (1, 2))
+        assert (config.batch_size, config.max_episode_steps) == (5, 2**31 - 1)
+        with pytest.raises(ValueError, match="batch_size is 5; it takes 0 to 4"):
+            envpool.EnvSpec(config)
+        with pytest.raises(TypeError, match="unknown setting 'foo'"):
+            envpool.EnvSpec.gen_config(foo=3)
+        with pytest.raises(InvalidInput, match="there are 2 values; there must be 26"):
+            envpool.EnvSpec((1, 2))
         for task in ("nope", ["x"], ""):
-            self.assertRaisesRegex(
-                racebeam.UnknownGame,
-                "unknown game",
-                envpool.EnvSpec,
-                envpool.EnvSpec.gen_config(task=task),
-            )
-        self.assertRaisesRegex(InvalidInput, "the spec is 3", envpool.GymnasiumEnvPool, 3)
+            with pytest.raises(racebeam.UnknownGame, match="unknown game"):
+                envpool.EnvSpec(envpool.EnvSpec.gen_config(task=task))
+        with pytest.raises(InvalidInput, match="the spec is 3"):
+            envpool.GymnasiumEnvPool(3)
 
     def test_the_raw_interface(self):
         from racebeam.envpool.atari.atari_envpool import _AtariEnvPool, _AtariEnvSpec
@@ -71,19 +71,21 @@ class Modules(unittest.TestCase):
                 ("info:ram", time_step.observation.ram),
                 ("discount", time_step.discount),
             ):
-                self.assertTrue(np.array_equal(state[name], value), name)
+                assert np.array_equal(state[name], value), name
             actions = np.array([step % 18, 1, 2])
             raw._send((state["info:env_id"], state["info:players.env_id"], actions))
             time_step = envs.step(actions)
-        self.assertEqual(raw._state_keys, list(envs.spec.state_array_spec))
-        self.assertRaisesRegex(InvalidInput, "the action has 1 arrays", raw._send, (actions,))
+        assert raw._state_keys == list(envs.spec.state_array_spec)
+        with pytest.raises(InvalidInput, match="the action has 1 arrays"):
+            raw._send((actions,))
 
     def test_a_pool_is_not_copied(self):
         for copied in (pickle.dumps, copy.deepcopy):
-            self.assertRaisesRegex(TypeError, "cannot be pickled or copied", copied, make())
+            with pytest.raises(TypeError, match="cannot be pickled or copied"):
+                copied(make())
 
 
-class Spec(unittest.TestCase):
+class TestSpec:
     """What make_spec() of EnvPool 1.2.5 shows of Pong-v5, except the number of actions."""
 
     def test_spaces_and_settings(self):
@@ -92,46 +94,41 @@ class Spec(unittest.TestCase):
             ({"gray_scale": False, "img_width": 50}, (12, 84, 50), 18),
         ):
             spec = envpool.make_spec("Beamfall-v5", **config)
-            self.assertEqual((spec.observation_space.shape, spec.gymnasium_observation_space.dtype), (shape, np.uint8))
-            self.assertEqual(
-                (spec.action_space.n, spec.gymnasium_action_space.n, spec.reward_threshold), (actions, actions, None)
+            assert (spec.observation_space.shape, spec.gymnasium_observation_space.dtype) == (shape, np.uint8)
+            assert (spec.action_space.n, spec.gymnasium_action_space.n, spec.reward_threshold) == (
+                actions,
+                actions,
+                None,
             )
-            self.assertEqual((spec.config.num_envs, spec.config.batch_size), (config.get("num_envs", 1),) * 2)
-            self.assertEqual(
-                (spec.config.seed, spec.config.max_episode_steps, spec.config.task), (42, 27000, "beamfall")
-            )
-            self.assertTrue(repr(spec).startswith(f"AtariEnvSpec(num_envs={spec.config.num_envs}, "))
+            assert (spec.config.num_envs, spec.config.batch_size) == (config.get("num_envs", 1),) * 2
+            assert (spec.config.seed, spec.config.max_episode_steps, spec.config.task) == (42, 27000, "beamfall")
+            assert repr(spec).startswith(f"AtariEnvSpec(num_envs={spec.config.num_envs}, ")
             envs = make(**config)
-            self.assertEqual((envs.observation_space, envs.action_space), (spec.observation_space, spec.action_space))
-            self.assertIn("Beamfall-v5", str(envs))  # Gymnasium takes it from the spec
-            self.assertEqual(
-                envs.spec.config._replace(num_envs=1, batch_size=1), spec.config._replace(num_envs=1, batch_size=1)
-            )
+            assert (envs.observation_space, envs.action_space) == (spec.observation_space, spec.action_space)
+            assert "Beamfall-v5" in str(envs)  # Gymnasium takes it from the spec
+            assert envs.spec.config._replace(num_envs=1, batch_size=1) == spec.config._replace(num_envs=1, batch_size=1)
 
     def test_arrays(self):
         spec = envpool.make_spec("Beamfall-v5")
-        self.assertEqual(
-            {
-                name: (array.shape, np.dtype(array.dtype).name, array.minimum, array.maximum)
-                for name, array in spec.state_array_spec.items()
-            },
-            {
-                "info:env_id": ([], "int32", -(2**31), 2**31 - 1),
-                "info:players.env_id": ([-1], "int32", -(2**31), 2**31 - 1),
-                "elapsed_step": ([], "int32", -(2**31), 2**31 - 1),
-                "done": ([], "bool", False, True),
-                "reward": ([-1], "float32", np.finfo(np.float32).min, np.finfo(np.float32).max),
-                "discount": ([-1], "float32", 0, 1),
-                "step_type": ([], "int32", -(2**31), 2**31 - 1),
-                "trunc": ([], "bool", False, True),
-                "obs": ([4, 84, 84], "uint8", 0, 255),
-                "info:lives": ([-1], "int32", -(2**31), 2**31 - 1),
-                "info:reward": ([-1], "float32", np.finfo(np.float32).min, np.finfo(np.float32).max),
-                "info:terminated": ([-1], "int32", 0, 1),
-                "info:ram": ([128], "uint8", 0, 255),
-            },
-        )
-        self.assertEqual(spec.action_array_spec["action"], (np.int32, [-1], 0, 17))
+        assert {
+            name: (array.shape, np.dtype(array.dtype).name, array.minimum, array.maximum)
+            for name, array in spec.state_array_spec.items()
+        } == {
+            "info:env_id": ([], "int32", -(2**31), 2**31 - 1),
+            "info:players.env_id": ([-1], "int32", -(2**31), 2**31 - 1),
+            "elapsed_step": ([], "int32", -(2**31), 2**31 - 1),
+            "done": ([], "bool", False, True),
+            "reward": ([-1], "float32", np.finfo(np.float32).min, np.finfo(np.float32).max),
+            "discount": ([-1], "float32", 0, 1),
+            "step_type": ([], "int32", -(2**31), 2**31 - 1),
+            "trunc": ([], "bool", False, True),
+            "obs": ([4, 84, 84], "uint8", 0, 255),
+            "info:lives": ([-1], "int32", -(2**31), 2**31 - 1),
+            "info:reward": ([-1], "float32", np.finfo(np.float32).min, np.finfo(np.float32).max),
+            "info:terminated": ([-1], "int32", 0, 1),
+            "info:ram": ([128], "uint8", 0, 255),
+        }
+        assert spec.action_array_spec["action"] == (np.int32, [-1], 0, 17)
 
     def test_results_fit_their_specs(self):
         envs = make("dm")
@@ -144,26 +141,28 @@ class Spec(unittest.TestCase):
                 "discount": result.discount,
             }.get(name, getattr(result.observation, name, None))
             if value is not None:
-                self.assertEqual(
-                    (value.dtype, value.shape[1:]),
-                    (array.dtype, tuple(length for length in array.shape if length != -1)),
-                    name,
-                )
+                assert (value.dtype, value.shape[1:]) == (
+                    array.dtype,
+                    tuple(length for length in array.shape if length != -1),
+                ), name
 
-    @unittest.skipUnless(package._is_there("dm_env"), "dm_env is not installed")
+    @pytest.mark.needs_modules("dm_env")
     def test_specs_of_dm_env(self):
         from dm_env import specs
 
         envs = make("dm")
-        self.assertEqual(envs.action_spec(), specs.DiscreteArray(18, np.int32, "action"))
+        assert envs.action_spec() == specs.DiscreteArray(18, np.int32, "action")
         spec = envs.observation_spec()
         observation = envs.reset().observation
         for name in ("obs", "lives", "reward", "terminated", "ram"):
             getattr(spec, name).validate(getattr(observation, name)[0])
         spec.players.env_id.validate(observation.players.env_id[0])
-        self.assertIsInstance(spec.terminated, specs.DiscreteArray)
+        assert isinstance(spec.terminated, specs.DiscreteArray)
 
     def test_bad_input_is_refused(self):
-        self.assertRaises(racebeam.UnknownGame, envpool.make_spec, "Nope-v5")
-        self.assertRaises(InvalidInput, envpool.make_spec, "Beamfall-v5", foo=1)
-        self.assertRaises(InvalidInput, envpool.make_spec, "Beamfall-v5", max_num_players=2)
+        with pytest.raises(racebeam.UnknownGame):
+            envpool.make_spec("Nope-v5")
+        with pytest.raises(InvalidInput):
+            envpool.make_spec("Beamfall-v5", foo=1)
+        with pytest.raises(InvalidInput):
+            envpool.make_spec("Beamfall-v5", max_num_players=2)

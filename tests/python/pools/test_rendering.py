@@ -1,8 +1,7 @@
 """racebeam.envpool: pictures, and results that depend on the interface."""
 
-import unittest
-
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -14,8 +13,8 @@ from pools import HAS_VECTORS, make
 from racebeam import envpool
 
 
-class Rendering(unittest.TestCase):
-    def test_arguments_of_rendering_that_envpool_accepts(self):
+class TestRendering:
+    def test_arguments_of_rendering_that_envpool_accepts(self, subtests):
         for arguments in (
             {"render_mode": "rgb_array"},
             {"render_mode": None},
@@ -23,8 +22,8 @@ class Rendering(unittest.TestCase):
             {"render_camera_id": -1},
         ):
             envs = make("gymnasium", **arguments)
-            self.assertNotIn(*arguments, envs.config)
-            self.assertEqual(envs.render().shape, (1, 210, 160, 3))
+            assert next(iter(arguments)) not in envs.config
+            assert envs.render().shape == (1, 210, 160, 3)
         for arguments in (
             {"render_mode": "human"},
             {"from_pixels": True},
@@ -32,49 +31,49 @@ class Rendering(unittest.TestCase):
             {"render_height": 3},
             {"render_camera_id": 4},
         ):
-            with self.subTest(**arguments), self.assertRaisesRegex(racebeam.InvalidInput, "racebeam has"):
+            with subtests.test(**arguments), pytest.raises(racebeam.InvalidInput, match="racebeam has"):
                 make("gymnasium", **arguments)
 
-    @unittest.skipUnless(HAS_VECTORS, "Gymnasium has no AddRenderObservation")
+    @pytest.mark.skipif(not HAS_VECTORS, reason="Gymnasium has no AddRenderObservation")
     def test_the_metadata_has_the_mode_and_wrappers_use_it(self):
-        self.assertIsNone(make().render_mode)
+        assert make().render_mode is None
         envs = gymnasium.wrappers.AddRenderObservation(make(render_mode="rgb_array"))
-        self.assertEqual((envs.reset()[0].shape, envs.observation_space.shape), ((1, 210, 160, 3),) * 2)
-        self.assertEqual(envs.unwrapped.render(env_ids=2, camera_id=-1).shape, (1, 210, 160, 3))
+        assert (envs.reset()[0].shape, envs.observation_space.shape) == ((1, 210, 160, 3),) * 2
+        assert envs.unwrapped.render(env_ids=2, camera_id=-1).shape == (1, 210, 160, 3)
 
-    @unittest.skipUnless("air_raid" in package.roms(), "no image of air_raid was found")
+    @pytest.mark.needs_roms("air_raid")
     def test_the_upper_210_rows_of_higher_screens_are_seen(self):
         envs = envpool.make_gymnasium(
             "AirRaid-v5", gray_scale=False, stack_num=1, img_height=210, img_width=160, use_inter_area_resize=False
         )
         observations = envs.reset()[0]
-        self.assertEqual(envs.render().shape, (1, 210, 160, 3))
-        self.assertTrue(np.array_equal(observations[0].transpose(1, 2, 0), envs.render()[0]))
-        self.assertEqual(racebeam.AtariEnv("air_raid").reset()[0].shape, (250, 160, 3))
+        assert envs.render().shape == (1, 210, 160, 3)
+        assert np.array_equal(observations[0].transpose(1, 2, 0), envs.render()[0])
+        assert racebeam.AtariEnv("air_raid").reset()[0].shape == (250, 160, 3)
 
-    def test_render_returns_the_chosen_environment(self):
+    def test_render_returns_the_chosen_environment(self, subtests):
         first, second = (make("gymnasium", num_envs=2, env_seed=[1, 9], render_env_id=env) for env in (0, 1))
         for envs in (first, second):
             envs.reset()
             for _ in range(20):
                 envs.step(np.array([3, 4]))
-        self.assertTrue(np.array_equal(second.render(), first.render(1)))
-        self.assertFalse(np.array_equal(second.render(), first.render()))
+        assert np.array_equal(second.render(), first.render(1))
+        assert not np.array_equal(second.render(), first.render())
         for env in (2, -1, "x", None):
-            with self.subTest(env=env), self.assertRaisesRegex(Error, "render_env_id"):
+            with subtests.test(env=env), pytest.raises(Error, match="render_env_id"):
                 make("gymnasium", num_envs=2, render_env_id=env)
 
     def test_only_gym_resets_without_infos(self):
         for env_type in ("gymnasium", "dm"):
-            with self.assertRaisesRegex(ValueError, "gym_reset_return_info is False"):
+            with pytest.raises(ValueError, match="gym_reset_return_info is False"):
                 make(env_type, gym_reset_return_info=False)
-        self.assertEqual(make("gym", gym_reset_return_info=False).reset().ndim, 4)
+        assert make("gym", gym_reset_return_info=False).reset().ndim == 4
 
     def test_rewards_and_discounts_of_dm(self):
         try:
             from dm_env import specs
         except ImportError:
-            self.skipTest("dm_env is not installed")
+            pytest.skip("dm_env is not installed")
         envs = make("dm")
-        self.assertEqual(envs.reward_spec(), specs.Array((), float, "reward"))
-        self.assertEqual(envs.discount_spec(), specs.BoundedArray((), float, 0.0, 1.0, "discount"))
+        assert envs.reward_spec() == specs.Array((), float, "reward")
+        assert envs.discount_spec() == specs.BoundedArray((), float, 0.0, 1.0, "discount")

@@ -2,9 +2,9 @@
 
 import subprocess
 import sys
-import unittest
 
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -28,8 +28,8 @@ FLAGS = (
 )
 
 
-class BadInput(unittest.TestCase):
-    def test_arguments(self):
+class TestBadInput:
+    def test_arguments(self, subtests):
         for name, values in {
             "num_envs": (0, -1, 2.5, "2", 10**9),
             "batch_size": (-1, 3),
@@ -53,7 +53,7 @@ class BadInput(unittest.TestCase):
             **{flag: (np.ones(2, bool), np.zeros((2, 3))) for flag in FLAGS},
         }.items():
             for value in values:
-                with self.subTest(**{name: value}), self.assertRaisesRegex(Error, name):
+                with subtests.test(**{name: value}), pytest.raises(Error, match=name):
                     AtariVectorEnv("beamfall", **{"num_envs": 2, name: value})
         for arguments in (
             {"img_width": 321},
@@ -64,12 +64,12 @@ class BadInput(unittest.TestCase):
             {"rom": b"x" * 6},
             {"rom": "/nowhere.bin"},
         ):
-            with self.subTest(**arguments), self.assertRaises(InvalidInput):
+            with subtests.test(**arguments), pytest.raises(InvalidInput):
                 AtariVectorEnv("beamfall", 2, **arguments)
-        with self.assertRaises(racebeam.UnknownGame):
+        with pytest.raises(racebeam.UnknownGame):
             AtariVectorEnv("beamfal", 2)
 
-    def test_arguments_that_are_wrong_together(self):
+    def test_arguments_that_are_wrong_together(self, subtests):
         two = ["beamfall", "updraft"]
         for game, arguments, error, sentence in (
             (["beamfall"], {"num_envs": 3}, ValueError, "num_envs is 3"),
@@ -80,13 +80,13 @@ class BadInput(unittest.TestCase):
             (3, {}, TypeError, "game is 3"),
             ("beamfall", {"sound_obs": True, "server": "unix:/nowhere"}, ValueError, "^sound_obs "),
         ):
-            with self.subTest(sentence=sentence), self.assertRaisesRegex(error, sentence) as raised:
+            with subtests.test(sentence=sentence), pytest.raises(error, match=sentence) as raised:
                 AtariVectorEnv(game, **arguments)
-            self.assertIsInstance(raised.exception, Error)
+            assert isinstance(raised.value, Error)
 
     def test_more_environments_than_the_memory_has(self):
         for count in (10**6, 10**7):
-            with self.assertRaisesRegex(InvalidInput, "this process may use"):
+            with pytest.raises(InvalidInput, match="this process may use"):
                 AtariVectorEnv("beamfall", count)
 
     def test_memory_that_runs_out(self):
@@ -104,15 +104,15 @@ class BadInput(unittest.TestCase):
             "few.step([0, 0]); print('on')"
         )
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=PATIENCE)
-        self.assertEqual(done.stdout.split(), ["refused", "True", "on"], done.stderr)
+        assert done.stdout.split() == ["refused", "True", "on"], done.stderr
 
     def test_more_threads_than_environments(self):
         settings = racebeam._core.VectorSettings()
         settings.threads = settings.first_processor = 2**31 - 1
         machines = racebeam._core.VectorMachines([("builtin:beamfall", "beamfall")], np.zeros(2, np.int32), settings)
-        self.assertEqual(len(machines.numbers_of_actions()), 2)
+        assert len(machines.numbers_of_actions()) == 2
 
-    def test_actions(self):
+    def test_actions(self, subtests):
         envs, sticks = AtariVectorEnv("beamfall", 2, seed=1), AtariVectorEnv("beamfall", 2, continuous=True)
         for one, cases in (
             (
@@ -146,43 +146,43 @@ class BadInput(unittest.TestCase):
             ),
         ):
             for actions, error in cases:
-                with self.subTest(actions=actions), self.assertRaises(error):
+                with subtests.test(actions=actions), pytest.raises(error):
                     one.step(actions)
-        self.assertEqual(envs.step([0, 0])[0].shape, (2, 4, 84, 84))
+        assert envs.step([0, 0])[0].shape == (2, 4, 84, 84)
         for number in (2**63, 2**64 - 1):
-            with self.assertRaisesRegex(IndexError, f"action {number} "):
+            with pytest.raises(IndexError, match=f"action {number} "):
                 envs.step(np.array([0, number], np.uint64))
 
     def test_actions_before_the_first_reset_of_a_batch(self):
         for arguments, action in (({}, [0]), ({"continuous": True}, [[0, 0, 0]])):
             envs = AtariVectorEnv("beamfall", 2, batch_size=1, seed=1, **arguments)
             for call in (envs.send, envs.step):
-                with self.assertRaisesRegex(InvalidInput, "reset"):
+                with pytest.raises(InvalidInput, match="reset"):
                     call(action)
             envs.reset()
             envs.step(action)
 
-    def test_a_lost_life_has_one_effect(self):
+    def test_a_lost_life_has_one_effect(self, subtests):
         for flag, others in (("episodic_life", ("end", "reported", "ignored")), ("life_loss_info", ("end", "restart"))):
             for lives in others:
                 with (
-                    self.subTest(flag=flag, lives=lives),
-                    self.assertRaisesRegex(Error, f"{flag} is True.* but life_loss is '{lives}'"),
+                    subtests.test(flag=flag, lives=lives),
+                    pytest.raises(Error, match=f"{flag} is True.* but life_loss is '{lives}'"),
                 ):
                     AtariVectorEnv("beamfall", 2, life_loss=lives, **{flag: True})
         for lives in (3, np.zeros(2)):
-            self.assertRaisesRegex(
-                Error, "life_loss is", AtariVectorEnv, "beamfall", 2, life_loss=lives, episodic_life=True
-            )
+            with pytest.raises(Error, match="life_loss is"):
+                AtariVectorEnv("beamfall", 2, life_loss=lives, episodic_life=True)
         AtariVectorEnv("beamfall", 2, life_loss="restart", episodic_life=True)
-        with self.assertWarnsRegex(DeprecationWarning, "lives is the old name of life_loss"):
+        with pytest.warns(DeprecationWarning, match="lives is the old name of life_loss"):
             AtariVectorEnv("beamfall", 2, lives="end")
-        with self.assertWarns(DeprecationWarning):
-            self.assertEqual(AtariVectorEnv("beamfall", 2, lives="told")._options.life_loss, "reported")
-        self.assertRaisesRegex(Error, "only one", AtariVectorEnv, "beamfall", 2, lives="end", life_loss="end")
+        with pytest.warns(DeprecationWarning):
+            assert AtariVectorEnv("beamfall", 2, lives="told")._options.life_loss == "reported"
+        with pytest.raises(Error, match="only one"):
+            AtariVectorEnv("beamfall", 2, lives="end", life_loss="end")
         AtariVectorEnv("beamfall", 2, preset="dqn2015", episodic_life=True)
 
-    def test_seeds_and_masks(self):
+    def test_seeds_and_masks(self, subtests):
         envs = AtariVectorEnv("beamfall", 2, seed=1)
         for seed, error in (
             ("12", TypeError),
@@ -194,24 +194,20 @@ class BadInput(unittest.TestCase):
             ([1, "x"], TypeError),
             (np.zeros((2, 3)), TypeError),
         ):
-            with self.subTest(seed=seed), self.assertRaisesRegex(error, "seed"):
+            with subtests.test(seed=seed), pytest.raises(error, match="seed"):
                 envs.reset(seed=seed)
-        self.assertRaisesRegex(
-            InvalidInput,
-            r"seeds .*\(2, 1\)",
-            envs.reset,
-            seed=np.zeros((2, 1), int),
-        )
-        self.assertTrue(np.array_equal(envs.reset(seed=np.array(3))[0], envs.reset(seed=3)[0]))
+        with pytest.raises(InvalidInput, match=r"seeds .*\(2, 1\)"):
+            envs.reset(seed=np.zeros((2, 1), int))
+        assert np.array_equal(envs.reset(seed=np.array(3))[0], envs.reset(seed=3)[0])
         for options in (3, "x", [("reset_mask", None)]):
-            with self.assertRaises(TypeError):
+            with pytest.raises(TypeError):
                 envs.reset(options=options)
         for mask, error in (
             ([True, False], TypeError),
             (np.array([1, 0]), TypeError),
             (np.array([True]), InvalidInput),
         ):
-            with self.subTest(mask=mask), self.assertRaises(error):
+            with subtests.test(mask=mask), pytest.raises(error):
                 envs.reset(options={"reset_mask": mask})
 
     def test_after_close(self):
@@ -228,11 +224,11 @@ class BadInput(unittest.TestCase):
             lambda: envs.save(0),
             lambda: envs.restore(0, None),
         ):
-            with self.assertRaises(ClosedEnvironmentError):
+            with pytest.raises(ClosedEnvironmentError):
                 call()
 
 
-class Found(unittest.TestCase):
+class TestFound:
     """Calls that fuzz.py found."""
 
     def test_calls_after_close_extras(self):
@@ -246,7 +242,8 @@ class Found(unittest.TestCase):
             lambda: envs.send([0, 0]),
             lambda: envs.save(0),
         ):
-            self.assertRaises(gymnasium.error.ClosedEnvironmentError, call)
+            with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+                call()
         envs.close()
 
     def test_arguments_of_ALEVectorInterface(self):
@@ -258,4 +255,5 @@ class Found(unittest.TestCase):
             (TypeError, lambda: envs.reset([0, 1], ["x", None])),
             (TypeError, lambda: envs.reset(np.ones((2, 2)), [1, 2])),
         ):
-            self.assertRaises(error, call)
+            with pytest.raises(error):
+                call()

@@ -1,8 +1,7 @@
 """AtariVectorEnv: seeds, and how episodes begin and end."""
 
-import unittest
-
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -13,29 +12,29 @@ from racebeam import AtariVectorEnv, InvalidInput, ale_py
 from vectors import SHORT, play, same
 
 
-class Seeds(unittest.TestCase):
+class TestSeeds:
     def test_a_seed_decides_everything(self):
         envs = AtariVectorEnv("beamfall", 3, repeat_action_probability=0.25)
         results = [
             (envs.reset(seed=seed), *play(envs, 30)) for seed in (3, np.int64(3), [3, 4, 5], np.array([3, 4, 6]))
         ]
-        self.assertTrue(same(results[0], results[1]) and same(results[0], results[2]))
+        assert same(results[0], results[1]) and same(results[0], results[2])
         last, other = results[0][-1][0], results[3][-1][0]
-        self.assertTrue(np.array_equal(last[:2], other[:2]))
-        self.assertFalse(np.array_equal(last[2], other[2]))
+        assert np.array_equal(last[:2], other[:2])
+        assert not np.array_equal(last[2], other[2])
 
     def test_the_seed_of_the_constructor_is_that_of_a_reset(self):
         envs, others = AtariVectorEnv("beamfall", 2, seed=9), AtariVectorEnv("beamfall", 2)
         others.reset(seed=9)
-        self.assertTrue(same(play(envs, 10), play(others, 10)))
+        assert same(play(envs, 10), play(others, 10))
 
     def test_the_first_reset_has_the_seed_of_the_constructor(self):
         for settings in ({}, {"repeat_action_probability": 0.5, "noop_max": 30}):
             envs, others = AtariVectorEnv("beamfall", 2, seed=3, **settings), AtariVectorEnv("beamfall", 2, **settings)
-            self.assertTrue(same([envs.reset()], [others.reset(seed=3)]))
-            self.assertFalse(same([envs.reset(), envs.reset()], [others.reset(seed=3), others.reset(seed=3)]))
+            assert same([envs.reset()], [others.reset(seed=3)])
+            assert not same([envs.reset(), envs.reset()], [others.reset(seed=3), others.reset(seed=3)])
         seen, info = AtariVectorEnv("beamfall", 2, batch_size=1, seed=3, **settings).reset()
-        self.assertTrue(np.array_equal(seen, others.reset(seed=3)[0][info["env_id"]]))
+        assert np.array_equal(seen, others.reset(seed=3)[0][info["env_id"]])
 
     def test_a_seed_of_the_constructor_ends_with_the_first_call_that_plays(self):
         for play_once in (
@@ -46,41 +45,38 @@ class Seeds(unittest.TestCase):
             envs = AtariVectorEnv("beamfall", 2, seed=3)
             begin = envs.show()[1]["frame_number"]
             play_once(envs)
-            self.assertTrue((envs.reset()[1]["frame_number"] > begin).all())
+            assert (envs.reset()[1]["frame_number"] > begin).all()
 
     def test_some_have_seeds_and_some_do_not(self):
         envs = AtariVectorEnv("beamfall", 3, repeat_action_probability=0.5)
         envs.reset(seed=[5, 5, 5])
         play(envs, 10)
         frames = envs.reset(seed=[5, None, -1])[1]["frame_number"]
-        self.assertLess(frames[0], 40)
-        self.assertTrue((frames[1:] >= 40).all())
+        assert frames[0] < 40
+        assert (frames[1:] >= 40).all()
 
 
-class Episodes(unittest.TestCase):
+class TestEpisodes:
     def test_the_modes_of_autoreset(self):
         for mode in ("NextStep", "SAME_STEP", AutoresetMode.DISABLED):
             envs = AtariVectorEnv("beamfall", 2, autoreset_mode=mode, **SHORT)
             envs.reset(seed=2)
             results = play(envs, 5)
             kind = envs.metadata["autoreset_mode"]
-            self.assertIsInstance(kind, AutoresetMode)
-            self.assertEqual(
-                [int(one[3][0]) for one in results],
-                [
-                    0,
-                    0,
-                    1,
-                    *{AutoresetMode.NEXT_STEP: (0, 0), AutoresetMode.SAME_STEP: (0, 0), AutoresetMode.DISABLED: (1, 1)}[
-                        kind
-                    ],
+            assert isinstance(kind, AutoresetMode)
+            assert [int(one[3][0]) for one in results] == [
+                0,
+                0,
+                1,
+                *{AutoresetMode.NEXT_STEP: (0, 0), AutoresetMode.SAME_STEP: (0, 0), AutoresetMode.DISABLED: (1, 1)}[
+                    kind
                 ],
-            )
+            ]
             frames = [int(one[4]["episode_frame_number"][0]) for one in results]
-            self.assertEqual(frames[3] == frames[2], kind is AutoresetMode.DISABLED)
-            self.assertEqual("final_obs" in results[2][4], kind is AutoresetMode.SAME_STEP)
-            self.assertFalse(any("final_obs" in results[step][4] for step in (0, 1, 3, 4)))
-        self.assertNotIn("autoreset_mode", VectorEnv.metadata)
+            assert (frames[3] == frames[2]) == (kind is AutoresetMode.DISABLED)
+            assert ("final_obs" in results[2][4]) == (kind is AutoresetMode.SAME_STEP)
+            assert not any("final_obs" in results[step][4] for step in (0, 1, 3, 4))
+        assert "autoreset_mode" not in VectorEnv.metadata
 
     def test_final_observations_are_those_of_the_episode_that_ended(self):
         for kind in (None, "ram"):
@@ -93,21 +89,19 @@ class Episodes(unittest.TestCase):
             envs.reset(seed=2)
             others.reset(seed=2)
             for (_, _, _, truncated, info), (seen, *_, expected) in zip(play(envs, 10), play(others, 10)):
-                self.assertEqual("final_obs" in info, truncated.any())
+                assert ("final_obs" in info) == truncated.any()
                 if not truncated.any():
                     continue
-                self.assertTrue(
-                    np.array_equal(info["_final_obs"], truncated) and np.array_equal(info["_final_info"], truncated)
-                )
-                self.assertEqual(info["final_obs"].dtype, object)
+                assert np.array_equal(info["_final_obs"], truncated) and np.array_equal(info["_final_info"], truncated)
+                assert info["final_obs"].dtype == object
                 for env in range(3):
                     if not truncated[env]:
-                        self.assertIsNone(info["final_obs"][env])
+                        assert info["final_obs"][env] is None
                         continue
-                    self.assertTrue(np.array_equal(info["final_obs"][env], seen[env]))
+                    assert np.array_equal(info["final_obs"][env], seen[env])
                     for key in ("lives", "frame_number", "episode_frame_number"):
-                        self.assertEqual(info["final_info"][key][env], expected[key][env])
-                        self.assertTrue(info["final_info"][f"_{key}"][env])
+                        assert info["final_info"][key][env] == expected[key][env]
+                        assert info["final_info"][f"_{key}"][env]
 
     def test_final_observations_have_the_sound_of_the_episode_that_ended(self):
         for theirs in (AtariVectorEnv, ale_py.AtariVectorEnv):
@@ -120,28 +114,28 @@ class Episodes(unittest.TestCase):
                 for env in np.flatnonzero(truncated):
                     finals = info["final_obs"]
                     final = finals[env] if theirs is AtariVectorEnv else {key: finals[key][env] for key in finals}
-                    self.assertTrue(all(np.array_equal(final[key], seen[key][env]) for key in seen))
-            self.assertTrue(truncated.any())
+                    assert all(np.array_equal(final[key], seen[key][env]) for key in seen)
+            assert truncated.any()
 
     def test_a_reset_of_some(self):
         envs = AtariVectorEnv("beamfall", 3, autoreset_mode="Disabled", noop_max=0)
         envs.reset(seed=1)
         before = play(envs, 5)[-1][0]
         seen, info = envs.reset(options={"reset_mask": np.array([True, False, False])})
-        self.assertEqual([frames < 5 for frames in info["episode_frame_number"]], [True, False, False])
-        self.assertTrue(np.array_equal(seen[1:], before[1:]))
-        self.assertFalse(np.array_equal(seen[0], before[0]))
+        assert [frames < 5 for frames in info["episode_frame_number"]] == [True, False, False]
+        assert np.array_equal(seen[1:], before[1:])
+        assert not np.array_equal(seen[0], before[0])
 
     def test_the_info_has_unclipped_rewards_and_true_ends(self):
         envs = AtariVectorEnv("beamfall", 2, frameskip=60, life_loss="end")
         envs.reset(seed=1)
         results = [envs.step([1, 1]) for _ in range(60)]
         raw = np.array([one[4]["raw_reward"] for one in results])
-        self.assertTrue(np.array_equal(np.clip(raw, -1, 1), [one[1] for one in results]))
-        self.assertGreater(raw.max(), 1)
+        assert np.array_equal(np.clip(raw, -1, 1), [one[1] for one in results])
+        assert raw.max() > 1
         ends, games = (np.array(one) for one in zip(*((one[2], one[4]["game_over"]) for one in results)))
-        self.assertGreater(games.sum(), 0)
-        self.assertGreater(ends.sum(), games.sum())
+        assert games.sum() > 0
+        assert ends.sum() > games.sum()
 
     def test_the_effects_of_a_lost_life(self):
         frames = {}
@@ -151,27 +145,29 @@ class Episodes(unittest.TestCase):
             results = [envs.step([1]) for _ in range(40)]
             first = next(step for step, one in enumerate(results) if one[2][0])
             frames[lives] = [int(one[4]["lives"][0]) for one in results[first : first + 2]]
-        self.assertEqual(
-            {lives: after for lives, (_, after) in frames.items()},
-            {"ignored": 4, "reported": 3, "end": 3, "restart": 4},
-        )
+        assert {lives: after for lives, (_, after) in frames.items()} == {
+            "ignored": 4,
+            "reported": 3,
+            "end": 3,
+            "restart": 4,
+        }
 
     def test_presets(self):
         envs = AtariVectorEnv("beamfall", 1, preset="paper2013")
         envs.reset(seed=1)
-        self.assertEqual(envs.single_action_space.n, 18)
-        self.assertEqual(int(envs.step([0])[4]["episode_frame_number"][0]), 5)
-        with self.assertRaisesRegex(InvalidInput, "preset 'dqn'"):
+        assert envs.single_action_space.n == 18
+        assert int(envs.step([0])[4]["episode_frame_number"][0]) == 5
+        with pytest.raises(InvalidInput, match="preset 'dqn'"):
             AtariVectorEnv("beamfall", 1, preset="dqn")
 
     def test_several_games(self):
         envs = AtariVectorEnv(["beamfall", "updraft", "beamfall"], full_action_space=True, seed=1)
         single = AtariVectorEnv("updraft", 3, full_action_space=True, seed=1)
         together, expected = play(envs, 10), play(single, 10)
-        self.assertTrue(all(np.array_equal(one[0][1], other[0][1]) for one, other in zip(together, expected)))
-        self.assertFalse(np.array_equal(together[-1][0][0], together[-1][0][1]))
+        assert all(np.array_equal(one[0][1], other[0][1]) for one, other in zip(together, expected))
+        assert not np.array_equal(together[-1][0][0], together[-1][0][1])
         for arguments in ((["beamfall", "updraft"], 3), ([],)):
-            with self.assertRaises(Error):
+            with pytest.raises(Error):
                 AtariVectorEnv(*arguments)
-        with self.assertRaisesRegex(Error, "^there are 2 games"):
+        with pytest.raises(Error, match="^there are 2 games"):
             AtariVectorEnv(["beamfall", "updraft"], rom=b"", full_action_space=True)

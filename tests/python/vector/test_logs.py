@@ -4,7 +4,6 @@ import csv
 import pathlib
 import subprocess
 import tempfile
-import unittest
 
 import package
 import pytest
@@ -21,10 +20,11 @@ PLAIN = {"noop_max": 0, "use_fire_reset": False, "max_num_frames_per_episode": 6
 pytestmark = pytest.mark.filterwarnings("always")
 
 
-class Logs(unittest.TestCase):
-    def setUp(self):
+class TestLogs:
+    @pytest.fixture(autouse=True)
+    def set_up(self, cleanup):
         self.scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(self.scratch.cleanup)
+        cleanup(self.scratch.cleanup)
         self.folder = pathlib.Path(self.scratch.name, "mine")
 
     def make(self, *words, **arguments):
@@ -49,40 +49,44 @@ class Logs(unittest.TestCase):
         with open(self.folder / "results.csv", newline="") as file:
             return list(csv.DictReader(file))
 
-    def test_games_are_confirmed(self):
-        for number, arguments in enumerate(
-            (
-                {},
-                {"repeat_action_probability": 0.25, "frameskip": 5, "full_action_space": True},
-                {"full_action_space": "console"},
-                {"life_loss": "restart"},
-                {"life_loss": "reported"},
-                {"autoreset_mode": "Disabled", "difficulty": 1, "rules": "fixed"},
-                {"seed": 0, "repeat_action_probability": 0.25},
+    @pytest.mark.parametrize(
+        "number, arguments",
+        list(
+            enumerate(
+                (
+                    {},
+                    {"repeat_action_probability": 0.25, "frameskip": 5, "full_action_space": True},
+                    {"full_action_space": "console"},
+                    {"life_loss": "restart"},
+                    {"life_loss": "reported"},
+                    {"autoreset_mode": "Disabled", "difficulty": 1, "rules": "fixed"},
+                    {"seed": 0, "repeat_action_probability": 0.25},
+                )
             )
-        ):
-            with self.subTest(**arguments):
-                self.folder = pathlib.Path(self.scratch.name, str(number))
-                logs = self.play(self.make(**arguments), 800)
-                self.assertGreaterEqual(logs.logged, 3)
-                self.assertEqual(logs.unlogged, 0)
-                status, output = self.verify()
-                self.assertEqual((status, output.split(",")[0]), (0, f"{logs.logged} rows confirmed"), output)
+        ),
+    )
+    def test_games_are_confirmed(self, number, arguments):
+        self.folder = pathlib.Path(self.scratch.name, str(number))
+        logs = self.play(self.make(**arguments), 800)
+        assert logs.logged >= 3
+        assert logs.unlogged == 0
+        status, output = self.verify()
+        assert (status, output.split(",")[0]) == (0, f"{logs.logged} rows confirmed"), output
 
     def test_a_preset_of_the_literature_is_named(self):
         for preset in ("paper2013", "machado2018"):
             self.folder = pathlib.Path(self.scratch.name, preset)
             AtariVectorEnv("beamfall", 1, preset=preset, log={"folder": self.folder}).close()
-            self.assertIn(f'preset = "{preset}"', (self.folder / "agent.toml").read_text())
+            assert f'preset = "{preset}"' in (self.folder / "agent.toml").read_text()
 
     def test_each_environment_plays_a_trial_and_seeds_count_up(self):
         self.play(self.make(["beamfall", "updraft"], full_action_space=True), 400)
         rows = self.rows()
-        self.assertEqual({row["unit"] for row in rows}, {"beamfall-random-3", "updraft-random-4"})
+        assert {row["unit"] for row in rows} == {"beamfall-random-3", "updraft-random-4"}
         seeds = [int(row["environment_seed"]) for row in rows if row["game"] == "beamfall"]
-        self.assertEqual(seeds, [7 + 2 * game for game in range(len(seeds))])
-        self.assertGreater(len(seeds), 1)
-        self.assertEqual(self.verify()[0], 0)
+        assert seeds == [7 + 2 * game for game in range(len(seeds))]
+        assert len(seeds) > 1
+        assert self.verify()[0] == 0
 
     def test_what_was_changed_is_refused(self):
         self.play(self.make(), 400)
@@ -93,8 +97,8 @@ class Logs(unittest.TestCase):
                 table.writeheader()
                 table.writerows([first | change, *others])
             status, output = self.verify()
-            self.assertEqual(status, 1)
-            self.assertIn(f"not confirmed: {next(iter(change))} is", output)
+            assert status == 1
+            assert f"not confirmed: {next(iter(change))} is" in output
 
     def test_a_game_in_which_a_state_was_restored_has_no_log(self):
         envs = self.make("beamfall", 1, repeat_action_probability=0.25)
@@ -104,7 +108,7 @@ class Logs(unittest.TestCase):
         for _ in range(20):
             envs.step([1])
         envs.restore(0, state)
-        with self.assertWarnsRegex(UserWarning, "has no log: the same actions lead to another end"):
+        with pytest.warns(UserWarning, match="has no log: the same actions lead to another end"):
             for _ in range(160):
                 envs.step([2])
 
@@ -112,10 +116,10 @@ class Logs(unittest.TestCase):
         envs = self.make()
         envs.reset()
         envs.step([1, 1, 1])
-        with self.assertWarnsRegex(UserWarning, "environment 0, beamfall, has no log: it was left before its end"):
+        with pytest.warns(UserWarning, match="environment 0, beamfall, has no log: it was left before its end"):
             envs.reset()
 
-    def test_what_a_log_cannot_repeat_is_refused_and_leaves_nothing(self):
+    def test_what_a_log_cannot_repeat_is_refused_and_leaves_nothing(self, subtests):
         for arguments in (
             {"noop_max": 30},
             {"use_fire_reset": True},
@@ -131,21 +135,21 @@ class Logs(unittest.TestCase):
             {"about": {"training_frames": b"x"}},
             {"about": {"agent": "../x"}},
         ):
-            with self.subTest(**arguments), self.assertRaises((InvalidInput, ValueError, TypeError)):
+            with subtests.test(**arguments), pytest.raises((InvalidInput, ValueError, TypeError)):
                 self.make(**arguments)
-            self.assertFalse(self.folder.exists())
+            assert not self.folder.exists()
         for log in ({}, "mine", 5):
-            with self.subTest(log=log), self.assertRaisesRegex(TypeError, "^log is .*; it takes a dict with folder"):
+            with subtests.test(log=log), pytest.raises(TypeError, match="^log is .*; it takes a dict with folder"):
                 AtariVectorEnv("beamfall", log=log, **PLAIN)
 
     def test_calls_that_would_leave_out_games_are_refused(self):
         envs = self.make()
         envs.reset()
         for call in (lambda: envs.send([0, 0, 0]), envs.xla):
-            with self.assertRaisesRegex(InvalidInput, "does not write logs; with log, step"):
+            with pytest.raises(InvalidInput, match="does not write logs; with log, step"):
                 call()
 
     def test_two_vectors_cannot_share_a_folder(self):
         self.make()
-        with self.assertRaises(FileExistsError):
+        with pytest.raises(FileExistsError):
             self.make()

@@ -2,9 +2,9 @@
 
 import copy
 import pickle
-import unittest
 
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -13,15 +13,16 @@ from racebeam import AtariVectorEnv, InvalidInput
 from vectors import play, same
 
 
-class States(unittest.TestCase):
+class TestStates:
     def test_an_image_is_given_as_bytes_of_any_kind(self):
         image = (package.SOURCE / "games/homebrew/beamfall.bin").read_bytes()
         results = [
             AtariVectorEnv("beamfall", 1, rom=rom).reset(seed=1)[0]
             for rom in (image, bytearray(image), memoryview(image))
         ]
-        self.assertTrue(np.array_equal(results[0], results[1]) and np.array_equal(results[0], results[2]))
-        self.assertRaisesRegex(TypeError, "^rom .* int", AtariVectorEnv, "beamfall", 1, rom=3)
+        assert np.array_equal(results[0], results[1]) and np.array_equal(results[0], results[2])
+        with pytest.raises(TypeError, match="^rom .* int"):
+            AtariVectorEnv("beamfall", 1, rom=3)
 
     def test_one_environment_returns_to_a_state(self):
         envs = AtariVectorEnv("beamfall", 2, repeat_action_probability=0.25, seed=1)
@@ -30,31 +31,29 @@ class States(unittest.TestCase):
         first = play(envs, 20)
         envs.restore(1, state)
         observations = envs.show()[0]
-        self.assertTrue(np.array_equal(observations[1], before[1]) and np.array_equal(observations[0], first[-1][0][0]))
+        assert np.array_equal(observations[1], before[1]) and np.array_equal(observations[0], first[-1][0][0])
         second = play(envs, 20)
-        self.assertTrue(
-            all(
-                np.array_equal(one[0][1], other[0][1]) and one[1][1] == other[1][1] for one, other in zip(first, second)
-            )
+        assert all(
+            np.array_equal(one[0][1], other[0][1]) and one[1][1] == other[1][1] for one, other in zip(first, second)
         )
-        self.assertFalse(np.array_equal(first[-1][0][0], second[-1][0][0]))
+        assert not np.array_equal(first[-1][0][0], second[-1][0][0])
 
     def test_a_state_goes_to_another_environment_but_not_to_another_game(self):
         envs, others = AtariVectorEnv("beamfall", 2, seed=1), AtariVectorEnv("updraft", 1)
         play(envs, 10)
         envs.restore(0, envs.save(1))
         first = envs.show()[0]
-        self.assertTrue(np.array_equal(first[0], first[1]))
-        with self.assertRaises(InvalidInput):
+        assert np.array_equal(first[0], first[1])
+        with pytest.raises(InvalidInput):
             others.restore(0, envs.save(0))
-        with self.assertRaises(IndexError):
+        with pytest.raises(IndexError):
             envs.save(2)
-        with self.assertRaises(IndexError):
+        with pytest.raises(IndexError):
             envs.restore(-1, envs.save(0))
-        with self.assertRaises(TypeError):
+        with pytest.raises(TypeError):
             envs.restore(0, None)
 
-    def test_later_episodes_are_the_same(self):
+    def test_later_episodes_are_the_same(self, subtests):
         for mode in ("NextStep", "SameStep", "Disabled"):
             for sticky in (0.0, 0.25):
                 envs = AtariVectorEnv(
@@ -82,17 +81,15 @@ class States(unittest.TestCase):
                 for env in range(2):
                     envs.restore(env, states[env])
                 second = on()
-                with self.subTest(mode=mode, sticky=sticky):
+                with subtests.test(mode=mode, sticky=sticky):
                     lengths = {int(one[-1]["frame_number"][0]) for one in first}
-                    self.assertGreater(len(lengths), 50)
-                    self.assertTrue(
-                        all(
-                            np.array_equal(a[0], b[0]) and np.array_equal(a[-1]["frame_number"], b[-1]["frame_number"])
-                            for a, b in zip(first, second)
-                        )
+                    assert len(lengths) > 50
+                    assert all(
+                        np.array_equal(a[0], b[0]) and np.array_equal(a[-1]["frame_number"], b[-1]["frame_number"])
+                        for a, b in zip(first, second)
                     )
 
-    def test_a_state_of_other_screens_is_refused(self):
+    def test_a_state_of_other_screens_is_refused(self, subtests):
         envs = AtariVectorEnv("beamfall", 1, seed=1)
         before = play(envs, 5)[-1][0]
         for settings, sentence in (
@@ -102,11 +99,11 @@ class States(unittest.TestCase):
             ({"grayscale": False}, "4 colour screens"),
             ({"obs_type": "ram"}, "no stack of screens"),
         ):
-            with self.subTest(**settings), self.assertRaisesRegex(InvalidInput, sentence):
+            with subtests.test(**settings), pytest.raises(InvalidInput, match=sentence):
                 envs.restore(0, AtariVectorEnv("beamfall", 1, seed=9, **settings).save(0))
-        self.assertTrue(np.array_equal(envs.show()[0], before))
+        assert np.array_equal(envs.show()[0], before)
 
-    def test_a_state_is_pickled_and_copied(self):
+    def test_a_state_is_pickled_and_copied(self, subtests):
         for settings in (
             {},
             {"obs_type": "ram"},
@@ -124,11 +121,11 @@ class States(unittest.TestCase):
                 pickle.loads(pickle.dumps(copy.copy(state))),
             ):
                 others.restore(0, copied)
-                with self.subTest(**settings):
-                    self.assertTrue(same(play(others, 60), expected))
+                with subtests.test(**settings):
+                    assert same(play(others, 60), expected)
             envs.close()
             del envs
-            self.assertEqual(pickle.dumps(state), pickle.dumps(copied))
+            assert pickle.dumps(state) == pickle.dumps(copied)
 
     def test_pickled_bytes_that_were_altered_are_refused(self):
         envs, others = AtariVectorEnv("beamfall", 1, seed=1), AtariVectorEnv("updraft", 1)
@@ -149,15 +146,15 @@ class States(unittest.TestCase):
             state[:500] + b"\0\1\2" + state[503:],
             state[:8] + b"\7" + state[9:],
         ):
-            with self.assertRaises(InvalidInput):
+            with pytest.raises(InvalidInput):
                 restored(wrong)
-        with self.assertRaises(TypeError):
+        with pytest.raises(TypeError):
             restored(3)
-        with self.assertRaisesRegex(InvalidInput, "^the state "):
+        with pytest.raises(InvalidInput, match="^the state "):
             others.restore(0, pickle.loads(pickle.dumps(envs.save(0))))
 
     def test_environments_say_how_they_are_carried(self):
         envs = AtariVectorEnv("beamfall", 1)
         for carry in (pickle.dumps, copy.copy, copy.deepcopy):
-            with self.assertRaisesRegex(TypeError, "^AtariVectorEnv "):
+            with pytest.raises(TypeError, match="^AtariVectorEnv "):
                 carry(envs)

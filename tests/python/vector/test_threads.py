@@ -7,9 +7,9 @@ import subprocess
 import sys
 import threading
 import time
-import unittest
 
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -18,7 +18,7 @@ from racebeam import AtariVectorEnv
 from vectors import SHORT, play, same
 
 
-class Threads(unittest.TestCase):
+class TestThreads:
     PATIENCE = 60
 
     def test_two_threads_take_turns(self):
@@ -37,7 +37,7 @@ class Threads(unittest.TestCase):
             thread.start()
         for thread in threads:
             thread.join(self.PATIENCE)
-        self.assertEqual((failures, [thread for thread in threads if thread.is_alive()]), ([], []))
+        assert (failures, [thread for thread in threads if thread.is_alive()]) == ([], [])
 
     def test_a_child_after_a_fork_is_refused_and_ends(self):
         script = (
@@ -56,7 +56,7 @@ class Threads(unittest.TestCase):
         done = subprocess.run(
             [sys.executable, "-W", "ignore", "-c", script], capture_output=True, text=True, timeout=self.PATIENCE
         )
-        self.assertEqual(done.stdout.split(), ["3", "on"], done.stderr)
+        assert done.stdout.split() == ["3", "on"], done.stderr
 
     def test_the_memory_of_results_is_released(self):
         def resident():
@@ -67,10 +67,10 @@ class Threads(unittest.TestCase):
         before = resident()
         for _ in range(50):
             play(envs, 10)  # 110 MB of observations in all
-        self.assertLess(resident() - before, 20 << 20)
+        assert resident() - before < 20 << 20
 
 
-class Interrupts(unittest.TestCase):
+class TestInterrupts:
     """Ctrl-C ends what takes long, and leaves the environments so that they can go on."""
 
     LONG = {"num_envs": 500, "frameskip": 1000, "noop_max": 1000}
@@ -80,7 +80,7 @@ class Interrupts(unittest.TestCase):
         before = signal.signal(signal.SIGALRM, handler)
         begin = time.process_time()
         try:
-            with self.assertRaises(raised):
+            with pytest.raises(raised):
                 signal.setitimer(signal.ITIMER_REAL, 0.1)
                 call()
                 time.sleep(1)  # a signal that comes late
@@ -94,23 +94,23 @@ class Interrupts(unittest.TestCase):
         for call in (lambda: envs.step([1] * 500), lambda: envs.reset(seed=1)):
             before = envs.show()[1]["frame_number"]
             self.interrupt(call)
-            self.assertTrue((envs.show()[1]["frame_number"] == before).any())
-        self.assertEqual(envs.reset(seed=1)[0].shape[0], 500)
+            assert (envs.show()[1]["frame_number"] == before).any()
+        assert envs.reset(seed=1)[0].shape[0] == 500
 
     def test_making_them(self):
         begin = time.process_time()
         AtariVectorEnv("beamfall", **self.LONG)
         whole = time.process_time() - begin
-        self.assertLess(self.interrupt(lambda: AtariVectorEnv("beamfall", **self.LONG)), whole)
+        assert self.interrupt(lambda: AtariVectorEnv("beamfall", **self.LONG)) < whole
 
     def test_what_is_received_later_is_not_lost(self):
         envs, others = (AtariVectorEnv("beamfall", **self.LONG, seed=1) for _ in range(2))
         envs.send([1] * 500)
         self.interrupt(envs.recv)
-        self.assertTrue(same([envs.recv()], [others.step([1] * 500)]))
+        assert same([envs.recv()], [others.step([1] * 500)])
         envs.send([1] * 500)
         self.interrupt(envs.recv)
-        self.assertTrue(same([envs.reset(seed=1)], [others.reset(seed=1)]))
+        assert same([envs.reset(seed=1)], [others.reset(seed=1)])
 
     def test_a_signal_handler_that_uses_the_environments(self):
         envs = AtariVectorEnv("beamfall", **self.LONG)

@@ -4,10 +4,12 @@ import asyncio
 import gc
 import os
 import pathlib
+import re
 import unittest
 import unittest.mock
 
 import package
+import pytest
 
 package.require("numpy")
 
@@ -29,7 +31,7 @@ def children():
     return pathlib.Path(f"/proc/self/task/{os.getpid()}/children").read_text().split()
 
 
-class Sessions(unittest.IsolatedAsyncioTestCase):
+class TestSessions(unittest.IsolatedAsyncioTestCase):
     async def asyncSetUp(self):
         asyncio.get_running_loop().set_debug(False)  # it tells of every call that takes long
         self.session = await aio.launch(arrays=True)
@@ -45,39 +47,39 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
             other.request(*LOAD, **SETTINGS)
             other.request("observe", *FIELDS)
             expected = [other.request("act", action) for action in (1, 3, 4, 0) * 5]
-        self.assertEqual([plain(answer) for answer in answers], [plain(answer) for answer in expected])
+        assert [plain(answer) for answer in answers] == [plain(answer) for answer in expected]
 
     async def test_a_refusal_fails_only_its_own_request(self):
         good, bad, after = await asyncio.gather(
             *(self.session.request("act", action) for action in (1, 99, 1)), return_exceptions=True
         )
-        self.assertEqual((bad.code, set(good[0])), ("bad-action", set(after[0])))
+        assert (bad.code, set(good[0])) == ("bad-action", set(after[0]))
 
     async def test_help_is_a_text(self):
         with racebeam.launch() as other:
             for words in ((), ("act",)):
-                self.assertEqual(await self.session.help(*words), other.help(*words))
-            with self.assertRaisesRegex(racebeam.Refused, "unknown word 'bogus'"):
+                assert await self.session.help(*words) == other.help(*words)
+            with pytest.raises(racebeam.Refused, match="unknown word 'bogus'"):
                 other.help("bogus")
         bad, after = await asyncio.gather(
             self.session.help("bogus"), self.session.request("act", 1), return_exceptions=True
         )
-        self.assertEqual(bad.code, "bad-arguments")
-        self.assertIn("reward", after[0])
+        assert bad.code == "bad-arguments"
+        assert "reward" in after[0]
 
     async def test_a_request_that_is_cancelled_leaves_the_others(self):
         cancelled, waiting = (asyncio.create_task(self.session.request("act", action)) for action in ("0*3000", "1"))
         await asyncio.sleep(0)
         cancelled.cancel()
-        self.assertIn("reward", (await waiting)[0])
-        self.assertTrue(cancelled.cancelled())
+        assert "reward" in (await waiting)[0]
+        assert cancelled.cancelled()
 
     async def test_a_request_that_is_cut_off_ends_the_session(self):
         with unittest.mock.patch.object(asyncio, "get_running_loop", side_effect=KeyboardInterrupt):  # after it is sent
-            with self.assertRaises(KeyboardInterrupt):
+            with pytest.raises(KeyboardInterrupt):
                 self.session.request("look", "ram").send(None)
         for _ in range(2):
-            with self.assertRaisesRegex(ConnectionError, "was interrupted between a request and the end of its reply"):
+            with pytest.raises(ConnectionError, match="was interrupted between a request and the end of its reply"):
                 await self.session.request("act", 1)
 
     async def test_it_ends_with_the_last_reference_to_it(self):
@@ -92,7 +94,7 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
             now := (children(), len(os.listdir("/proc/self/fd")))
         ) != before and asyncio.get_running_loop().time() < until:
             await asyncio.sleep(0.01)
-        self.assertEqual(now, before)
+        assert now == before
 
     async def test_it_ends(self):
         waiting = asyncio.create_task(self.session.request("act", "0*10000"))
@@ -100,11 +102,11 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
         await self.session.close()
         await self.session.close()
         for request in (waiting, self.session.request("act", 1)):
-            with self.assertRaises(ConnectionError):
+            with pytest.raises(ConnectionError):
                 await request
 
 
-class Ends(unittest.IsolatedAsyncioTestCase):
+class TestEnds(unittest.IsolatedAsyncioTestCase):
     async def check(self, said, *expected, **settings):
         """A server that says this after the greeting, and closes."""
 
@@ -119,7 +121,7 @@ class Ends(unittest.IsolatedAsyncioTestCase):
         async with await asyncio.start_server(answer, "127.0.0.1", 0) as server:
             port = server.sockets[0].getsockname()[1]
             async with await aio.connect(f"tcp://127.0.0.1:{port}", **settings) as session:
-                with self.assertRaisesRegex(*expected):
+                with pytest.raises(expected[0], match=expected[1]):
                     await session.request("look", "ram:raw")
 
     async def test_a_server_that_goes_is_a_ConnectionError(self):
@@ -157,14 +159,14 @@ class Ends(unittest.IsolatedAsyncioTestCase):
             first, second, third = await asyncio.gather(
                 *(session.request("act", 1) for _ in range(3)), return_exceptions=True
             )
-            self.assertEqual(first, [{"reward": 1}])
-            self.assertRegex(str(second), "did not answer in time")
-            self.assertEqual((type(second), type(third)), (TimeoutError, TimeoutError))
-            self.assertGreater(asyncio.get_running_loop().time() - begin, 0.75)  # the reply began the time anew
-            with self.assertRaisesRegex(ConnectionError, "did not answer in time"):
+            assert first == [{"reward": 1}]
+            assert re.search("did not answer in time", str(second))
+            assert (type(second), type(third)) == (TimeoutError, TimeoutError)
+            assert asyncio.get_running_loop().time() - begin > 0.75  # the reply began the time anew
+            with pytest.raises(ConnectionError, match="did not answer in time"):
                 await session.request("act", 1)
             again = await session.reconnect()
-            self.assertEqual(await again.request("act", 1), [{"reward": 1}])
+            assert await again.request("act", 1) == [{"reward": 1}]
             await again.close()
 
     async def test_a_server_that_does_not_greet_is_a_TimeoutError(self):
@@ -173,21 +175,21 @@ class Ends(unittest.IsolatedAsyncioTestCase):
             writer.close()
 
         async with await asyncio.start_server(mute, "127.0.0.1", 0) as server:
-            with self.assertRaises(TimeoutError):
+            with pytest.raises(TimeoutError):
                 await aio.connect(f"tcp://127.0.0.1:{server.sockets[0].getsockname()[1]}", timeout=0.2)
 
     async def test_a_program_that_refuses_its_arguments_is_a_ConnectionError(self):
-        with self.assertRaisesRegex(ConnectionError, "does not serve: .* serve --stdio .*--nope"):
+        with pytest.raises(ConnectionError, match="does not serve: .* serve --stdio .*--nope"):
             await aio.launch("--nope")
 
     async def test_a_session_is_opened_again_only_by_connect(self):
         async with await aio.launch() as session:
-            with self.assertRaisesRegex(ValueError, "cannot be opened again"):
+            with pytest.raises(ValueError, match="cannot be opened again"):
                 await session.reconnect()
 
     async def test_other_versions_and_addresses(self):
         for address in ("stdio", "pipes:x", "host:1", "tcp://"):
-            with self.subTest(address=address), self.assertRaisesRegex(ValueError, "it takes tcp://HOST:PORT"):
+            with self.subTest(address=address), pytest.raises(ValueError, match="it takes tcp://HOST:PORT"):
                 await aio.connect(address)
-        with self.assertRaises(OSError):
+        with pytest.raises(OSError):
             await aio.connect("unix:/nowhere")

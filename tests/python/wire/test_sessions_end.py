@@ -4,6 +4,8 @@ import contextlib
 import linecache
 import os
 import pathlib
+import platform
+import re
 import socket
 import sys
 import threading
@@ -12,6 +14,7 @@ import unittest
 import unittest.mock
 
 import package
+import pytest
 
 package.require("gymnasium", "numpy")
 
@@ -61,7 +64,7 @@ def contents_of(result):
     return observation.tobytes(), str(rest)
 
 
-class Interrupted(unittest.TestCase):
+class TestInterrupted:
     def check(self, make, act):
         """At each line of a step in turn. Then the environment either ends with a sentence, or answers what was
         asked."""
@@ -76,14 +79,14 @@ class Interrupted(unittest.TestCase):
             if not Interrupt(ends + answered).within(lambda: there.step(act)):
                 break
             try:
-                self.assertEqual(contents_of(there.reset(seed=5)), expected)
+                assert contents_of(there.reset(seed=5)) == expected
                 answered += 1
             except ConnectionError as error:
-                self.assertRegex(str(error), "was interrupted|were interrupted")
+                assert re.search("was interrupted|were interrupted", str(error))
                 ends += 1
             there.close()
-        self.assertGreater(ends, 5)
-        self.assertGreater(answered, 5)
+        assert ends > 5
+        assert answered > 5
 
     def test_a_step_that_is_cut_off_anywhere(self):
         with server() as (self.address, _):
@@ -120,7 +123,8 @@ class Interrupted(unittest.TestCase):
         with racebeam.launch() as session:
             session.load("beamfall", seed=1)
             session._reader = unittest.mock.Mock(readline=unittest.mock.Mock(side_effect=KeyboardInterrupt))
-            self.assertRaises(KeyboardInterrupt, session.act, 1)
+            with pytest.raises(KeyboardInterrupt):
+                session.act(1)
             for call in (
                 session.flush,
                 session.receive,
@@ -128,8 +132,8 @@ class Interrupted(unittest.TestCase):
                 lambda: session.act(1),
                 lambda: session.help(),
             ):
-                with self.assertRaisesRegex(
-                    ConnectionError, "it was interrupted between a request and the end of its reply"
+                with pytest.raises(
+                    ConnectionError, match="it was interrupted between a request and the end of its reply"
                 ):
                     call()
 
@@ -138,13 +142,28 @@ class Interrupted(unittest.TestCase):
             session.load("beamfall", seed=1)
             session.send("act", 1)
             for call in (lambda: session._begin("act", 1), lambda: session.act(1), session.help):
-                with self.assertRaisesRegex(ValueError, "1 requests were sent ahead; receive their replies first"):
+                with pytest.raises(ValueError, match="1 requests were sent ahead; receive their replies first"):
                     call()
-            self.assertIn("reward", session.receive()[0])
-            self.assertIn("act", session.help())
+            assert "reward" in session.receive()[0]
+            assert "act" in session.help()
 
 
-class Blocked(unittest.TestCase):
+def await_system_call(thread):
+    """Waits until a thread has ended, or is in a system call that is not of a lock: it sends or receives."""
+    futex = {"x86_64": "202", "aarch64": "98"}[platform.machine()]
+    until = time.monotonic() + PATIENCE
+    while thread.is_alive() and time.monotonic() < until:
+        call = pathlib.Path(f"/proc/self/task/{thread.native_id}/syscall").read_text().split()[0]
+        if call not in ("running", futex):
+            return
+        time.sleep(0.001)
+
+
+class TestBlocked:
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
     def test_a_long_step_past_the_end_of_the_game(self):
         """Each act after the end is a request: more of them than a connection buffers."""
         settings = {"max_num_frames_per_episode": 10, "frameskip": 60000}
@@ -153,8 +172,8 @@ class Blocked(unittest.TestCase):
             there = AtariEnv("beamfall", server=address, **settings)
             for env in (here, there):
                 env.reset(seed=1)
-            self.assertEqual(contents_of(there.step(1)), contents_of(here.step(1)))
-            self.assertEqual(there.clone_state(include_rng=True), here.clone_state(include_rng=True))
+            assert contents_of(there.step(1)) == contents_of(here.step(1))
+            assert there.clone_state(include_rng=True) == here.clone_state(include_rng=True)
 
     def test_closing_does_not_wait_for_a_server_that_does_not_read(self):
         with socket.create_server(("127.0.0.1", 0)) as listener:
@@ -172,14 +191,14 @@ class Blocked(unittest.TestCase):
             threads = [threading.Thread(target=call, daemon=True) for call in (send, session.close_connection)]
             for thread in threads:
                 thread.start()
-                time.sleep(0.3)
+                await_system_call(thread)
             for thread in threads:
                 thread.join(10)
-            self.assertFalse(any(thread.is_alive() for thread in threads))
+            assert not any(thread.is_alive() for thread in threads)
 
     def answer_hello(self, listener):
         self.connection, _ = listener.accept()
-        self.addCleanup(self.connection.close)
+        self.cleanup(self.connection.close)
         self.connection.recv(100)
         self.connection.sendall(b"ok server=x protocol=1\n")
 
@@ -197,26 +216,28 @@ class Blocked(unittest.TestCase):
 
             thread = threading.Thread(target=step, daemon=True)
             thread.start()
-            time.sleep(0.2)
+            await_system_call(thread)
             env.close()
             thread.join(PATIENCE)
-            self.assertEqual(failures, [ConnectionError])
+            assert failures == [ConnectionError]
 
-    def test_a_silent_server_is_a_TimeoutError_of_each_kind(self):
+    def test_a_silent_server_is_a_TimeoutError_of_each_kind(self, subtests):
         with socket.create_server(("127.0.0.1", 0)) as silent:
             address = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
             for make in (AtariEnv, AtariVectorEnv):
-                with self.subTest(make=make), self.assertRaisesRegex(TimeoutError, "did not answer in time"):
+                with subtests.test(make=make), pytest.raises(TimeoutError, match="did not answer in time"):
                     make("beamfall", server=address, timeout=0.2)
         with server() as (address, process):
             env = AtariEnv("beamfall", server=address, timeout=0.3)
             env.reset(seed=1)
             halt(process)
-            self.assertRaises(TimeoutError, env.step, 1)
-            self.assertRaises(ConnectionError, env.step, 1)
+            with pytest.raises(TimeoutError):
+                env.step(1)
+            with pytest.raises(ConnectionError):
+                env.step(1)
 
 
-class Shared(unittest.TestCase):
+class TestShared:
     def in_child(self, call):
         """The sentence of the RuntimeError that the call raises in a child process."""
         reader, writer = os.pipe()
@@ -251,12 +272,12 @@ class Shared(unittest.TestCase):
                 lambda: session.act(1),
                 lambda: session.send("act", 1),
             ):
-                self.assertIn("before the process forked", self.in_child(call))
+                assert "before the process forked" in self.in_child(call)
             for close in (env.close, envs.close, session.close_connection):
-                self.assertEqual(self.in_child(close), "")
-            self.assertEqual(env.step(0)[4]["frame_number"], 4)
+                assert self.in_child(close) == ""
+            assert env.step(0)[4]["frame_number"] == 4
             envs.step([0, 0])
-            self.assertIn("reward", session.act(1))
+            assert "reward" in session.act(1)
 
     def test_threads_of_one_environment_take_turns(self):
         with server() as (address, _):
@@ -283,5 +304,5 @@ class Shared(unittest.TestCase):
                 thread.start()
             for thread in threads:
                 thread.join(PATIENCE)
-            self.assertEqual((failures, [thread for thread in threads if thread.is_alive()]), ([], []))
-            self.assertEqual(env.ale.getFrameNumber(), 4 * 40)
+            assert (failures, [thread for thread in threads if thread.is_alive()]) == ([], [])
+            assert env.ale.getFrameNumber() == 4 * 40

@@ -8,6 +8,7 @@ import unittest
 import unittest.mock
 
 import package
+import pytest
 
 package.require("gymnasium", "numpy")
 
@@ -67,23 +68,21 @@ def both(address, game="beamfall", count=3, **settings):
     return [AtariVectorEnv(game, count, server=where, **settings) for where in (None, address)]
 
 
-class Same(Compared):
-    def test_observations_and_infos(self):
+class TestSame(Compared):
+    def test_observations_and_infos(self, subtests):
         ends = 0
         with server() as (address, _):
             for settings in SETTINGS:
-                with self.subTest(**settings):
+                with subtests.test(**settings):
                     here, there = both(address, **{"seed": 5, **settings})
-                    self.assertEqual(
-                        (there.observation_space, there.action_space), (here.observation_space, here.action_space)
-                    )
+                    assert (there.observation_space, there.action_space) == (here.observation_space, here.action_space)
                     ends += self.play(here, there, 10)
                     self.check(there.reset(seed=9), here.reset(seed=9))
                     ends += self.play(here, there, 40)
                     there.close()
-        self.assertGreater(ends, 50)
+        assert ends > 50
 
-    def test_resets_of_some_and_seeds_of_each(self):
+    def test_resets_of_some_and_seeds_of_each(self, subtests):
         with server() as (address, _):
             here, there = both(address, count=4, seed=1, repeat_action_probability=0.25)
             mask = np.array([True, False, False, True])
@@ -95,11 +94,11 @@ class Same(Compared):
                 {"seed": 2**32 - 2, "options": {"reset_mask": mask}},
                 {},
             ):
-                with self.subTest(**arguments):
+                with subtests.test(**arguments):
                     self.check(there.reset(**arguments), here.reset(**arguments))
                     self.play(here, there, 5)
 
-    def test_a_reply_without_ends_is_read_as_a_whole(self):
+    def test_a_reply_without_ends_is_read_as_a_whole(self, subtests):
         with (
             server() as (address, _),
             unittest.mock.patch.object(LastReply, "_fill_each", side_effect=AssertionError),
@@ -109,7 +108,7 @@ class Same(Compared):
                 {"obs_type": "ram", "autoreset_mode": "SameStep"},
                 {"grayscale": False, "stack_num": 2},
             ):
-                with self.subTest(**settings):
+                with subtests.test(**settings):
                     here, there = both(address, seed=5, **settings)
                     self.play(here, there, 5)
 
@@ -117,26 +116,26 @@ class Same(Compared):
         with server() as (address, _):
             here, there = both(address, seed=1, render_mode="rgb_array")
             self.play(here, there, 5)
-            self.assertTrue(all(map(np.array_equal, there.render(), here.render())))
+            assert all(map(np.array_equal, there.render(), here.render()))
             self.check(there.show(), here.show())
 
     def test_an_image_that_only_the_client_has_is_sent(self):
         if "pong" not in package.roms():
-            self.skipTest("no image of pong was found")
+            pytest.skip("no image of pong was found")
         with server() as (address, _):
             here, there = both(address, "pong", mode=1, difficulty=2, seed=3)
             self.play(here, there, 30)
 
 
-class Halves(Compared):
+class TestHalves(Compared):
     def halves(self, envs, actions):
         envs.send(actions)
         return envs.recv()
 
-    def test_a_step_in_two_halves_is_a_step(self):
+    def test_a_step_in_two_halves_is_a_step(self, subtests):
         with server() as (address, _):
             for settings in ({}, SETTINGS[1], SETTINGS[4]):
-                with self.subTest(**settings):
+                with subtests.test(**settings):
                     here, there = both(address, **{"seed": 5, **settings})
                     here.action_space.seed(1)
                     for _ in range(30):
@@ -148,9 +147,9 @@ class Halves(Compared):
         with server() as (address, _):
             envs = AtariVectorEnv("beamfall", 3, seed=1, server=address)
             replies = envs._open_machines()._session._reader.connection
-            self.assertEqual(select.select([replies], [], [], 0)[0], [])
+            assert select.select([replies], [], [], 0)[0] == []
             envs.send([1, 1, 1])
-            self.assertEqual(select.select([replies], [], [], 60)[0], [replies])
+            assert select.select([replies], [], [], 60)[0] == [replies]
             envs.recv()
 
     def test_resets_in_two_halves(self):
@@ -176,13 +175,13 @@ class Halves(Compared):
                     lambda: envs.step([0, 0]),
                     lambda: envs.send([0, 0]),
                 ):
-                    with self.assertRaisesRegex(InvalidInput, "receive"):
+                    with pytest.raises(InvalidInput, match="receive"):
                         call()
-                self.assertEqual(envs.recv()[4]["frame_number"].shape, (2,))
-                with self.assertRaisesRegex(InvalidInput, "0 machines play, and a receive takes 2; send some first"):
+                assert envs.recv()[4]["frame_number"].shape == (2,)
+                with pytest.raises(InvalidInput, match="0 machines play, and a receive takes 2; send some first"):
                     envs.recv()
                 for actions in ([0, 99], [0]):
-                    with self.assertRaises((IndexError, InvalidInput)):
+                    with pytest.raises((IndexError, InvalidInput)):
                         envs.send(actions)
                 envs.step([0, 0])
 
@@ -194,9 +193,8 @@ class Halves(Compared):
                     for envs in (here, there):
                         envs.send([1, 0, 1])
                     (seen, our_info), (expected, info) = there.reset(seed=seed), here.reset(seed=seed)
-                    self.assertTrue(
-                        np.array_equal(seen, expected)
-                        and np.array_equal(our_info["frame_number"], info["frame_number"])
+                    assert np.array_equal(seen, expected) and np.array_equal(
+                        our_info["frame_number"], info["frame_number"]
                     )
 
     def test_a_server_that_dies_between_the_halves_is_a_ConnectionError(self):
@@ -206,17 +204,17 @@ class Halves(Compared):
             process.kill()
             process.wait()
             for _ in range(2):
-                with self.assertRaises(ConnectionError):
+                with pytest.raises(ConnectionError):
                     while True:  # the first reply may have been there
                         self.halves(envs, [0, 0]) if envs._open_machines()._pending is None else envs.recv()
 
 
-class States(Compared):
-    def test_a_state_moves_to_the_server_and_back(self):
+class TestStates(Compared):
+    def test_a_state_moves_to_the_server_and_back(self, subtests):
         ends = 0
         with server() as (address, _):
             for settings in SETTINGS:
-                with self.subTest(**settings):
+                with subtests.test(**settings):
                     here, there = both(
                         address, **{"seed": 5, "max_num_frames_per_episode": 90, **settings}, render_mode="rgb_array"
                     )
@@ -227,27 +225,26 @@ class States(Compared):
                         for env, state in enumerate(expected):
                             one.restore(env, state)
                             other.restore(env, pickle.loads(pickle.dumps(state)))
-                        self.assertTrue(all(map(np.array_equal, there.render(), here.render())))
+                        assert all(map(np.array_equal, there.render(), here.render()))
                         self.check(there.show(), here.show())
-                        self.assertEqual(
-                            [there.save(env).__getstate__() for env in range(3)],
-                            [state.__getstate__() for state in expected],
-                        )
+                        assert [there.save(env).__getstate__() for env in range(3)] == [
+                            state.__getstate__() for state in expected
+                        ]
                         ends += self.play(here, there, 30)
                     there.close()
-        self.assertGreater(ends, 50)
+        assert ends > 50
 
     def test_a_state_without_generators_keeps_those_that_are_there(self):
         with server() as (address, _):
             here, there = both(address, seed=1, repeat_action_probability=0.5)
             states = [envs.save(1, include_rng=False) for envs in (here, there)]
-            self.assertEqual(*(state.__getstate__() for state in states))
+            assert states[0].__getstate__() == states[1].__getstate__()
             self.play(here, there, 20)
             for envs, state in zip((here, there), states):
                 envs.restore(1, state)
             self.play(here, there, 20)
 
-    def test_bad_states_are_refused_as_in_this_process(self):
+    def test_bad_states_are_refused_as_in_this_process(self, subtests):
         with server() as (address, _):
             here, there = both(address, count=2, seed=1)
             self.play(here, there, 5)
@@ -266,16 +263,16 @@ class States(Compared):
                 (-1, here.save(0), IndexError, "environment -1 is out of range; accepted: 0 to 1"),
             ):
                 for envs in (here, there):
-                    with self.subTest(sentence=sentence, envs=envs), self.assertRaisesRegex(error, sentence):
+                    with subtests.test(sentence=sentence, envs=envs), pytest.raises(error, match=sentence):
                         envs.restore(env, state)
-            with self.assertRaisesRegex(IndexError, "environment 2 is out of range; accepted: 0 to 1"):
+            with pytest.raises(IndexError, match="environment 2 is out of range; accepted: 0 to 1"):
                 there.save(2)
-            self.assertEqual(there._open_machines()._session.states(), [])
+            assert there._open_machines()._session.states() == []
             self.play(here, there, 5)
 
 
-class Refused(unittest.TestCase):
-    def test_bad_input_raises_the_same_errors_as_in_this_process(self):
+class TestRefused:
+    def test_bad_input_raises_the_same_errors_as_in_this_process(self, subtests):
         with server() as (address, _):
             for envs in both(address, count=2, seed=1):
                 for actions, error in (
@@ -284,26 +281,26 @@ class Refused(unittest.TestCase):
                     ([0], InvalidInput),
                     ([0.5, 1], TypeError),
                 ):
-                    with self.subTest(actions=actions), self.assertRaises(error):
+                    with subtests.test(actions=actions), pytest.raises(error):
                         envs.step(actions)
-                self.assertEqual(envs.step([0, 0])[0].shape, (2, 4, 84, 84))
+                assert envs.step([0, 0])[0].shape == (2, 4, 84, 84)
             for arguments in ({"mode": 7}, {"difficulty": 9}, {"img_width": 321}, {"rom": b"x" * 600000}):
                 for where in (None, address):
-                    with self.subTest(arguments=arguments, server=where), self.assertRaises(InvalidInput):
+                    with subtests.test(arguments=arguments, server=where), pytest.raises(InvalidInput):
                         AtariVectorEnv("beamfall", 2, server=where, **arguments)
 
-    def test_a_server_refuses_what_it_does_not_do(self):
+    def test_a_server_refuses_what_it_does_not_do(self, subtests):
         with server("--max-machines", "4") as (address, _):
             _player = AtariVectorEnv("beamfall", 2, server=address)
             for arguments in ({"batch_size": 1}, {"num_envs": 5}, {"start": "baselines", "use_fire_reset": False}):
-                with self.subTest(arguments=arguments), self.assertRaises(InvalidInput):
+                with subtests.test(arguments=arguments), pytest.raises(InvalidInput):
                     AtariVectorEnv("beamfall", **{"num_envs": 2, "server": address, **arguments})
             AtariVectorEnv("beamfall", 2, server=address, use_fire_reset=False, start="fire-noops").close()
-            with self.assertRaises(gymnasium.error.Error):
+            with pytest.raises(gymnasium.error.Error):
                 AtariVectorEnv(["beamfall", "updraft"], server=address, full_action_space=True)
 
 
-class Lost(unittest.TestCase):
+class TestLost:
     def test_a_server_that_dies_is_a_ConnectionError(self):
         with server() as (address, process):
             envs = AtariVectorEnv("beamfall", 2, server=address, seed=1)
@@ -311,17 +308,17 @@ class Lost(unittest.TestCase):
             process.kill()
             process.wait()
             for call in (lambda: envs.step([0, 0]), envs.reset, envs.show):
-                with self.assertRaises(ConnectionError):
+                with pytest.raises(ConnectionError):
                     call()
             envs.close()
-            with self.assertRaises(OSError):
+            with pytest.raises(OSError):
                 AtariVectorEnv("beamfall", 2, server=address)
 
     def test_a_server_that_dies_within_a_step_is_a_ConnectionError(self):
         with server() as (address, process):
             envs = AtariVectorEnv("beamfall", 64, server=address, frameskip=1000, seed=1)
             threading.Timer(0.3, process.kill).start()
-            with self.assertRaises(ConnectionError):
+            with pytest.raises(ConnectionError):
                 for _ in range(10000):
                     envs.step([0] * 64)
 
@@ -335,5 +332,5 @@ class Lost(unittest.TestCase):
                 except RuntimeError as error:
                     os._exit(7 if "before the process forked" in str(error) else 8)
                 os._exit(9)
-            self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 7)
+            assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7
             envs.step([0, 0])

@@ -11,10 +11,10 @@ import sys
 import tempfile
 import threading
 import time
-import unittest
 import zlib
 
 import package
+import pytest
 
 package.require("gymnasium", "numpy")
 
@@ -78,30 +78,30 @@ def play(env, steps):
     return results
 
 
-class Environment(unittest.TestCase):
-    def test_it_is_the_same_over_the_wire(self):
+class TestEnvironment:
+    def test_it_is_the_same_over_the_wire(self, subtests):
         with server() as (addresses, _):
-            self.assertEqual([address.split(":")[0] for address in sorted(addresses)], ["tcp", "unix"])
+            assert [address.split(":")[0] for address in sorted(addresses)] == ["tcp", "unix"]
             for address in addresses:
                 for settings in SETTINGS:
-                    with self.subTest(address=address, settings=settings):
+                    with subtests.test(address=address, settings=settings):
                         here, there = (
                             racebeam.AtariEnv("beamfall", server=where, **settings) for where in (None, address)
                         )
-                        self.assertEqual(there.observation_space, here.observation_space)
-                        self.assertEqual(play(there, 300), play(here, 300))
+                        assert there.observation_space == here.observation_space
+                        assert play(there, 300) == play(here, 300)
                         there.close()
 
-    def test_an_image_that_only_the_client_has_is_sent(self):
+    def test_an_image_that_only_the_client_has_is_sent(self, subtests):
         if "pong" not in package.roms():
-            self.skipTest("no image of pong was found")
+            pytest.skip("no image of pong was found")
         with server() as (addresses, _):
             for settings in ({}, {"continuous": True}, {"two_player": True}, {"mode": 1, "difficulty": 2}):
-                with self.subTest(settings=settings):
+                with subtests.test(settings=settings):
                     here, there = (
                         racebeam.AtariEnv("pong", server=where, **settings) for where in (None, addresses[0])
                     )
-                    self.assertEqual(play(there, 100), play(here, 100))
+                    assert play(there, 100) == play(here, 100)
 
     def test_states_move_between_this_process_and_the_server(self):
         with server() as (addresses, _):
@@ -110,14 +110,14 @@ class Environment(unittest.TestCase):
             there.reset(seed=2)
             [here.step(1) for _ in range(20)]
             there.restore_state(here.clone_state(include_rng=True))
-            self.assertEqual(there.clone_state(include_rng=True), here.clone_state(include_rng=True))
+            assert there.clone_state(include_rng=True) == here.clone_state(include_rng=True)
             copy = pickle.loads(pickle.dumps(there))
             for _ in range(50):
                 steps = [env.step(2) for env in (here, there, copy)]
-                self.assertEqual({step[0].tobytes() for step in steps}, {steps[0][0].tobytes()})
-                self.assertEqual([step[1:] for step in steps[1:]], [steps[0][1:]] * 2)
+                assert {step[0].tobytes() for step in steps} == {steps[0][0].tobytes()}
+                assert [step[1:] for step in steps[1:]] == [steps[0][1:]] * 2
 
-    def test_bad_input_raises_the_same_errors_as_in_this_process(self):
+    def test_bad_input_raises_the_same_errors_as_in_this_process(self, subtests):
         with server() as (addresses, _):
             for arguments, error in (
                 ({"mode": 7}, RuntimeError),
@@ -125,20 +125,21 @@ class Environment(unittest.TestCase):
                 ({"rules": "x"}, ValueError),
                 ({"rom": b"x" * 600000}, racebeam.InvalidInput),
             ):
-                with self.subTest(arguments=arguments), self.assertRaises(error):
+                with subtests.test(arguments=arguments), pytest.raises(error):
                     racebeam.AtariEnv("beamfall", server=addresses[0], **arguments)
-            with self.assertRaises(racebeam.UnknownGame):
+            with pytest.raises(racebeam.UnknownGame):
                 racebeam.AtariEnv("beamfal", server=addresses[0])
             good = (package.SOURCE / "games/homebrew/beamfall.bin").read_bytes()
             for rom in (bytearray(good), memoryview(good)):
                 racebeam.AtariEnv("beamfall", server=addresses[0], rom=rom).ale.loadROM(rom)
             env = racebeam.AtariEnv("beamfall", server=addresses[0])
-            with self.assertRaises(IndexError):
+            with pytest.raises(IndexError):
                 env.step(18)
             for state in (None, b"", {}, np.zeros(3)):
-                self.assertRaisesRegex(TypeError, "it takes an ALEState", env.restore_state, state)
+                with pytest.raises(TypeError, match="it takes an ALEState"):
+                    env.restore_state(state)
 
-    def test_the_interface_accepts_and_refuses_what_a_local_one_does(self):
+    def test_the_interface_accepts_and_refuses_what_a_local_one_does(self, subtests):
         wrong = ("x", None, 1.5, -1, 2**40, True, np.int64(0), np.bool_(True), [0])
         names = ("setMode", "setDifficulty", "act", "cloneState", "game_over", "restoreState")
         calls = [(name, (value,)) for value in wrong for name in names]
@@ -172,14 +173,14 @@ class Environment(unittest.TestCase):
             for ale in (here, there):
                 ale.setInt("random_seed", 5)
                 ale.loadROM(racebeam.find_image("beamfall") if ale is here else None, "beamfall")
-            self.assertEqual([name for name in dir(here) if not hasattr(there, name)], [])
+            assert [name for name in dir(here) if not hasattr(there, name)] == []
             for name, words in calls:
-                with self.subTest(name=name, words=words):
-                    self.assertEqual(outcome(there, name, words), outcome(here, name, words))
-            self.assertEqual(there.state_hash(), here.state_hash())
+                with subtests.test(name=name, words=words):
+                    assert outcome(there, name, words) == outcome(here, name, words)
+            assert there.state_hash() == here.state_hash()
             here.act(1)
-            self.assertNotEqual(there.state_hash(), here.state_hash())
-            self.assertEqual(there.isSupportedROM(b"x"), here.isSupportedROM(b"x"))
+            assert there.state_hash() != here.state_hash()
+            assert there.isSupportedROM(b"x") == here.isSupportedROM(b"x")
             there.setLoggerMode(racebeam.LoggerMode.Error)
 
     def test_a_server_that_dies_is_a_ConnectionError(self):
@@ -189,36 +190,33 @@ class Environment(unittest.TestCase):
             process.kill()
             process.wait()
             for call in (lambda: env.step(0), env.reset, env.clone_state):
-                with self.assertRaises(ConnectionError):
+                with pytest.raises(ConnectionError):
                     call()
             env.close()
-            with self.assertRaises(OSError):
+            with pytest.raises(OSError):
                 racebeam.AtariEnv("beamfall", server=addresses[0])
 
 
-class Sessions(unittest.TestCase):
+class TestSessions:
     def test_arrays_have_shapes(self):
         with racebeam.launch(arrays=True) as session:
             session.load("beamfall", seed=1, sound=1)
             result = session.look("screen", "rgb", "grey", "ram", "palette", "audio")
-            self.assertEqual(
-                {name: value.shape for name, value in result.items()},
-                {
-                    "screen": (210, 160),
-                    "rgb": (210, 160, 3),
-                    "grey": (210, 160),
-                    "ram": (128,),
-                    "palette": (256, 3),
-                    "audio": (512,),
-                },
-            )
-            self.assertTrue(np.array_equal(result["palette"][result["screen"]], result["rgb"]))
+            assert {name: value.shape for name, value in result.items()} == {
+                "screen": (210, 160),
+                "rgb": (210, 160, 3),
+                "grey": (210, 160),
+                "ram": (128,),
+                "palette": (256, 3),
+                "audio": (512,),
+            }
+            assert np.array_equal(result["palette"][result["screen"]], result["rgb"])
             session.observe("grey84x4", "screen:delta")
-            self.assertEqual([session.act(1)[name].shape for name in ("grey84x4", "screen")], [(4, 84, 84), (210, 160)])
+            assert [session.act(1)[name].shape for name in ("grey84x4", "screen")] == [(4, 84, 84), (210, 160)]
 
-    def test_addresses(self):
+    def test_addresses(self, subtests):
         for address in ("", "tcp:", "tcp://", "tcp://host", "udp://host:1", "unix:", "tcp://host:port", "host:1"):
-            with self.subTest(address=address), self.assertRaisesRegex(ValueError, "it takes tcp://HOST:PORT"):
+            with subtests.test(address=address), pytest.raises(ValueError, match="it takes tcp://HOST:PORT"):
                 racebeam.connect(address)
         for address, error in (
             ("unix:/nowhere", FileNotFoundError),
@@ -228,7 +226,7 @@ class Sessions(unittest.TestCase):
             ("tls://127.0.0.1:1", ConnectionError),
             ("tcp://host.invalid:1", socket.gaierror),
         ):
-            with self.subTest(address=address), self.assertRaises(error):
+            with subtests.test(address=address), pytest.raises(error):
                 racebeam.connect(address)
 
     def test_a_token_is_sent(self):
@@ -237,36 +235,36 @@ class Sessions(unittest.TestCase):
             tokens.write_text("0123456789abcdef0123456789abcdef\n")
             tokens.chmod(0o600)
             output = subprocess.run([racebeam.program.path(), "serve", "--help"], capture_output=True, text=True).stdout
-            self.assertIn("--token-file", output)
+            assert "--token-file" in output
             with server("--token-file", str(tokens)) as (addresses, _):
                 tcp = next(address for address in addresses if address.startswith("tcp"))
-                with self.assertRaises(racebeam.Refused) as refused:
+                with pytest.raises(racebeam.Refused) as refused:
                     racebeam.connect(tcp, token="0" * 32)
-                self.assertEqual(refused.exception.code, "unauthorized")
+                assert refused.value.code == "unauthorized"
                 with racebeam.connect(tcp, token="0123456789abcdef0123456789abcdef") as session:
-                    self.assertEqual(session.load("beamfall")["game"], "beamfall")
+                    assert session.load("beamfall")["game"] == "beamfall"
                 for make in (racebeam.AtariEnv, racebeam.AtariVectorEnv):
                     make("beamfall", server=tcp, token="0123456789abcdef0123456789abcdef").reset(seed=1)
-                    with self.assertRaises(racebeam.Refused) as refused:
+                    with pytest.raises(racebeam.Refused) as refused:
                         make("beamfall", server=tcp)
-                    self.assertEqual(refused.exception.code, "unauthorized")
+                    assert refused.value.code == "unauthorized"
 
     def test_a_session_is_opened_again_only_when_asked(self):
         with server() as (addresses, _):
             session = racebeam.connect(addresses[0])
             session.load("beamfall")
             session.close_connection()
-            with self.assertRaises(ConnectionError):
+            with pytest.raises(ConnectionError):
                 session.act(1)
             with session.reconnect() as again:
-                with self.assertRaises(racebeam.Refused) as refused:
+                with pytest.raises(racebeam.Refused) as refused:
                     again.act(1)
-                self.assertEqual(refused.exception.code, "no-game")
-        with racebeam.launch() as session, self.assertRaises(ValueError):
+                assert refused.value.code == "no-game"
+        with racebeam.launch() as session, pytest.raises(ValueError):
             session.reconnect()
 
     def test_a_server_that_is_silent_is_a_TimeoutError(self):
-        with socket.create_server(("127.0.0.1", 0)) as silent, self.assertRaises(TimeoutError):
+        with socket.create_server(("127.0.0.1", 0)) as silent, pytest.raises(TimeoutError):
             racebeam.connect(f"tcp://127.0.0.1:{silent.getsockname()[1]}", timeout=0.2)
 
     @contextlib.contextmanager
@@ -290,19 +288,19 @@ class Sessions(unittest.TestCase):
         with self.server_of(b"ok server=x protocol=1\n", b"ok reward=") as address:
             session = racebeam.connect(address)
             for _ in range(2):
-                with self.assertRaises(ConnectionError):
+                with pytest.raises(ConnectionError):
                     session.act(1)
 
     def test_another_version_of_the_protocol_is_refused(self):
         with self.server_of(b"ok server=x protocol=2\n") as address:
-            with self.assertRaisesRegex(ConnectionError, "speaks version 2"):
+            with pytest.raises(ConnectionError, match="speaks version 2"):
                 racebeam.connect(address)
 
     def test_a_request_is_one_line(self):
         with racebeam.launch() as session:
-            with self.assertRaisesRegex(ValueError, "a request is one line"):
+            with pytest.raises(ValueError, match="a request is one line"):
                 session.load("beamfall\nquit")
-            self.assertEqual(session.load("beamfall")["game"], "beamfall")
+            assert session.load("beamfall")["game"] == "beamfall"
 
     def test_a_session_ends_with_the_last_reference_to_it(self):
         def memory():
@@ -314,16 +312,16 @@ class Sessions(unittest.TestCase):
         for _ in range(3):
             racebeam.launch().load("beamfall")
         gc.collect()
-        self.assertEqual(memory(), before)
+        assert memory() == before
 
     def test_a_session_may_be_left_to_the_end_of_python(self):
         script = "import racebeam; session = racebeam.launch(); session.load('beamfall')"
         done = subprocess.run([sys.executable, "-X", "dev", "-c", script], capture_output=True, text=True, timeout=60)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        assert (done.returncode, done.stderr) == (0, "")
 
     def test_a_program_that_refuses_its_arguments_is_a_ConnectionError(self):
         for options in (("--nope",), ("--classic", "--rom", "builtin:beamfall")):
-            with self.assertRaisesRegex(ConnectionError, f"does not serve: .* serve --stdio .*{options[0]}"):
+            with pytest.raises(ConnectionError, match=f"does not serve: .* serve --stdio .*{options[0]}"):
                 racebeam.launch(*options)
 
     def test_the_single_file_works_without_the_package(self):
@@ -342,4 +340,4 @@ class Sessions(unittest.TestCase):
                 text=True,
                 env={**os.environ, "PATH": path},
             )
-            self.assertEqual(done.stdout, "1\n", done.stderr)
+            assert done.stdout == "1\n", done.stderr

@@ -6,7 +6,6 @@ import signal
 import subprocess
 import tempfile
 import time
-import unittest
 
 import numpy as np
 import racebeam.program
@@ -39,25 +38,25 @@ def halt(process):
         time.sleep(0.001)
 
 
-class Compared(unittest.TestCase):
+class Compared:
     def check(self, shown, expected):
         for one, other in zip(shown[:-1], expected[:-1]):
-            self.assertEqual((one.dtype, one.shape), (other.dtype, other.shape))
-            self.assertTrue(np.array_equal(one, other))
+            assert (one.dtype, one.shape) == (other.dtype, other.shape)
+            assert np.array_equal(one, other)
         self.check_info(shown[-1], expected[-1])
 
     def check_info(self, info, expected):
-        self.assertEqual(list(info), list(expected))
+        assert list(info) == list(expected)
         for key, value in expected.items():
             if isinstance(value, dict):
                 self.check_info(info[key], value)
             elif value.dtype == object:
-                self.assertTrue(
-                    all(one is other is None or np.array_equal(one, other) for one, other in zip(info[key], value)), key
-                )
+                assert all(
+                    one is other is None or np.array_equal(one, other) for one, other in zip(info[key], value)
+                ), key
             else:
-                self.assertEqual(info[key].dtype, value.dtype)
-                self.assertTrue(np.array_equal(info[key], value), key)
+                assert info[key].dtype == value.dtype
+                assert np.array_equal(info[key], value), key
 
     def play(self, here, there, steps):
         """How many episodes ended."""
