@@ -288,6 +288,7 @@ class TestExperiment:
         _, part, _ = run("experiment", "paper", "--dry-run", "--shard", "3/1000")
         assert re.findall(r"(?m)^unit (\S+) ", part) == units[2::1000]
 
+    @pytest.mark.slow
     def test_a_dry_run_says_how_long_a_plan_takes(self):
         for agents, more in (
             ('["random", "const", "perturb"]', "evaluation_episodes = 30\n"),

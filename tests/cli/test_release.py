@@ -31,6 +31,7 @@ def in_git():
 
 
 pytestmark = [
+    pytest.mark.slow,
     pytest.mark.needs_programs("dpkg-deb", "cpack"),
     pytest.mark.skipif(not in_git(), reason="not found: git"),
 ]

@@ -43,7 +43,7 @@ class Wire:
         """What a shared session shows now."""
         request = f"watch {name} screen:hex palette"
         self.ask(request)  # the server makes a copy from now on
-        time.sleep(0.2)
+        time.sleep(0.2)  # several frames, each of which is copied
         return self.ask(request)
 
     def picture(self, name):
@@ -178,7 +178,7 @@ class TestKeys(InTerminal):
         terminal.type(b"p")
         terminal.wait_until(lambda: "paused" in terminal.line(-1), "a pause")
         frame = wire.watch(name)["frame"]
-        time.sleep(0.3)
+        time.sleep(0.3)  # the subject: nothing is played meanwhile
         assert wire.watch(name)["frame"] == frame
         terminal.type(b"n")
         terminal.wait_until(lambda: "score 0 " in terminal.line(-1), "a new game")

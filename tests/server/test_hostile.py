@@ -74,7 +74,7 @@ def median_wait(wire, count=9):
         reply = ask(wire, b"act NOOP")
         assert reply.startswith(b"ok"), reply
         waits.append(time.monotonic() - start)
-        time.sleep(0.005)
+        time.sleep(0.005)  # the pace of a player
     return statistics.median(waits)
 
 
@@ -180,7 +180,7 @@ class TestDeparture(Case):
         wire.close()
         self.server.wait_for(r"client 1: .*(left|stopped)")
         seconds = self.server.processor_seconds()
-        time.sleep(0.5)
+        time.sleep(0.5)  # the subject: it does nothing meanwhile
         assert self.server.processor_seconds() - seconds < 0.2
 
     def test_a_request_of_a_client_that_left_over_tcp_is_given_up(self):
@@ -217,7 +217,7 @@ class TestHalfClosed(Case):
     def replies(self, connection, requests, shut):
         connection.sendall(requests)
         shut(connection)
-        time.sleep(4)
+        time.sleep(4)  # the subject: the client is late
         replies = b""
         while piece := connection.recv(65536):
             replies += piece

@@ -125,7 +125,7 @@ class TestMemory:
         replies = [fill(self.connect(port)) for _ in range(24)]
         assert True in replies
         self.check_newcomers(port)
-        time.sleep(3)
+        time.sleep(3)  # the subject: the server stays so while time passes
         self.check_newcomers(port)
         assert bystander.close() == {b"ok"}
         assert self.memory("resident") < 128
@@ -170,7 +170,7 @@ class TestMemory:
             for line in (LONG, b"observe rgb:hex"):
                 ask(wire, line)
             wire.send(b"open 8\n" + b"step NOOP\n" * 50)
-        time.sleep(3)
+        time.sleep(3)  # the subject: so long, nobody reads
         self.check_newcomers(port)
         assert bystander.close() == {b"ok"}
         assert re.search(b"^ok ", ask(waiting, b"act FIRE"))
@@ -187,7 +187,7 @@ class TestMemory:
         for wire in many:
             wire.read(1 << 16)  # their work is done
         self.check_newcomers(port)
-        time.sleep(4)
+        time.sleep(4)  # the subject: the sessions stay idle
         self.check_newcomers(port)
         assert re.search(b"^ok ", ask(waiting, b"step NOOP"))
 

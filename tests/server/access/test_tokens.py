@@ -124,7 +124,7 @@ class TestTokens(Folder):
             holder = connect_tcp(server.port())
             ask(holder, b"hello token=" + TOKEN.encode())
             silent = connect_tcp(server.port())
-            time.sleep(3)
+            time.sleep(3)  # the subject: longer than the two seconds
             assert b" admitted=1 " in ask(holder, b"hello")  # a session with a token does
             holder.close()
             until = time.monotonic() + PATIENCE

@@ -153,11 +153,11 @@ class TestUntilIdle:
         with serve("--until-idle", "2") as server:
             wire = connect_tcp(server.port())
             ask(wire, b"hello")
-            time.sleep(3)
+            time.sleep(3)  # the subject: longer than the two seconds
             assert ask(wire, b"hello").startswith(b"ok ")
             wire.close()
             for _ in range(3):  # each is over before the server looks
-                time.sleep(1)
+                time.sleep(1)  # the subject: half of the two seconds
                 wire = connect_tcp(server.port())
                 ask(wire, b"quit")
                 wire.close()

@@ -124,7 +124,7 @@ class TestMemory(Scarce):
             time.sleep(0.05)
         assert self.scarcity.get("alive") < alive + 200
         seconds = server.processor_seconds()
-        time.sleep(0.5)
+        time.sleep(0.5)  # the subject: it does nothing meanwhile
         assert server.processor_seconds() - seconds < 0.25
 
     def check_every_allocation(self, port, said, failures, step=1):
