@@ -266,7 +266,7 @@ class TestLost(Servers):
             addresses = [f"file:{file}?wait=60", "tcp://127.0.0.1:1", never]
             with pytest.warns(RuntimeWarning) as warned:
                 here, there = self.both(count=6, servers=addresses)
-        assert [str(each.message).replace(folder, "") for each in warned.warnings] == [
+        assert [str(each.message).replace(folder, "") for each in warned.list] == [
             (
                 "environments 2 to 3 begin on file:/late?wait=60: no server answers at tcp://127.0.0.1:1: "
                 "Connection refused"
@@ -276,7 +276,7 @@ class TestLost(Servers):
                 "file or directory"
             ),
         ]
-        assert [each.filename for each in warned.warnings] == [__file__] * 2
+        assert [each.filename for each in warned.list] == [__file__] * 2
         self.check(there.reset(), here.reset(), lost=[False] * 2 + [True] * 4)
         self.play(here, there, 20)  # with the seeds that they would have had
 
