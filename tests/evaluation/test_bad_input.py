@@ -2,31 +2,30 @@
 
 import pathlib
 import tempfile
-import unittest
 
 import package
+import pytest
 
 package.require()
 
-from made_results import CURVES, RESULTS, curve, evaluate, result, results_of, write  # noqa: E402
+from made_results import CURVES, RESULTS, curve, evaluate, result, results_of, write
 
 GOOD = {("basic", "pong"): [[1], [2]], ("bass", "pong"): [[3], [5]]}
 
 
-class BadInput(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = pathlib.Path(folder.name)
+class TestBadInput:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.root = tmp_path
 
     def check_refusal(self, sentence, *arguments, status=1):
         """Checks that the run says `sentence`, ends with `status`, and leaves nothing."""
         before = sorted(self.root.rglob("*"))
         done = evaluate(*arguments or [self.root / "a"], "--into", self.root / "out")
-        self.assertEqual((done.returncode, done.stdout), (status, ""), done.stderr)
-        self.assertEqual(len(done.stderr.splitlines()) if status == 1 else 1, 1, done.stderr)
-        self.assertIn(sentence, done.stderr)
-        self.assertEqual(sorted(self.root.rglob("*")), before)
+        assert (done.returncode, done.stdout) == (status, ""), done.stderr
+        assert (len(done.stderr.splitlines()) if status == 1 else 1) == 1, done.stderr
+        assert sentence in done.stderr
+        assert sorted(self.root.rglob("*")) == before
 
     def lines(self, *lines, header=RESULTS, curves=()):
         return write(self.root / "a", lines, curves, header)
@@ -90,7 +89,7 @@ class BadInput(unittest.TestCase):
     def test_curves_are_as_strict(self):
         self.lines(*results_of(GOOD), curves=[curve("pong", "basic", 0, 0, 1, 100), "u,pong,basic,0,1,1,many,2"])
         self.check_refusal("curves.csv, line 3: frames is 'many'; expected a whole number from 0 to 2147483647")
-        self.assertIn("frames", CURVES)
+        assert "frames" in CURVES
 
     def test_a_game_that_there_is_not(self):
         for name, sentence in (
@@ -147,9 +146,9 @@ class BadInput(unittest.TestCase):
     def test_a_folder_that_cannot_be(self):
         self.lines(*results_of(GOOD))
         done = evaluate(self.root / "a", "--into", self.root / "none/out")
-        self.assertEqual(
-            (done.returncode, done.stderr.splitlines()),
-            (1, [f"racebeam-evaluate: {self.root}/none is not a folder; expected the folder in which out is made"]),
+        assert (done.returncode, done.stderr.splitlines()) == (
+            1,
+            [f"racebeam-evaluate: {self.root}/none is not a folder; expected the folder in which out is made"],
         )
 
     def test_reports_of_what_is_not_there(self):
@@ -171,7 +170,7 @@ class BadInput(unittest.TestCase):
         self.check_refusal("'0' is not accepted; expected 1 to 1000000", folder, "--repetitions", "0", status=2)
 
 
-class Plans(unittest.TestCase):
+class TestPlans:
     """Results of different settings are evaluated together only with a sentence that says so."""
 
     PLAN = (
@@ -197,33 +196,34 @@ class Plans(unittest.TestCase):
             for kind in ("paper2013", "machado2018", "atari100k"):
                 out = pathlib.Path(root) / kind
                 done = evaluate(*folders, "--into", out, "--report", kind, *mix)
-                self.assertIn(done.returncode, (0, 3), done.stderr)
+                assert done.returncode in (0, 3), done.stderr
                 texts.append((out / "report.md").read_text())
             return texts
 
     def test_the_same_settings(self):
         for text in self.report({}, {}):
-            self.assertNotIn("The plans differ", text)
+            assert "The plans differ" not in text
 
     def test_other_settings_of_the_environment_and_of_an_agent(self):
         for text in self.report({}, {"sticky": 0.25, "alpha": 0.1}, mix=("--mix",)):
-            self.assertIn(
-                'The plans differ: environment is "sticky=0" in r0, and "sticky=0.25" in r1; scores are of both.', text
+            assert (
+                'The plans differ: environment is "sticky=0" in r0, and "sticky=0.25" in r1; scores are of both.'
+                in text
             )
-            self.assertIn("The plans differ: agent.basic.alpha is 0.5 in r0, and 0.1 in r1; scores are of both.", text)
+            assert "The plans differ: agent.basic.alpha is 0.5 in r0, and 0.1 in r1; scores are of both." in text
 
     def test_what_changes_no_score_may_differ(self):
         for text in self.report({}, {"episodes": 9}):
-            self.assertIn(
-                "The plans differ: agent.basic.evaluation_episodes is 3 in r0, and 9 in r1; scores are of both.", text
+            assert (
+                "The plans differ: agent.basic.evaluation_episodes is 3 in r0, and 9 in r1; scores are of both." in text
             )
 
     def test_settings_of_agents_that_only_one_has(self):
         for text in self.report({}, {"agent": "bass", "alpha": 0.1}):
-            self.assertNotIn("The plans differ", text)
+            assert "The plans differ" not in text
 
 
-class Untested(unittest.TestCase):
+class TestUntested:
     """Tests that cannot be made are named. The rest of the report is written, and the status is 3."""
 
     def evaluated(self, scores):
@@ -234,26 +234,22 @@ class Untested(unittest.TestCase):
 
     def test_fewer_than_two_trials(self):
         status, output, report = self.evaluated(GOOD | {("bass", "pong"): [[3, 5]]})
-        self.assertEqual(status, 3)
-        self.assertEqual(
-            output, ["racebeam-evaluate: Not tested: bass on pong has fewer than 2 trials; a test takes 2 or more."]
-        )
-        self.assertIn("Not tested: bass on pong has fewer than 2 trials", report)
+        assert status == 3
+        assert output == [
+            "racebeam-evaluate: Not tested: bass on pong has fewer than 2 trials; a test takes 2 or more."
+        ]
+        assert "Not tested: bass on pong has fewer than 2 trials" in report
 
     def test_no_variance(self):
         status, output, report = self.evaluated({("basic", "pong"): [[0], [0]], ("bass", "pong"): [[2], [2]]})
-        self.assertEqual(status, 3)
-        self.assertEqual(
-            output,
-            [
-                "racebeam-evaluate: Not tested: basic and bass on pong have no variance; a test takes trials that "
-                "differ."
-            ],
-        )
-        self.assertIn("Not tested: basic and bass on pong have no variance", report)
+        assert status == 3
+        assert output == [
+            "racebeam-evaluate: Not tested: basic and bass on pong have no variance; a test takes trials that differ."
+        ]
+        assert "Not tested: basic and bass on pong have no variance" in report
 
     def test_a_game_that_one_lacks(self):
         status, output, report = self.evaluated(GOOD | {("bass", "boxing"): [[1], [2]]})
-        self.assertEqual((status, output), (0, []))
-        self.assertIn("basic and bass are compared in 1 game; only one of them has played boxing.", report)
-        self.assertIn("Not every agent has played boxing: not aggregated.", report)
+        assert (status, output) == (0, [])
+        assert "basic and bass are compared in 1 game; only one of them has played boxing." in report
+        assert "Not every agent has played boxing: not aggregated." in report

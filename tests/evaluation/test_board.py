@@ -3,32 +3,29 @@
 import base64
 import hashlib
 import json
-import pathlib
 import re
 import resource
 import shutil
 import signal
-import tempfile
-import unittest
 import zlib
 
 import package
+import pytest
 
 package.require()
 
-from made_results import evaluate  # noqa: E402
-from made_submissions import ABOUT, log, log_path, row_of, seal, submission, write_rows  # noqa: E402
+from made_results import evaluate
+from made_submissions import ABOUT, log, log_path, row_of, seal, submission, write_rows
 from racebeam_evaluation import main  # noqa: E402, F401
-from racebeam_evaluation.board.submission import seed_of_phrase  # noqa: E402
+from racebeam_evaluation.board.submission import seed_of_phrase
 
 OWN_GAMES = package.SOURCE / "docs/results/own-games"
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = pathlib.Path(folder.name)
+class Folder:
+    @pytest.fixture(autouse=True)
+    def own_folder(self, tmp_path):
+        self.root = tmp_path
 
     def board(self, *arguments):
         return evaluate("--board", *arguments, "--into", self.root / "site")
@@ -37,19 +34,19 @@ class Folder(unittest.TestCase):
         return (self.root / "site" / name).read_text()
 
 
-class Board(Folder):
+class TestBoard(Folder):
     def test_two_agents_are_compared(self):
         submission(self.root / "a", "mine", {"pong": [[-20, -10], [0, 10]], "boxing": [[5], [6]]})
         submission(self.root / "b", "yours", {"pong": [[20], [18]]})
         done = self.board(self.root / "a", self.root / "b")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        assert (done.returncode, done.stderr) == (0, "")
         index = self.page()
         # Pong: random play -20.7, people 14.6. The trials of yours have 20 and 18: (38 / 2 + 20.7) / 35.3.
-        self.assertIn("1.125 (1.096 to 1.153)", index)
-        self.assertLess(index.index("yours 1.0"), index.index("mine 1.0"))  # the higher IQM first
-        self.assertIn('<td class="number"><a href="agent1.html#pong">-5.0</a></td>', index)
-        self.assertIn('<td class="number"><a href="agent1.html#boxing">5.5</a></td><td class="number"></td>', index)
-        self.assertIn("They were not played again", index)
+        assert "1.125 (1.096 to 1.153)" in index
+        assert index.index("yours 1.0") < index.index("mine 1.0")  # the higher IQM first
+        assert '<td class="number"><a href="agent1.html#pong">-5.0</a></td>' in index
+        assert '<td class="number"><a href="agent1.html#boxing">5.5</a></td><td class="number"></td>' in index
+        assert "They were not played again" in index
 
     def test_every_link_leads_somewhere_and_logs_are_the_same_bytes(self):
         folder, rows = submission(self.root / "a")
@@ -59,16 +56,16 @@ class Board(Folder):
             for address in re.findall(r'(?:href|src)="([^"]*)"', page.read_text()):
                 file, _, anchor = address.partition("#")
                 if not file.startswith("https://"):
-                    self.assertTrue((site / file).is_file(), address)
+                    assert (site / file).is_file(), address
                 if anchor:
-                    self.assertIn(f'id="{anchor}"', (site / file).read_text())
+                    assert f'id="{anchor}"' in (site / file).read_text()
         copies = {path.read_bytes() for path in site.rglob("*.episode")}
-        self.assertEqual(copies, {log_path(folder, row).read_bytes() for row in rows})
+        assert copies == {log_path(folder, row).read_bytes() for row in rows}
 
     def test_words_are_not_markup(self):
         self.board(submission(self.root / "a")[0])
         for name in ("index.html", "agent1.html"):
-            self.assertIn("Ours &lt;b&gt;&amp; theirs&lt;/b&gt;", self.page(name))
+            assert "Ours &lt;b&gt;&amp; theirs&lt;/b&gt;" in self.page(name)
 
     def test_a_link_of_the_viewer_has_the_episode(self):
         self.board(submission(self.root / "a")[0], "--viewer", "https://example.org/racebeam/")
@@ -76,7 +73,7 @@ class Board(Folder):
             r'href="https://example.org/racebeam/#replay=([\w-]+)&amp;frame=0"', self.page("agent1.html")
         )
         text = json.loads(zlib.decompress(base64.urlsafe_b64decode(packed[1] + "==")))
-        self.assertEqual((text["game"], text["acts"], text["settings"]["seed"]), ("pong", ["3*300"], "7"))
+        assert (text["game"], text["acts"], text["settings"]["seed"]) == ("pong", ["3*300"], "7")
 
     def test_presets_are_not_mixed(self):
         submission(self.root / "a")
@@ -88,10 +85,10 @@ class Board(Folder):
             row["log_digest"] = hashlib.sha256(log_path(folder, row).read_bytes()).hexdigest()
         write_rows(folder, rows)
         done = self.board(self.root / "a", folder)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        assert (done.returncode, done.stderr) == (0, "")
         index = self.page()
-        self.assertEqual(index.count("<h2>Preset"), 2)
-        self.assertNotIn("<th>mine 1.0</th><th>yours 1.0</th>", index)
+        assert index.count("<h2>Preset") == 2
+        assert "<th>mine 1.0</th><th>yours 1.0</th>" not in index
 
     def test_curves_are_shown(self):
         folder, _ = submission(self.root / "a")
@@ -99,8 +96,8 @@ class Board(Folder):
             "game,agent,trial,episode,score,frames\npong,mine,1,1,-20,1000\npong,mine,1,2,-10,1000\n"
         )
         self.board(folder)
-        self.assertIn('<img src="curves-paper2013.svg"', self.page())
-        self.assertTrue((self.root / "site/curves-paper2013.png").is_file())
+        assert '<img src="curves-paper2013.svg"' in self.page()
+        assert (self.root / "site/curves-paper2013.png").is_file()
 
     def test_logs_of_racebeam_itself(self):
         folder = self.root / "basic"
@@ -111,23 +108,23 @@ class Board(Folder):
         (folder / "results.csv").write_text("\n".join([*selection, ""]))
         shutil.copytree(OWN_GAMES / "logs", folder / "logs")
         done = self.board(folder)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("beamfall", self.page())
+        assert (done.returncode, done.stderr) == (0, "")
+        assert "beamfall" in self.page()
 
     def test_a_broken_folder_is_named_and_the_others_are_shown(self):
         good, _ = submission(self.root / "good")
         broken, rows = submission(self.root / "broken", "yours")
         log_path(broken, rows[1]).write_bytes(b"RBEPISOD")
         done = self.board(broken, good, self.root / "none")
-        self.assertEqual(done.returncode, 3)
-        self.assertEqual(len(done.stderr.splitlines()), 2)
-        self.assertIn("racebeam-evaluate: not shown: ", done.stderr)
+        assert done.returncode == 3
+        assert len(done.stderr.splitlines()) == 2
+        assert "racebeam-evaluate: not shown: " in done.stderr
         index = self.page()
-        self.assertIn("mine 1.0", index)
-        self.assertNotIn("yours 1.0", index)
-        self.assertIn("2.episode is not an episode log", index)
-        self.assertIn(">none/agent.toml cannot be read", index)
-        self.assertNotIn(str(self.root), index)
+        assert "mine 1.0" in index
+        assert "yours 1.0" not in index
+        assert "2.episode is not an episode log" in index
+        assert ">none/agent.toml cannot be read" in index
+        assert str(self.root) not in index
 
     def test_a_full_disk_leaves_nothing(self):
         folder, _ = submission(self.root / "mine")
@@ -139,11 +136,11 @@ class Board(Folder):
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, limits)
             signal.signal(signal.SIGXFSZ, ignored)
-        self.assertEqual(done.returncode, 1)
-        self.assertRegex(
-            done.stderr, "^racebeam-evaluate: .*/site cannot be written: File too large; expected a folder "
+        assert done.returncode == 1
+        assert re.search(
+            "^racebeam-evaluate: .*/site cannot be written: File too large; expected a folder ", done.stderr
         )
-        self.assertEqual([path.name for path in self.root.iterdir()], ["mine"])
+        assert [path.name for path in self.root.iterdir()] == ["mine"]
 
     def test_one_version_of_an_agent_and_one_image_of_a_game(self):
         submission(self.root / "a")
@@ -154,24 +151,24 @@ class Board(Folder):
             log_path(other, row).write_bytes(log(row))
         write_rows(other, rows)
         done = self.board(self.root / "a", self.root / "b", other)
-        self.assertEqual(done.returncode, 3)
-        self.assertIn("b is of mine 1.0, which is there; expected another version", done.stderr)
-        self.assertIn("the image of pong is aa; expected md5-of-pong, as the others have", done.stderr)
+        assert done.returncode == 3
+        assert "b is of mine 1.0, which is there; expected another version" in done.stderr
+        assert "the image of pong is aa; expected md5-of-pong, as the others have" in done.stderr
 
 
-class BadInput(Folder):
-    def setUp(self):
-        super().setUp()
+class TestBadInput(Folder):
+    @pytest.fixture(autouse=True)
+    def made_submission(self, own_folder):
         self.folder, self.rows = submission(self.root / "a")
         self.log = log_path(self.folder, self.rows[0])
 
     def check_refusal(self, sentence):
         """Checks that the folder is refused with `sentence`, and that nothing is written."""
         done = self.board(self.folder)
-        self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
-        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-        self.assertIn(sentence, done.stderr)
-        self.assertFalse((self.root / "site").exists())
+        assert (done.returncode, done.stdout) == (1, ""), done.stderr
+        assert len(done.stderr.splitlines()) == 1, done.stderr
+        assert sentence in done.stderr
+        assert not (self.root / "site").exists()
 
     def test_a_log_that_is_cut_or_altered(self):
         whole = self.log.read_bytes()
@@ -189,7 +186,7 @@ class BadInput(Folder):
             file.truncate(2**30)
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
         self.check_refusal("1.episode has 1073741824 bytes; expected an episode log of at most 2097152")
-        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 100_000)  # KiB
+        assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 100_000  # KiB
 
     def test_contents_that_grow_without_end(self):
         self.log.write_bytes(seal(bytes(2**25), size=1000))
@@ -239,7 +236,7 @@ class BadInput(Folder):
         path = self.folder / "agent.toml"
         path.write_text(path.read_text() + 'phrase = "a phrase"\n')
         self.check_refusal("line 2: environment_seed is '7'; the phrase gives '")
-        self.assertEqual(seed_of_phrase("a phrase", {"game": "beamfall", "trial": "1", "episode": "2"}), 221384134)
+        assert seed_of_phrase("a phrase", {"game": "beamfall", "trial": "1", "episode": "2"}) == 221384134
 
     def test_agent_toml(self):
         path = self.folder / "agent.toml"
@@ -270,5 +267,5 @@ class BadInput(Folder):
             (("--paper",), "expected folders of submissions for --board"),
         ):
             done = self.board(*arguments)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(sentence, done.stderr)
+            assert done.returncode == 2
+            assert sentence in done.stderr

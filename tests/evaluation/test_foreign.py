@@ -1,16 +1,14 @@
 """Files of Dopamine, DQN Zoo and rliable are read, and results are frames for programs."""
 
 import json
-import pathlib
-import tempfile
-import unittest
 
 import package
+import pytest
 
 package.require()
 
-from made_results import curve, evaluate, results_of, write  # noqa: E402
-from racebeam_evaluation import BadInput, load  # noqa: E402
+from made_results import curve, evaluate, results_of, write
+from racebeam_evaluation import BadInput, load
 
 ZOO = (
     ",environment_name,seed,frame,eval_episode_return,eval_num_episodes\n"
@@ -18,11 +16,10 @@ ZOO = (
 )
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = pathlib.Path(folder.name)
+class Folder:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.root = tmp_path
 
     def file(self, name, content):
         path = self.root / name
@@ -30,7 +27,7 @@ class Folder(unittest.TestCase):
         return path
 
 
-class Files(Folder):
+class TestFiles(Folder):
     def test_dopamine(self):
         entries = [
             {"Iteration": iteration, "Value": value, "Agent": agent}
@@ -39,39 +36,42 @@ class Files(Folder):
             for iteration, value in enumerate(trial)
         ]
         found = load(self.file("battlezone.json", entries))
-        self.assertEqual(
-            found.trials.values.tolist(),
-            [["battle_zone", "dqn", 0, 2], ["battle_zone", "dqn", 1, 4.5], ["battle_zone", "dqn_adam", 0, 8]],
-        )
-        self.assertEqual(found.curves["frames"].to_list(), [1_000_000] * 6)
-        self.assertEqual(found.curves["decisions"].to_list(), [250_000] * 6)
+        assert found.trials.values.tolist() == [
+            ["battle_zone", "dqn", 0, 2],
+            ["battle_zone", "dqn", 1, 4.5],
+            ["battle_zone", "dqn_adam", 0, 8],
+        ]
+        assert found.curves["frames"].to_list() == [1_000_000] * 6
+        assert found.curves["decisions"].to_list() == [250_000] * 6
 
     def test_dqn_zoo(self):
         found = load(self.file("rainbow.csv", ZOO))
-        self.assertEqual(
-            found.trials.values.tolist(), [["battle_zone", "rainbow", 1, 300.5], ["battle_zone", "rainbow", 2, 310]]
-        )
-        self.assertEqual(found.curves["frames"].to_list(), [0, 1_000_000, 0, 1_000_000])
+        assert found.trials.values.tolist() == [
+            ["battle_zone", "rainbow", 1, 300.5],
+            ["battle_zone", "rainbow", 2, 310],
+        ]
+        assert found.curves["frames"].to_list() == [0, 1_000_000, 0, 1_000_000]
 
     def test_rliable(self):
         found = load(self.file("DrQ.json", {"UpNDown": [1, 2.5], "MsPacman": [3]}))
-        self.assertEqual(
-            found.trials.values.tolist(),
-            [["ms_pacman", "drq", 0, 3], ["up_n_down", "drq", 0, 1], ["up_n_down", "drq", 1, 2.5]],
-        )
+        assert found.trials.values.tolist() == [
+            ["ms_pacman", "drq", 0, 3],
+            ["up_n_down", "drq", 0, 1],
+            ["up_n_down", "drq", 1, 2.5],
+        ]
 
     def test_they_are_evaluated_beside_results_of_ours(self):
         ours = write(self.root / "ours", results_of({("basic", "up_n_down"): [[4], [6]]}))
         done = evaluate(ours, self.file("DrQ.json", {"UpNDown": [1, 2]}), "--into", self.root / "report")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("testing,up_n_down,5,1.5\n", (self.root / "report/tables/learning-scores.csv").read_text())
+        assert (done.returncode, done.stderr) == (0, "")
+        assert "testing,up_n_down,5,1.5\n" in (self.root / "report/tables/learning-scores.csv").read_text()
 
     def test_each_iteration_is_a_checkpoint_of_its_own(self):
         entries = [{"Iteration": i, "Value": i + 1, "Agent": "DQN"} for i in range(60)]
         done = evaluate(self.file("pong.json", entries), "--report", "machado2018", "--into", self.root / "report")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        assert done.returncode == 0, done.stderr
         row = (self.root / "report/tables/machado2018.csv").read_text().splitlines()[2]
-        self.assertEqual(row, "pong,dqn,1,10,n/a,1,50,n/a,1,n/a,n/a,0,n/a,n/a,0")
+        assert row == "pong,dqn,1,10,n/a,1,50,n/a,1,n/a,n/a,0,n/a,n/a,0"
 
     def test_mistakes_are_reported(self):
         for name, content, sentence in (
@@ -95,33 +95,33 @@ class Files(Folder):
             ("a.csv", "frame,seed\n1,2\n", "a.csv lacks the columns environment_name, eval_episode_return"),
             ("a.csv", ZOO.replace("300.5", "much"), "eval_episode_return is 'much'; expected a decimal number"),
         ):
-            with self.assertRaises(BadInput) as raised:
+            with pytest.raises(BadInput) as raised:
                 load(self.file(name, content))
-            self.assertIn(sentence, str(raised.exception))
+            assert sentence in str(raised.value)
 
     def test_a_file_of_a_gigabyte_is_not_read(self):
         for name, limit in (("pong.json", 2**28), ("a.csv", 2**29)):
             with (self.root / name).open("wb") as file:
                 file.truncate(2**30)
-            with self.assertRaisesRegex(BadInput, f"has 1073741824 bytes; expected a .* of at most {limit}"):
+            with pytest.raises(BadInput, match=f"has 1073741824 bytes; expected a .* of at most {limit}"):
                 load(self.root / name)
 
 
-class Frames(Folder):
+class TestFrames(Folder):
     def test_a_folder_is_frames(self):
         scores = {("basic", "pong"): [[1, 3], [4]], ("random", "pong"): [[-20, -21]]}
         folder = write(self.root / "a", results_of(scores), [curve("pong", "basic", 0, 0, 1, 100)])
         (folder / "agents.csv").write_text("agent,role\nbasic,learner\n")
         found = load(folder)
-        self.assertEqual(len(found.episodes), 5)
-        self.assertEqual(found.scores.loc["pong"].to_dict(), {"basic": 3, "random": -20.5})
-        self.assertEqual(found.trials["score"].to_list(), [2, 4, -20.5])
-        self.assertEqual(found.curves["decisions"].to_list(), [20])
-        self.assertEqual(found.roles, {"basic": "learner"})
+        assert len(found.episodes) == 5
+        assert found.scores.loc["pong"].to_dict() == {"basic": 3, "random": -20.5}
+        assert found.trials["score"].to_list() == [2, 4, -20.5]
+        assert found.curves["decisions"].to_list() == [20]
+        assert found.roles == {"basic": "learner"}
         rows = found.aggregates()
         human = rows[rows["normalisation"] == "human"].iloc[0]
-        self.assertAlmostEqual(human["IQM"], (3 + 20.7) / 35.3)
+        assert human["IQM"] == pytest.approx((3 + 20.7) / 35.3, rel=0, abs=0.5e-7)
 
     def test_a_folder_without_training_has_no_curves(self):
         found = load(str(write(self.root / "a", results_of({("uct", "pong"): [[1]]}))))
-        self.assertEqual((len(found.curves), list(found.curves)[:3]), (0, ["game", "agent", "trial"]))
+        assert (len(found.curves), list(found.curves)[:3]) == (0, ["game", "agent", "trial"])

@@ -4,16 +4,16 @@ import hashlib
 import pathlib
 import re
 import tempfile
-import unittest
 import xml.etree.ElementTree
 
 import package
+import pytest
 
 package.require()
 
-import pandas as pd  # noqa: E402
-from made_results import CURVES, curve, evaluate, results_of, tables, write  # noqa: E402
-from racebeam_evaluation.output.figure import intervals  # noqa: E402
+import pandas as pd
+from made_results import CURVES, curve, evaluate, results_of, tables, write
+from racebeam_evaluation.output.figure import intervals
 
 GAMES = ("asterix", "freeway", "boxing", "pong")
 GROUPS = ("scores", "times-best", "normalised", "aggregates", "distribution", "profiles")
@@ -48,12 +48,12 @@ def read(folder):
     return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
-class Reports(unittest.TestCase):
+class TestReports:
+    @pytest.fixture(scope="class", autouse=True)
     @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.root = pathlib.Path(folder.name)
+    def set_up_class(cls, tmp_path_factory):
+        folder = tmp_path_factory.mktemp("reports")
+        cls.root = folder
         cls.results = write(cls.root / "results", results_of(made_up()), curves_of(("basic", "bass")))
         cls.digest = hashlib.sha256((cls.results / "results.csv").read_bytes()).hexdigest()
         cls.files = cls.evaluated("once")
@@ -77,7 +77,7 @@ class Reports(unittest.TestCase):
             "learning-curves",
         ]:
             for form in ("csv", "md", "tex"):
-                self.assertIn(f"tables/{name}.{form}", self.files)
+                assert f"tables/{name}.{form}" in self.files
 
     def test_every_figure_is_there_in_two_forms_and_is_one(self):
         names = [
@@ -86,52 +86,52 @@ class Reports(unittest.TestCase):
             for figure in ("normalised", "aggregates", "intervals", "distribution", "profiles", "improvement")
         ]
         for name in [*names, "efficiency", "learning-curves"]:
-            self.assertEqual(self.files[f"figures/{name}.png"][:8], b"\x89PNG\r\n\x1a\n")
-            self.assertTrue(xml.etree.ElementTree.fromstring(self.files[f"figures/{name}.svg"]).tag.endswith("svg"))
+            assert self.files[f"figures/{name}.png"][:8] == b"\x89PNG\r\n\x1a\n"
+            assert xml.etree.ElementTree.fromstring(self.files[f"figures/{name}.svg"]).tag.endswith("svg")
 
     def test_intervals_are_whole_in_their_panels(self):
         rows = {"normalisation": ["human"], "agent": ["one"], "IQM": [0.5], "IQM low": [0.3], "IQM high": [0.8]}
         [axes] = intervals(pd.DataFrame(rows), ["IQM"]).axes
-        self.assertLess(axes.get_xlim()[0], 0.3)
-        self.assertGreater(axes.get_xlim()[1], 0.8)
-        self.assertEqual(axes.get_title(), "IQM\nhuman")
+        assert axes.get_xlim()[0] < 0.3
+        assert axes.get_xlim()[1] > 0.8
+        assert axes.get_title() == "IQM\nhuman"
 
     def test_tables_name_what_they_were_made_from(self):
         for name, content in self.files.items():
             if name.startswith("tables/") and "curves" not in name and "efficiency" not in name:
-                self.assertIn(f"made from results.csv sha256:{self.digest}", content.decode(), name)
+                assert f"made from results.csv sha256:{self.digest}" in content.decode(), name
         curves = hashlib.sha256((self.results / "curves.csv").read_bytes()).hexdigest()
-        self.assertIn(f"made from curves.csv sha256:{curves}".encode(), self.files["tables/learning-curves.csv"])
+        assert f"made from curves.csv sha256:{curves}".encode() in self.files["tables/learning-curves.csv"]
 
     def test_links_of_the_document_exist(self):
         links = re.findall(r"\]\((.*?)\)", self.files["report.md"].decode())
-        self.assertGreater(len(links), 8)
+        assert len(links) > 8
         for link in links:
-            self.assertIn(link, self.files)
+            assert link in self.files
 
     def test_the_document_says_which_sets_it_has(self):
         text = self.files["report.md"].decode()
-        self.assertIn("Games: 2 of the training set, 2 of the testing set.", text)
-        self.assertIn("| inter-algorithm | training + testing | basic | 4 |", text)
+        assert "Games: 2 of the training set, 2 of the testing set." in text
+        assert "| inter-algorithm | training + testing | basic | 4 |" in text
 
     def test_the_three_forms_say_the_same(self):
         csv, markdown, latex = (self.files[f"tables/learning-scores.{form}"].decode() for form in ("csv", "md", "tex"))
-        self.assertIn("\nset,game,basic,bass,random,const,perturb\ntraining,asterix,3.5,8.5,0,13,23\n", csv)
-        self.assertIn("| training | asterix | 3.5 | 8.5 | 0.0 | 13.0 | **23.0** |", markdown)
-        self.assertIn(r"training & asterix & 3.5 & 8.5 & 0.0 & 13.0 & \textbf{23.0} \\", latex)
+        assert "\nset,game,basic,bass,random,const,perturb\ntraining,asterix,3.5,8.5,0,13,23\n" in csv
+        assert "| training | asterix | 3.5 | 8.5 | 0.0 | 13.0 | **23.0** |" in markdown
+        assert r"training & asterix & 3.5 & 8.5 & 0.0 & 13.0 & \textbf{23.0} \\" in latex
 
     def test_the_same_input_gives_the_same_bytes(self):
         again = self.evaluated("again")
-        self.assertEqual(sorted(again), sorted(self.files))
-        self.assertEqual([name for name in again if again[name] != self.files[name]], [])
+        assert sorted(again) == sorted(self.files)
+        assert [name for name in again if again[name] != self.files[name]] == []
 
     def test_the_order_of_the_rows_changes_digests_alone(self):
         folder = write(self.root / "reversed", reversed(results_of(made_up())), curves_of(("basic", "bass")))
         other = hashlib.sha256((folder / "results.csv").read_bytes()).hexdigest()
         found = tables(folder)
-        self.assertEqual(len(found), sum(name.startswith("tables/") for name in self.files))
+        assert len(found) == sum(name.startswith("tables/") for name in self.files)
         for name, text in found.items():
-            self.assertEqual(text.replace(other, self.digest), self.files[f"tables/{name}"].decode(), name)
+            assert text.replace(other, self.digest) == self.files[f"tables/{name}"].decode(), name
 
     def test_two_folders_are_evaluated_together(self):
         halves = [
@@ -141,16 +141,16 @@ class Reports(unittest.TestCase):
         scores = tables(*(write(self.root / f"half{number}", results_of(half)) for number, half in enumerate(halves)))[
             "learning-scores.csv"
         ]
-        self.assertEqual(scores.count("made from results.csv sha256:"), 2)
-        self.assertEqual(scores.split("set,")[1], self.files["tables/learning-scores.csv"].decode().split("set,")[1])
+        assert scores.count("made from results.csv sha256:") == 2
+        assert scores.split("set,")[1] == self.files["tables/learning-scores.csv"].decode().split("set,")[1]
 
     def test_baselines_alone(self):
         lines = results_of(
             {key: value for key, value in made_up().items() if key[0].split("_")[0] in ("random", "const")}
         )
         found = tables(write(self.root / "alone", lines))
-        self.assertIn("set,game,random,const\n", found["baselines-scores.csv"])
-        self.assertNotIn("baselines-tests.csv", found)
+        assert "set,game,random,const\n" in found["baselines-scores.csv"]
+        assert "baselines-tests.csv" not in found
 
     def test_experiments_without_learners(self):
         for kinds, groups, sentences in (
@@ -176,14 +176,14 @@ class Reports(unittest.TestCase):
             (folder / "curves.csv").write_text(CURVES + "\n")  # as racebeam experiment leaves it
             files = self.evaluated(name + "-report", folder)
             tables = {file.split("/")[1] for file in files if file.startswith("tables/")}
-            self.assertEqual(
-                {group for group in ("learning", "planning", "baselines") if f"{group}-scores.csv" in tables}, groups
-            )
-            self.assertNotIn("learning-curves.csv", tables)
+            assert {
+                group for group in ("learning", "planning", "baselines") if f"{group}-scores.csv" in tables
+            } == groups
+            assert "learning-curves.csv" not in tables
             report = files["report.md"].decode()
             for sentence in (*sentences, "The results lack training episodes: the learning curves are left out."):
-                self.assertIn(sentence, report)
-        self.assertNotIn("left out", self.files["report.md"].decode())
+                assert sentence in report
+        assert "left out" not in self.files["report.md"].decode()
 
     def test_roles_come_with_the_results(self):
         scores = {
@@ -195,67 +195,68 @@ class Reports(unittest.TestCase):
         }
         folder = write(self.root / "roles", results_of(scores))
         found = tables(folder)
-        self.assertIn("set,game,his,mine,scripted,random\n", found["learning-scores.csv"])
+        assert "set,game,his,mine,scripted,random\n" in found["learning-scores.csv"]
         (folder / "agents.csv").write_text("agent,role\nmine,planner\nscripted,baseline\nuct,planner\nnobody,learner\n")
         found = tables(folder)
-        self.assertIn("set,game,his,random,scripted\n", found["learning-scores.csv"])
-        self.assertIn("set,game,uct,mine,best_learner,best_baseline\n", found["planning-scores.csv"])
+        assert "set,game,his,random,scripted\n" in found["learning-scores.csv"]
+        assert "set,game,uct,mine,best_learner,best_baseline\n" in found["planning-scores.csv"]
 
     def test_one_agent_in_a_game_of_ours(self):
         found = tables(write(self.root / "small", results_of({("basic", "beamfall"): [[1], [2]]})))
-        self.assertIn("other,beamfall,1.5\n", found["learning-scores.csv"])
-        self.assertNotIn("learning-tests.csv", found)
+        assert "other,beamfall,1.5\n" in found["learning-scores.csv"]
+        assert "learning-tests.csv" not in found
 
     def test_a_game_of_the_users_is_one_of_the_plan(self):
         folder = write(self.root / "own", results_of({("basic", "mine"): [[1], [2]]}))
         (folder / "plan.toml").write_text('games = ["mine"]\n\n[images]\nmine = "00"\n')
-        self.assertIn("other,mine,1.5\n", tables(folder)["learning-scores.csv"])
+        assert "other,mine,1.5\n" in tables(folder)["learning-scores.csv"]
 
     def test_the_games_are_those_of_the_catalogue(self):
         from racebeam_evaluation.games import CATALOGUE
 
         files = (pathlib.Path(__file__).resolve().parents[2] / "games/catalogue").glob("*.toml")
-        self.assertEqual(list(CATALOGUE), sorted(file.stem for file in files))
+        assert list(CATALOGUE) == sorted(file.stem for file in files)
 
     def test_groups_that_have_no_game_in_common(self):
         found = tables(
             write(self.root / "apart", results_of({("basic", "pong"): [[1], [2]], ("ram", "boxing"): [[3], [4]]}))
         )
-        self.assertIn("\ntesting,boxing,n/a,3.5\ntesting,pong,1.5,n/a\n", found["learning-scores.csv"])
-        self.assertNotIn("learning-normalised.csv", found)
-        self.assertIn("basic,---,n/a\n", found["learning-tests.csv"])
+        assert "\ntesting,boxing,n/a,3.5\ntesting,pong,1.5,n/a\n" in found["learning-scores.csv"]
+        assert "learning-normalised.csv" not in found
+        assert "basic,---,n/a\n" in found["learning-tests.csv"]
 
     def test_machado2018(self):
         files = self.evaluated("machado", self.results, "--report", "machado2018")
         table = files["tables/machado2018.csv"].decode().splitlines()
-        self.assertTrue(table[1].startswith("game,agent,trials,10 M,"))
-        self.assertTrue(table[2].startswith("asterix,basic,2,3."), table[2])
-        self.assertTrue(table[2].endswith(",2,n/a,n/a,0,n/a,n/a,0,n/a,n/a,0"), table[2])
-        self.assertIn("figures/learning-curves.svg", files)
+        assert table[1].startswith("game,agent,trials,10 M,")
+        assert table[2].startswith("asterix,basic,2,3."), table[2]
+        assert table[2].endswith(",2,n/a,n/a,0,n/a,n/a,0,n/a,n/a,0"), table[2]
+        assert "figures/learning-curves.svg" in files
         theirs = files["tables/machado2018-published.csv"].decode().splitlines()
-        self.assertEqual(
-            theirs[1], "game,agent,10 M,10 M deviation,50 M,50 M deviation,100 M,100 M deviation,200 M,200 M deviation"
+        assert (
+            theirs[1]
+            == "game,agent,10 M,10 M deviation,50 M,50 M deviation,100 M,100 M deviation,200 M,200 M deviation"
         )
-        self.assertIn("asterix,dqn,1732.6,314.6,3122.6,96.4,3423.4,213.6,2866.8,1354.6", theirs)
-        self.assertIn("asterix,blob_prost,2146.8,364.8,3417.8,445.3,3767.8,354.9,4358,431.6", theirs)
+        assert "asterix,dqn,1732.6,314.6,3122.6,96.4,3423.4,213.6,2866.8,1354.6" in theirs
+        assert "asterix,blob_prost,2146.8,364.8,3417.8,445.3,3767.8,354.9,4358,431.6" in theirs
 
     def test_atari100k(self):
         files = self.evaluated("atari", self.results, "--report", "atari100k")
-        self.assertIn("Of the 26 games, 22 are missing: alien, amidar,", files["report.md"].decode())
-        self.assertIn(b"\nasterix,210,8503.3,3.5,8.5\n", files["tables/learning-scores.csv"])
-        self.assertIn("figures/learning-profiles.svg", files)
-        self.assertIn("figures/learning-intervals.svg", files)
+        assert "Of the 26 games, 22 are missing: alien, amidar," in files["report.md"].decode()
+        assert b"\nasterix,210,8503.3,3.5,8.5\n" in files["tables/learning-scores.csv"]
+        assert "figures/learning-profiles.svg" in files
+        assert "figures/learning-intervals.svg" in files
 
     def test_atari57(self):
         files = self.evaluated("atari57", self.results, "--report", "atari57")
-        self.assertIn("Of the 57 games, 53 are missing: alien, amidar,", files["report.md"].decode())
+        assert "Of the 57 games, 53 are missing: alien, amidar," in files["report.md"].decode()
 
 
-class Paper(unittest.TestCase):
+class TestPaper:
     def test_it_is_whole_and_says_what_cannot_be_rebuilt(self):
         with tempfile.TemporaryDirectory() as folder:
             done = evaluate("--paper", "--into", pathlib.Path(folder) / "paper")
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            assert (done.returncode, done.stderr) == (0, "")
             files = read(pathlib.Path(folder) / "paper")
         text = files["report.md"].decode()
         for sentence in (
@@ -264,13 +265,13 @@ class Paper(unittest.TestCase):
             "Games: 5 of the training set, 50 of the testing set.",
             "No baseline score (n/a) in skiing, venture: the range is unknown or empty.",
         ):
-            self.assertIn(sentence, text)
-        self.assertIn(b"\nbasic,bass,18,32,20,35,0\n", files["tables/paired.csv"])
-        self.assertIn(b"\nplanners above both or equal,49,49\n", files["tables/claims.csv"])
+            assert sentence in text
+        assert b"\nbasic,bass,18,32,20,35,0\n" in files["tables/paired.csv"]
+        assert b"\nplanners above both or equal,49,49\n" in files["tables/claims.csv"]
         for group in ("learning", "planning"):
             for table in GROUPS:
-                self.assertIn(f"tables/{group}-{table}.csv", files)
-            self.assertNotIn(f"tables/{group}-improvement.csv", files)
+                assert f"tables/{group}-{table}.csv" in files
+            assert f"tables/{group}-improvement.csv" not in files
             header = files[f"tables/{group}-aggregates.csv"].decode().splitlines()[2]
-            self.assertIn(",IQM over game means,", header)
-            self.assertNotIn(",IQM,", header)
+            assert ",IQM over game means," in header
+            assert ",IQM," not in header

@@ -1,19 +1,18 @@
 """Statistics of small samples, by hand or by rliable itself."""
 
-import unittest
-
 import package
+import pytest
 
 package.require()
 
-import numpy as np  # noqa: E402
-import pandas as pd  # noqa: E402
-from racebeam_evaluation import against_random, aggregate, bootstrap, curves, efficiency, paired  # noqa: E402
-from racebeam_evaluation.normalise import Ranges, all_ranges  # noqa: E402
-from racebeam_evaluation.reports import machado2018  # noqa: E402
-from racebeam_evaluation.results import Results  # noqa: E402
-from racebeam_evaluation.scores import Group, scores_of  # noqa: E402
-from rliable import metrics  # noqa: E402
+import numpy as np
+import pandas as pd
+from racebeam_evaluation import against_random, aggregate, bootstrap, curves, efficiency, paired
+from racebeam_evaluation.normalise import Ranges, all_ranges
+from racebeam_evaluation.reports import machado2018
+from racebeam_evaluation.results import Results
+from racebeam_evaluation.scores import Group, scores_of
+from rliable import metrics
 
 FEW = bootstrap.Bootstrap(seed=5, repetitions=200)
 
@@ -35,11 +34,11 @@ def curves_of(episodes):
     return pd.DataFrame(episodes, columns=["game", "agent", "trial", "episode", "score", "frames"])
 
 
-class Scores(unittest.TestCase):
+class TestScores:
     def test_a_score_is_the_mean_over_trials_of_their_means(self):
         scores = scores_of(results_of({("basic", "asterix"): [[1, 2, 3], [10]]}))
-        self.assertEqual(scores.means.loc["asterix", "basic"], 6)
-        self.assertEqual(scores.trial_scores("basic", "asterix").tolist(), [2, 10])
+        assert scores.means.loc["asterix", "basic"] == 6
+        assert scores.trial_scores("basic", "asterix").tolist() == [2, 10]
 
     def test_a_trial_that_diverged_is_in_no_mean_and_is_named(self):
         missing = [
@@ -47,14 +46,11 @@ class Scores(unittest.TestCase):
             ("boxing", "m", "ram", 0, 0, 7, "diverged"),
         ]
         scores = scores_of(results_of({("basic", "asterix"): [[4]], ("basic", "boxing"): [[5]]}, missing))
-        self.assertEqual(scores.means["basic"].to_list(), [4, 5])
-        self.assertNotIn("ram", scores.means)
-        self.assertEqual(
-            scores.notes,
-            (
-                "Trial 1 of basic on asterix diverged, and is in no mean.",
-                "Trial 0 of ram on boxing diverged, and is in no mean.",
-            ),
+        assert scores.means["basic"].to_list() == [4, 5]
+        assert "ram" not in scores.means
+        assert scores.notes == (
+            "Trial 1 of basic on asterix diverged, and is in no mean.",
+            "Trial 0 of ram on boxing diverged, and is in no mean.",
         )
 
     def test_const_and_perturb_are_the_best_of_their_policies(self):
@@ -67,24 +63,25 @@ class Scores(unittest.TestCase):
             ("basic", "boxing"): [[0]],
         }
         scores = scores_of(results_of(results))
-        self.assertEqual(scores.views.loc["boxing"].to_dict(), {"random": 3, "const": 9, "perturb": 5})
-        self.assertEqual(list(scores.means), ["basic"])
+        assert scores.views.loc["boxing"].to_dict() == {"random": 3, "const": 9, "perturb": 5}
+        assert list(scores.means) == ["basic"]
 
     def test_learners_and_planners_are_groups_and_baselines_alone_are_one(self):
         both = scores_of(
             results_of({(agent, "boxing"): [[1]] for agent in ("uct", "constant", "basic", "random", "const-3")})
         )
-        self.assertEqual([group.agents for group in both.groups], [("basic", "constant"), ("uct",)])
+        assert [group.agents for group in both.groups] == [("basic", "constant"), ("uct",)]
         baselines = scores_of(results_of({(agent, "boxing"): [[1]] for agent in ("random", "const_upfire")}))
-        self.assertEqual([group.agents for group in baselines.groups], [("random", "const")])
+        assert [group.agents for group in baselines.groups] == [("random", "const")]
 
     def test_games_are_in_the_papers_order(self):
         scores = scores_of(results_of({("basic", game): [[1]] for game in ("beamfall", "alien", "freeway")}))
-        self.assertEqual(list(scores.means.index), ["freeway", "alien", "beamfall"])
+        assert list(scores.means.index) == ["freeway", "alien", "beamfall"]
 
 
-class Normalisation(unittest.TestCase):
-    def setUp(self):
+class TestNormalisation:
+    @pytest.fixture(autouse=True)
+    def set_up(self):
         scores = {("random", "boxing"): [[-2]], ("random", "pong"): [[0]], ("random", "freeway"): [[5]]}
         scores |= {(f"const_{action}", game): [[action]] for action in range(18) for game in ("boxing", "freeway")}
         scores |= {
@@ -99,48 +96,48 @@ class Normalisation(unittest.TestCase):
         return self.ranges[name].normalise(self.scores.means)["basic"]
 
     def test_random(self):
-        self.assertEqual(self.of_basic("random")["boxing"], 8)  # 16 / |-2|
-        self.assertTrue(np.isnan(self.of_basic("random")["pong"]))  # 3 / 0
-        self.assertEqual(self.ranges["random"].without(["boxing", "pong"]), ["pong"])
+        assert self.of_basic("random")["boxing"] == 8  # 16 / |-2|
+        assert np.isnan(self.of_basic("random")["pong"])  # 3 / 0
+        assert self.ranges["random"].without(["boxing", "pong"]) == ["pong"]
 
     def test_baseline(self):
-        self.assertEqual(self.of_basic("baseline")["boxing"], 18 / 36)  # from random's -2 to perturb_17's 34
-        self.assertEqual(self.ranges["baseline"].without(["boxing", "pong"]), ["pong"])  # one reference is not a range
-        self.assertEqual(self.ranges["baseline"].notes, ("Baseline scores: 1 game has 1 of the 37 references.",))
+        assert self.of_basic("baseline")["boxing"] == 18 / 36  # from random's -2 to perturb_17's 34
+        assert self.ranges["baseline"].without(["boxing", "pong"]) == ["pong"]  # one reference is not a range
+        assert self.ranges["baseline"].notes == ("Baseline scores: 1 game has 1 of the 37 references.",)
 
     def test_inter_algorithm(self):
-        self.assertEqual(self.of_basic("inter-algorithm")[["freeway", "boxing"]].to_list(), [0, 1])
-        self.assertEqual(self.ranges["inter-algorithm"].without(["pong"]), ["pong"])
+        assert self.of_basic("inter-algorithm")[["freeway", "boxing"]].to_list() == [0, 1]
+        assert self.ranges["inter-algorithm"].without(["pong"]) == ["pong"]
 
     def test_human(self):
-        self.assertAlmostEqual(self.of_basic("human")["boxing"], (16 - 0.1) / (12.1 - 0.1))
+        assert self.of_basic("human")["boxing"] == pytest.approx((16 - 0.1) / (12.1 - 0.1), rel=0, abs=0.5e-7)
 
     def test_aggregates_name_what_has_no_range_and_never_mix_sets_silently(self):
         rows = aggregate.aggregate_rows(
             self.scores, self.ranges["inter-algorithm"], Group("learning", ("basic", "bass")), FEW
         )
         found = {(row.set, row.agent): (row.games, row[5]) for row in rows.itertuples()}
-        self.assertEqual(found["training", "basic"], (1, 0))
-        self.assertEqual(found["testing", "basic"], (1, 1))
-        self.assertEqual(found["training + testing", "bass"], (2, 1))
+        assert found["training", "basic"] == (1, 0)
+        assert found["testing", "basic"] == (1, 1)
+        assert found["training + testing", "bass"] == (2, 1)
 
 
-class Distribution(unittest.TestCase):
+class TestDistribution:
     def test_aggregates_are_over_game_means_only_if_no_agent_has_trials(self):
         scores = scores_of(results_of({("basic", "pong"): [[1], [2]], ("random", "pong"): [[0], [1]]}))
         for agents, over in ((("basic", "random"), ""), (("random",), " over game means")):
             names = aggregate.statistics(scores, Group("made", agents))
-            self.assertEqual(names, ["average", "median", f"IQM{over}", f"optimality gap{over}"])
+            assert names == ["average", "median", f"IQM{over}", f"optimality gap{over}"]
 
     def test_a_share_counts_the_games_with_that_score_or_more(self):
         scores = scores_of(results_of({("basic", "pong"): [[2]], ("basic", "boxing"): [[8]]}))
         ranges = Ranges("made", pd.Series({"pong": 0.0, "boxing": 0}), pd.Series({"pong": 10.0, "boxing": 10}))
         rows = aggregate.distribution_rows(scores, ranges, Group("learning", ("basic",)))
         shares = [dict(zip(each["score"], each["share of games"])) for _, each in rows.groupby("set")]
-        self.assertIn({0.2: 1, 0.8: 0.5}, shares)
+        assert {0.2: 1, 0.8: 0.5} in shares
 
 
-class Paired(unittest.TestCase):
+class TestPaired:
     def verdicts(self, first, second):
         (pair,) = paired.pairs(
             scores_of(
@@ -155,28 +152,28 @@ class Paired(unittest.TestCase):
     def test_welch_by_hand(self):
         # Means 2 and 5; variances of the means 1/3 and 4/3; t = -3 / sqrt(5/3); Welch's degrees of freedom 50/17.
         # The density of t, integrated numerically, gives 0.104479.
-        self.assertAlmostEqual(paired.welch(np.array([1.0, 2, 3]), np.array([3.0, 5, 7])), 0.104479, places=6)
+        assert paired.welch(np.array([1.0, 2, 3]), np.array([3.0, 5, 7])) == pytest.approx(0.104479, rel=0, abs=0.5e-6)
 
     def test_only_significant_differences_count(self):
-        self.assertEqual(self.verdicts([1, 2, 3], [3, 5, 7]), [])
-        self.assertEqual(self.verdicts([1, 2, 3, 2], [30, 31, 32, 33]), ["worse"])
-        self.assertEqual(self.verdicts([30, 31, 32, 33], [1, 2, 3, 2]), ["better"])
-        self.assertEqual(self.verdicts([30, 31, 32, 33], [1, 1]), ["better"])
+        assert self.verdicts([1, 2, 3], [3, 5, 7]) == []
+        assert self.verdicts([1, 2, 3, 2], [30, 31, 32, 33]) == ["worse"]
+        assert self.verdicts([30, 31, 32, 33], [1, 2, 3, 2]) == ["better"]
+        assert self.verdicts([30, 31, 32, 33], [1, 1]) == ["better"]
 
     def test_the_level_is_1_percent_and_not_5(self):
         first, second = [1, 2, 3, 4], [4, 5, 5.5, 7]
-        self.assertTrue(0.01 < paired.welch(np.array(first), np.array(second)) < 0.05)
-        self.assertEqual(self.verdicts(first, second), [])
-        self.assertEqual(paired.SIGNIFICANCE, 0.01)
+        assert 0.01 < paired.welch(np.array(first), np.array(second)) < 0.05
+        assert self.verdicts(first, second) == []
+        assert paired.SIGNIFICANCE == 0.01
 
     def test_what_cannot_be_tested_is_noted(self):
-        self.assertEqual(self.verdicts([1], [2, 3]), ["few"])
-        self.assertEqual(self.verdicts([1, 1], [2, 2, 2]), ["constant"])
+        assert self.verdicts([1], [2, 3]) == ["few"]
+        assert self.verdicts([1, 1], [2, 2, 2]) == ["constant"]
 
     def test_pairs_use_the_games_that_both_have(self):
         scores = {("basic", "pong"): [[1], [2]], ("bass", "pong"): [[1], [3]], ("bass", "boxing"): [[9], [8]]}
         (pair,) = paired.pairs(scores_of(results_of(scores)), Group("learning", ("basic", "bass")))
-        self.assertEqual((pair.games, pair.lacking), (["pong"], ["boxing"]))
+        assert (pair.games, pair.lacking) == (["pong"], ["boxing"])
 
     def test_the_table_says_where_nothing_was_tested(self):
         scores = scores_of(
@@ -184,57 +181,56 @@ class Paired(unittest.TestCase):
         )
         agents = ("basic", "bass", "ram")
         found = paired.pairs(scores, Group("learning", agents))
-        self.assertEqual(
-            paired.counts(found, agents, "better", "worse", "tested")["bass"].to_list(), ["n/a", "---", "n/a"]
-        )
-        self.assertEqual(
-            paired.counts(found, agents, "higher", "lower", "games")["bass"].to_list(), ["0--1", "---", "n/a"]
-        )
+        assert paired.counts(found, agents, "better", "worse", "tested")["bass"].to_list() == ["n/a", "---", "n/a"]
+        assert paired.counts(found, agents, "higher", "lower", "games")["bass"].to_list() == ["0--1", "---", "n/a"]
 
     def test_a_game_in_which_two_groups_tie_is_only_equal(self):
         first = pd.DataFrame({"a": [1.0, 2, 3], "b": [5.0, 0, 0]}, index=["x", "y", "z"])
         second = pd.DataFrame({"c": [4.0, 2, 9], "d": [0.0, 1, 0]}, index=["x", "y", "z"])
-        self.assertEqual(paired.group_against(first, second), (["x"], ["y"], ["z"]))
+        assert paired.group_against(first, second) == (["x"], ["y"], ["z"])
 
     def test_the_first_of_a_tie_is_best(self):
         best, ties = paired.times_best(pd.DataFrame({"a": [1.0, 5], "b": [1.0, 6], "c": [0.0, 6]}, index=["x", "y"]))
-        self.assertEqual(best.to_dict(), {"a": 1, "b": 1, "c": 0})
-        self.assertEqual(ties, {"x": ["a", "b"], "y": ["b", "c"]})
+        assert best.to_dict() == {"a": 1, "b": 1, "c": 0}
+        assert ties == {"x": ["a", "b"], "y": ["b", "c"]}
 
 
-class Bootstrap(unittest.TestCase):
-    def setUp(self):
+class TestBootstrap:
+    @pytest.fixture(autouse=True)
+    def set_up(self):
         generator = np.random.default_rng(3)
         self.first, self.second = generator.normal(1, 1, (6, 5)), generator.normal(0.5, 1, (4, 5))
         self.first[0] = self.second[0] = 2  # ties
 
     def test_improvement_is_that_of_rliable(self):
         for pair in ((self.first, self.second), (self.second, self.first), (self.first, self.first)):
-            self.assertAlmostEqual(float(bootstrap.improvement(*pair)[0]), metrics.probability_of_improvement(*pair))
+            assert float(bootstrap.improvement(*pair)[0]) == pytest.approx(
+                metrics.probability_of_improvement(*pair), rel=0, abs=0.5e-7
+            )
 
     def test_a_profile_is_the_share_above_each_threshold(self):
         shares = bootstrap.profile(np.array([0.0, 1, 2]))(np.array([[0.0, 1], [2, 3]]))
-        self.assertEqual(shares.tolist(), [0.75, 0.5, 0.25])
+        assert shares.tolist() == [0.75, 0.5, 0.25]
 
     def test_the_interquartile_mean_and_the_optimality_gap(self):
         scores = np.array([[0.0, 0.4], [0.6, 100]])
         # Means of games 0.3 and 50.2; the middle half 0.4 and 0.6; 1 - (0 + 0.4 + 0.6 + 1) / 4.
-        self.assertEqual(bootstrap.aggregates(scores).round(9).tolist(), [25.25, 25.25, 0.5, 0.5])
+        assert bootstrap.aggregates(scores).round(9).tolist() == [25.25, 25.25, 0.5, 0.5]
 
     def test_each_aggregate_has_its_own_number(self):
         # Two games of four trials. The middle half of 0 0 1 1 2 3 8 9 is 1 1 2 3: 1.75. The gap is 1 - 6 / 8.
         scores = np.array([[0.0, 1], [0, 1], [2, 8], [3, 9]])
         average, median, iqm, gap = bootstrap.aggregates(scores)
-        self.assertEqual((average, median, iqm, gap), (3, 3, 1.75, 0.25))
-        self.assertEqual(bootstrap.AGGREGATES, ("average", "median", "IQM", "optimality gap"))
+        assert (average, median, iqm, gap) == (3, 3, 1.75, 0.25)
+        assert bootstrap.AGGREGATES == ("average", "median", "IQM", "optimality gap")
 
     def test_the_mean_of_three_trials_is_not_their_median(self):
         scores = scores_of(results_of({("basic", "pong"): [[0], [1], [8]]}))
-        self.assertEqual(scores.means.loc["pong", "basic"], 3)
-        self.assertEqual(bootstrap.aggregates(np.array([[0.0], [1], [8]])).round(9).tolist()[:2], [3, 3])
+        assert scores.means.loc["pong", "basic"] == 3
+        assert bootstrap.aggregates(np.array([[0.0], [1], [8]])).round(9).tolist()[:2] == [3, 3]
 
     def test_the_median_is_that_of_games_and_not_of_trials(self):
-        self.assertEqual(bootstrap.aggregates(np.array([[0.0, 1, 5], [2, 1, 90]]))[1], 1)
+        assert bootstrap.aggregates(np.array([[0.0, 1, 5], [2, 1, 90]]))[1] == 1
 
     def test_the_seed_decides_and_the_global_generator_is_put_back(self):
         np.random.seed(1)
@@ -242,39 +238,39 @@ class Bootstrap(unittest.TestCase):
         one, same, other = (
             bootstrap.Bootstrap(seed, 50).estimate(bootstrap.aggregates, self.first) for seed in (1, 1, 2)
         )
-        self.assertEqual((one.low.tolist(), one.high.tolist()), (same.low.tolist(), same.high.tolist()))
-        self.assertNotEqual(one.low.tolist(), other.low.tolist())
-        self.assertEqual(np.random.get_state()[1].tolist(), before)
+        assert (one.low.tolist(), one.high.tolist()) == (same.low.tolist(), same.high.tolist())
+        assert one.low.tolist() != other.low.tolist()
+        assert np.random.get_state()[1].tolist() == before
 
     def test_an_interval_contains_its_value_and_needs_two_trials(self):
         estimate = FEW.estimate(bootstrap.aggregates, self.first)
-        self.assertTrue((estimate.low < estimate.value).all() and (estimate.value < estimate.high).all())
+        assert (estimate.low < estimate.value).all() and (estimate.value < estimate.high).all()
         single = FEW.estimate(bootstrap.aggregates, self.first[:1])
-        self.assertTrue(np.isnan(single.low).all() and np.isnan(single.high).all() and not np.isnan(single.value).any())
+        assert np.isnan(single.low).all() and np.isnan(single.high).all() and not np.isnan(single.value).any()
 
     def test_an_interval_of_two_agents_needs_two_trials_of_each(self):
         for pair in ((self.first, self.second[:1]), (self.first[:1], self.second)):
             estimate = FEW.estimate(bootstrap.improvement, *pair)
-            self.assertEqual(estimate.value.tolist(), bootstrap.improvement(*pair).tolist())
-            self.assertTrue(np.isnan(estimate.low).all() and np.isnan(estimate.high).all())
+            assert estimate.value.tolist() == bootstrap.improvement(*pair).tolist()
+            assert np.isnan(estimate.low).all() and np.isnan(estimate.high).all()
 
     def test_low_and_high_are_the_bounds_of_the_interval(self):
         # One game, whose trials are 0 or 1 alike: the mean of n draws is binomial. 95 % of 16 draws are 4 to 12.
         estimate = bootstrap.Bootstrap(seed=1, repetitions=4000).estimate(
             bootstrap.aggregates, np.array([[0.0], [1]] * 8)
         )
-        self.assertEqual((estimate.low[0], estimate.value[0], estimate.high[0]), (4 / 16, 8 / 16, 12 / 16))
+        assert (estimate.low[0], estimate.value[0], estimate.high[0]) == (4 / 16, 8 / 16, 12 / 16)
         scores = scores_of(results_of({("basic", "pong"): [[trial % 2] for trial in range(16)]}))
         ranges = Ranges("made", pd.Series({"pong": 0.0}), pd.Series({"pong": 1.0}))
         rows = aggregate.aggregate_rows(scores, ranges, Group("learning", ("basic",)), bootstrap.Bootstrap(1, 4000))
-        self.assertEqual(rows.loc[0, ["average low", "average", "average high"]].to_list(), [4 / 16, 8 / 16, 12 / 16])
-        self.assertEqual(rows.loc[0, ["median low", "median high"]].to_list(), [4 / 16, 12 / 16])
-        self.assertEqual(rows.loc[0, ["optimality gap low", "optimality gap high"]].to_list(), [4 / 16, 12 / 16])
+        assert rows.loc[0, ["average low", "average", "average high"]].to_list() == [4 / 16, 8 / 16, 12 / 16]
+        assert rows.loc[0, ["median low", "median high"]].to_list() == [4 / 16, 12 / 16]
+        assert rows.loc[0, ["optimality gap low", "optimality gap high"]].to_list() == [4 / 16, 12 / 16]
 
     def test_the_bootstrap_is_stratified_by_game(self):
         constant_in_each_game = np.array([[1.0, 2, 4]] * 5)
         estimate = FEW.estimate(bootstrap.aggregates, constant_in_each_game)
-        self.assertEqual(estimate.low.tolist(), estimate.value.tolist())
+        assert estimate.low.tolist() == estimate.value.tolist()
 
     def test_uneven_trials_are_all_used(self):
         scores = scores_of(results_of({("basic", "pong"): [[1], [2], [3]], ("basic", "boxing"): [[4], [5]]}))
@@ -302,41 +298,41 @@ class Bootstrap(unittest.TestCase):
     def test_uneven_trials_have_intervals_which_the_seed_decides(self):
         uneven = bootstrap.padded([self.first[:, 0], self.second[:, 1], self.first[:2, 2]])
         one, same, other = (bootstrap.Bootstrap(seed, 200).estimate(bootstrap.aggregates, uneven) for seed in (1, 1, 2))
-        self.assertTrue((one.low < one.value).all() and (one.value < one.high).all())
-        self.assertEqual((one.low.tolist(), one.high.tolist()), (same.low.tolist(), same.high.tolist()))
-        self.assertNotEqual(one.low.tolist(), other.low.tolist())
+        assert (one.low < one.value).all() and (one.value < one.high).all()
+        assert (one.low.tolist(), one.high.tolist()) == (same.low.tolist(), same.high.tolist())
+        assert one.low.tolist() != other.low.tolist()
         constant = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(5), np.full(3, 2.0)]))
-        self.assertEqual(constant.low.tolist(), constant.high.tolist())
+        assert constant.low.tolist() == constant.high.tolist()
         single = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(1), np.array([1.0, 2, 3])]))
-        self.assertAlmostEqual(
-            single.value[2], (5 / 6 * 1 + 1 / 6 * 2)
+        assert single.value[2] == pytest.approx(
+            5 / 6 * 1 + 1 / 6 * 2, rel=0, abs=0.5e-7
         )  # of the weights 4/3, 1/3 and 1/3, the middle half
-        self.assertTrue(np.isnan(single.low).all())
+        assert np.isnan(single.low).all()
 
 
-class AgainstRandom(unittest.TestCase):
+class TestAgainstRandom:
     def row(self, agent, scores):
         found = scores_of(results_of(scores | {("random", "pong"): [[0, 1, 2, 3]], ("random", "boxing"): [[5, 5, 5]]}))
         return against_random.rows(found, (agent,), FEW).iloc[0]
 
     def test_a_higher_mean_is_not_a_difference(self):
         row = self.row("basic", {("basic", "pong"): [[1], [3]], ("basic", "boxing"): [[90], [91], [92]]})
-        self.assertEqual((row["games"], row["above"]), (2, 2))
-        self.assertEqual((row["significantly above"], row["significantly below"], row["not tested"]), (1, 0, 0))
-        self.assertEqual((row["low"], row["high"]), (1, 2))
+        assert (row["games"], row["above"]) == (2, 2)
+        assert (row["significantly above"], row["significantly below"], row["not tested"]) == (1, 0, 0)
+        assert (row["low"], row["high"]) == (1, 2)
 
     def test_a_single_trial_of_a_learner_is_not_tested_but_episodes_of_a_planner_are(self):
         row = self.row("basic", {("basic", "pong"): [[50, 60, 70]]})
-        self.assertEqual((row["significantly above"], row["not tested"]), (0, 1))
+        assert (row["significantly above"], row["not tested"]) == (0, 1)
         row = self.row("uct", {("uct", "pong"): [[50, 60, 70]]})
-        self.assertEqual((row["significantly above"], row["not tested"]), (1, 0))
+        assert (row["significantly above"], row["not tested"]) == (1, 0)
 
     def test_worse_than_random(self):
         row = self.row("uct", {("uct", "boxing"): [[1], [2], [1]]})
-        self.assertEqual((row["above"], row["significantly below"], row["low"], row["high"]), (0, 1, 0, 0))
+        assert (row["above"], row["significantly below"], row["low"], row["high"]) == (0, 1, 0, 0)
 
 
-class Efficiency(unittest.TestCase):
+class TestEfficiency:
     RANGES = Ranges("made", pd.Series({"pong": 0.0, "boxing": 0}), pd.Series({"pong": 10.0, "boxing": 10}))
 
     def rows(self, frames, count):
@@ -353,30 +349,28 @@ class Efficiency(unittest.TestCase):
     def test_short_training_has_ten_points(self):
         rows = self.rows(1000, 10)
         frames = rows[rows["axis"] == "frames"]
-        self.assertEqual(frames["trained for"].to_list(), [1000 * part for part in range(1, 11)])
+        assert frames["trained for"].to_list() == [1000 * part for part in range(1, 11)]
         # The trials have the means of 0 to 9 and of 1 to 10: 4.5 and 5.5; of the four, the middle two, by 10.
-        self.assertAlmostEqual(frames["IQM"].iloc[-1], 0.5)
-        self.assertAlmostEqual(frames["IQM"].iloc[0], 0.05)
-        self.assertEqual(rows[rows["axis"] == "decisions"]["trained for"].to_list()[-1], 2000)
+        assert frames["IQM"].iloc[-1] == pytest.approx(0.5, rel=0, abs=0.5e-7)
+        assert frames["IQM"].iloc[0] == pytest.approx(0.05, rel=0, abs=0.5e-7)
+        assert rows[rows["axis"] == "decisions"]["trained for"].to_list()[-1] == 2000
 
     def test_long_training_has_the_points_of_the_literature(self):
         rows = self.rows(1_000_000, 120)
         frames = rows[rows["axis"] == "frames"]
-        self.assertEqual(frames["trained for"].to_list(), [10_000_000, 50_000_000, 100_000_000])
-        self.assertAlmostEqual(frames["IQM"].iloc[2], (49.5 + 0.5) / 10)
+        assert frames["trained for"].to_list() == [10_000_000, 50_000_000, 100_000_000]
+        assert frames["IQM"].iloc[2] == pytest.approx((49.5 + 0.5) / 10, rel=0, abs=0.5e-7)
 
     def test_games_that_not_all_were_trained_in_do_not_count(self):
         trained = curves_of(
             [("pong", "basic", 0, 0, 5, 100), ("pong", "bass", 0, 0, 7, 100), ("boxing", "bass", 0, 0, 9, 100)]
         )
         rows = efficiency.rows(trained, self.RANGES, FEW)
-        self.assertEqual(set(rows["games"]), {1})
-        self.assertEqual(
-            rows[rows["trained for"] == 100].set_index("agent")["IQM"].to_dict(), {"basic": 0.5, "bass": 0.7}
-        )
+        assert set(rows["games"]) == {1}
+        assert rows[rows["trained for"] == 100].set_index("agent")["IQM"].to_dict() == {"basic": 0.5, "bass": 0.7}
 
 
-class Curves(unittest.TestCase):
+class TestCurves:
     def test_a_curve_is_the_mean_of_trials_in_stretches_of_frames(self):
         episodes = [
             ("pong", "basic", trial, episode, score, 50)
@@ -384,9 +378,9 @@ class Curves(unittest.TestCase):
             for episode, score in enumerate(scores)
         ]
         rows = curves.learning_curves(curves_of(episodes))
-        self.assertEqual(rows["frames"].to_list(), [50, 100])
-        self.assertEqual(rows["score"].to_list(), [3, 5])
-        self.assertEqual(rows["standard error"].to_list(), [2, 2])
+        assert rows["frames"].to_list() == [50, 100]
+        assert rows["score"].to_list() == [3, 5]
+        assert rows["standard error"].to_list() == [2, 2]
 
     def test_checkpoints_take_the_last_100_episodes_that_ended_before(self):
         # Episodes of 10,000 frames: the 1,000th ends at 10 million frames. The score is the number of the episode.
@@ -394,12 +388,12 @@ class Curves(unittest.TestCase):
             ("pong", "basic", trial, number, number + trial, 10_000) for trial in (0, 2) for number in range(1, 1101)
         ]
         row = machado2018.checkpoints(curves_of(episodes)).iloc[0]
-        self.assertEqual(row["10 M"], (901 + 1000) / 2 + 1)
-        self.assertAlmostEqual(row["10 M deviation"], np.sqrt(2))
-        self.assertEqual((row["10 M trials"], row["50 M trials"]), (2, 0))
-        self.assertTrue(np.isnan(row["50 M"]))
+        assert row["10 M"] == (901 + 1000) / 2 + 1
+        assert row["10 M deviation"] == pytest.approx(np.sqrt(2), rel=0, abs=0.5e-7)
+        assert (row["10 M trials"], row["50 M trials"]) == (2, 0)
+        assert np.isnan(row["50 M"])
 
     def test_a_checkpoint_is_reached_if_the_last_whole_episode_ends_just_before(self):
         for frames, count in ((9_990, 1), (9_980, 0)):  # of 1,000 episodes: 10,000 and 20,000 short of 10 million
             episodes = [("pong", "basic", 0, number, 1, frames) for number in range(1000)]
-            self.assertEqual(machado2018.checkpoints(curves_of(episodes)).iloc[0]["10 M trials"], count)
+            assert machado2018.checkpoints(curves_of(episodes)).iloc[0]["10 M trials"] == count

@@ -2,14 +2,13 @@
 
 import subprocess
 import sys
-import unittest
 
 import package
 
 package.require("mypy")
 
 
-class Types(unittest.TestCase):
+class TestTypes:
     def test_mypy_reports_no_error(self):
         done = subprocess.run(
             [
@@ -26,4 +25,4 @@ class Types(unittest.TestCase):
             capture_output=True,
             text=True,
         )
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        assert done.returncode == 0, done.stdout + done.stderr
