@@ -1,37 +1,29 @@
-"""The tests of the client in Lua pass: test_busted.py LUA, where LUA is a program such as lua5.4 or luajit."""
+"""The tests of the client in Lua pass, with each program of Lua."""
 
 import os
 import pathlib
 import shutil
 import subprocess
-import sys
+
+import pytest
+from harness import BINARY, PATIENCE
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(SOURCE / "tests/server"))
-
-from harness import BINARY, PATIENCE, SKIPPED  # noqa: E402
 
 
-def main():
-    lua, busted = shutil.which(sys.argv[1]), shutil.which("busted")
-    if (
-        lua is None
-        or busted is None
-        or subprocess.run([lua, "-e", "require 'socket'"], capture_output=True).returncode != 0
-    ):
-        print(f"SKIPPED: {sys.argv[1]}, busted or LuaSocket is not installed")
-        return SKIPPED
+@pytest.mark.needs_programs("busted")
+@pytest.mark.parametrize("lua", ("lua5.1", "lua5.4", "luajit"))
+def test_busted_passes(lua):
+    program = shutil.which(lua)
+    if not program or subprocess.run([program, "-e", "require 'socket'"], capture_output=True).returncode != 0:
+        pytest.skip(f"{lua} or its LuaSocket is not installed")
     done = subprocess.run(
-        [busted, f"--lua={lua}", "--output=TAP"],
+        ["busted", f"--lua={program}", "--output=TAP"],
         cwd=SOURCE / "clients/lua",
         timeout=PATIENCE * 5,
         env=dict(os.environ, RACEBEAM_PROGRAM=BINARY),
         stdout=subprocess.PIPE,
         text=True,
     )
-    print(done.stdout)
-    return 0 if done.returncode == 0 and done.stdout.count("\nok ") + done.stdout.startswith("ok ") > 20 else 1
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    assert done.returncode == 0, done.stdout
+    assert done.stdout.count("\nok ") + done.stdout.startswith("ok ") > 20, done.stdout

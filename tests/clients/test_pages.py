@@ -1,4 +1,4 @@
-"""The page of a client: each program on it prints what the page says. The examples play. Usage: test_pages.py CLIENT.
+"""The page of a client: each program on it prints what the page says. The examples play.
 
 A program is a block fenced with the language's name. A block fenced as `text` after it is what it prints; `...` stands
 for any text within a line.
@@ -10,12 +10,13 @@ import re
 import subprocess
 import sys
 import tempfile
-import unittest
+
+import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(SOURCE / "tests/server"), str(SOURCE / "clients/conformance")]
+sys.path[:0] = [str(SOURCE / "clients/conformance")]
 
-from harness import BINARY, PATIENCE, SKIPPED, Server  # noqa: E402
+from harness import BINARY, PATIENCE, Server  # noqa: E402
 
 from clients import CLIENTS  # noqa: E402
 
@@ -89,12 +90,30 @@ def programs(text, language):
     ]
 
 
-class Page(unittest.TestCase):
+WITH_PAGES = ("java", "lua5.4", "luajit", "c++", "javascript", "bash")
+
+
+@pytest.fixture(scope="module", params=WITH_PAGES)
+def client(request):
+    client = next(client for client in CLIENTS if client.name == request.param)
+    if missing := client.missing():
+        pytest.skip(f"not installed: {missing}")
+    if client.build:
+        subprocess.run(client.build, check=True)
+    return client
+
+
+class TestPage:
+    @pytest.fixture(autouse=True)
+    def keep_client(self, client):
+        self.client = client
+
     client = CLIENTS[0]
 
-    def setUp(self):
+    @pytest.fixture(autouse=True)
+    def set_up(self, cleanup):
         self.server = Server("serve", "--listen", "tcp://127.0.0.1:0")
-        self.addCleanup(self.server.__exit__)
+        cleanup(self.server.__exit__)
         self.environment = dict(
             os.environ,
             **dict(self.client.variables),
@@ -125,14 +144,14 @@ class Page(unittest.TestCase):
             text=True,
             timeout=PATIENCE * 5,
         )
-        self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertRegex(done.stdout, f"\\A{pattern}\\Z")
+        assert done.returncode == 0, done.stdout
+        assert re.search(f"\\A{pattern}\\Z", done.stdout)
 
-    def test_its_programs_print_what_it_says(self):
+    def test_its_programs_print_what_it_says(self, subtests):
         found = programs((SOURCE / self.client.page).read_text(), self.client.language)
-        self.assertTrue(found)
+        assert found
         for number, (body, expected) in enumerate(found):
-            with self.subTest(program=number), tempfile.TemporaryDirectory() as folder:
+            with subtests.test(program=number), tempfile.TemporaryDirectory() as folder:
                 self.check(
                     self.write(folder, body),
                     (),
@@ -151,23 +170,13 @@ class Page(unittest.TestCase):
                 text=True,
                 timeout=PATIENCE * 5,
             )
-            self.assertEqual((done.returncode, done.stderr), (0, "7\n"))
+            assert (done.returncode, done.stderr) == (0, "7\n")
             server.process.stdin.close()
             server.process.stdin = None
-            self.assertEqual(server.wait(), 0)
+            assert server.wait() == 0
 
-    def test_its_examples_play(self):
+    def test_its_examples_play(self, subtests):
         for path, words, pattern in EXAMPLES[self.client.language]:
-            with self.subTest(path=path):
+            with subtests.test(path=path):
                 self.compile(SOURCE / path)
                 self.check(SOURCE / path, words, pattern)
-
-
-if __name__ == "__main__":
-    Page.client = next(client for client in CLIENTS if client.name == sys.argv[1])
-    if missing := Page.client.missing():
-        print(f"SKIPPED: {missing} is not installed")
-        sys.exit(SKIPPED)
-    if Page.client.build:
-        subprocess.run(Page.client.build, check=True)
-    unittest.main(argv=sys.argv[:1], verbosity=2)

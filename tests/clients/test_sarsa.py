@@ -7,7 +7,6 @@ import subprocess
 import sys
 import tempfile
 import types
-import unittest
 import zlib
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -19,7 +18,7 @@ pytest.importorskip("numpy")
 
 import numpy as np  # noqa: E402
 import sarsa  # noqa: E402
-from harness import BINARY, PATIENCE, Server, main  # noqa: E402
+from harness import BINARY, PATIENCE, Server  # noqa: E402
 
 PLAN = """
 name = "same"
@@ -52,12 +51,10 @@ def has_experiments():
     return b"Usage: racebeam experiment" in subprocess.run([BINARY, "experiment", "--help"], capture_output=True).stdout
 
 
-class Parts(unittest.TestCase):
+class TestParts:
     def test_the_generator_gives_published_numbers(self):
         generator = sarsa.Random(0)
-        self.assertEqual(
-            [generator.next() for _ in range(3)], [0xE220A8397B1DCDAF, 0x6E789E6AA1B965F4, 0x06C45D188009454F]
-        )
+        assert [generator.next() for _ in range(3)] == [0xE220A8397B1DCDAF, 0x6E789E6AA1B965F4, 0x06C45D188009454F]
 
     def test_features_of_a_screen(self):
         background = np.zeros(PIXELS, np.uint8)
@@ -70,61 +67,61 @@ class Parts(unittest.TestCase):
         screen[14 * 160 + 10] = 2  # the next tile
         screen[15 * 160] = 4  # the next row of tiles
         screen[PIXELS - 1] = 6  # the last tile
-        self.assertEqual(basic.SIZE, 28672)
-        self.assertEqual(basic.active(screen.tobytes()).tolist(), [5, 127, 128 + 1, 16 * 128 + 2, 223 * 128 + 3])
-        self.assertEqual(basic.active(bytes(PIXELS)).tolist(), [0])  # black, where the background is not
+        assert basic.SIZE == 28672
+        assert basic.active(screen.tobytes()).tolist() == [5, 127, 128 + 1, 16 * 128 + 2, 223 * 128 + 3]
+        assert basic.active(bytes(PIXELS)).tolist() == [0]  # black, where the background is not
 
     def test_screens_of_another_height(self):
         basic = sarsa.Basic(np.full(PIXELS, 3, np.uint8))
-        self.assertEqual(len(basic.active(bytes([6]) * (160 * 195))), 16)  # black below
-        self.assertEqual(len(basic.active(bytes([6]) * (160 * 250))), 0)
+        assert len(basic.active(bytes([6]) * (160 * 195))) == 16  # black below
+        assert len(basic.active(bytes([6]) * (160 * 250))) == 0
 
     def test_weights_of_an_episode_by_hand(self):
         agent = sarsa.Sarsa(3, 1)
         agent.random = types.SimpleNamespace(uniform=lambda: 1.0, below=lambda count: 0)  # greedy; the first of equals
         states = [np.array([state]) for state in range(3)]
-        self.assertEqual([agent.begin(states[0]), agent.next(0, states[1]), agent.next(-2, states[2])], [0, 0, 0])
+        assert [agent.begin(states[0]), agent.next(0, states[1]), agent.next(-2, states[2])] == [0, 0, 0]
         agent.end(4)
         # The scaled rewards are 0, -1 and 2. The errors are 0, -1 and 2, the steps half of them.
         decay = 0.999 * 0.9
         expected = [-0.5 * decay + decay**2, -0.5 + decay, 1]
         np.testing.assert_allclose(agent.weights[:, 0], expected, rtol=1e-6)
-        self.assertEqual(np.count_nonzero(agent.weights), 3)
+        assert np.count_nonzero(agent.weights) == 3
 
     def test_the_step_is_divided_by_the_most_active_features(self):
         agent = sarsa.Sarsa(4, 1)
         agent.random = types.SimpleNamespace(uniform=lambda: 1.0, below=lambda count: 3)
         agent.begin(np.array([0, 1, 2, 3]))
         agent.end(7)
-        self.assertEqual(agent.weights[:, 3].tolist(), [0.125] * 4)
+        assert agent.weights[:, 3].tolist() == [0.125] * 4
         agent.begin(np.array([1]))
         agent.end(7)  # error 1 - 0.125, step 0.5 / 4
-        self.assertEqual(agent.weights[:, 3].tolist(), [0.125, 0.125 + 0.125 * 0.875, 0.125, 0.125])
+        assert agent.weights[:, 3].tolist() == [0.125, 0.125 + 0.125 * 0.875, 0.125, 0.125]
 
     def test_evaluation_does_not_learn(self):
         agent = sarsa.Sarsa(1, 1)
         agent.learning = False
         agent.begin(np.array([0]))
         agent.end(5)
-        self.assertFalse(agent.weights.any())
+        assert not agent.weights.any()
 
 
-class Play(unittest.TestCase):
+class TestPlay:
     def test_every_transport_and_repetition_plays_the_same(self):
         options = ("beamfall", "--training", 2, "--evaluation", 1, "--frames", 500, "--actions")
         with Server("serve", "--listen", "tcp://127.0.0.1:0") as server:
             over_tcp = learn(f"tcp://127.0.0.1:{server.port()}", *options)
-        self.assertEqual(learn(BINARY, *options), over_tcp)
-        self.assertRegex(over_tcp[2], r"^evaluation episode 3: score \d+ in 100 decisions( \d+){100}$")
-        self.assertNotEqual(learn(BINARY, *options, "--agent-seed", 2), over_tcp)
+        assert learn(BINARY, *options) == over_tcp
+        assert re.search(r"^evaluation episode 3: score \d+ in 100 decisions( \d+){100}$", over_tcp[2])
+        assert learn(BINARY, *options, "--agent-seed", 2) != over_tcp
 
     def test_it_says_how_it_is_used(self):
         done = subprocess.run(
             [sys.executable, "-B", SOURCE / "clients/python/sarsa.py"], capture_output=True, text=True
         )
-        self.assertEqual((done.returncode, done.stderr[:15]), (2, "usage: sarsa.py"))
+        assert (done.returncode, done.stderr[:15]) == (2, "usage: sarsa.py")
 
-    @unittest.skipUnless(has_experiments(), "this racebeam has no experiments")
+    @pytest.mark.skipif(not has_experiments(), reason="this racebeam has no experiments")
     def test_it_chooses_what_the_agent_basic_chooses(self):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
@@ -158,20 +155,15 @@ class Play(unittest.TestCase):
                 re.fullmatch(r"\w+ episode \d+: score (-?\d+) in (\d+) decisions ([\d ]+)", line).groups()
                 for line in lines
             ]
-            self.assertEqual(
-                [(score, count) for score, count, _ in replay],
-                [(row["score"], row["decisions"]) for row in trained + evaluated],
-            )
+            assert [(score, count) for score, count, _ in replay] == [
+                (row["score"], row["decisions"]) for row in trained + evaluated
+            ]
             for row, (_, count, actions) in zip(evaluated, replay[20:]):
                 log = zlib.decompress((root / f"results/logs/{row['unit']}/{row['episode']}.episode").read_bytes()[24:])
-                self.assertEqual(list(log[-int(count) :]), [int(action) for action in actions.split()])
-            self.assertGreater(len({score for score, _, _ in replay}), 5)
+                assert list(log[-int(count) :]) == [int(action) for action in actions.split()]
+            assert len({score for score, _, _ in replay}) > 5
 
 
 def rows(path):
     with open(path, newline="") as file:
         return list(csv.DictReader(file))
-
-
-if __name__ == "__main__":
-    main()

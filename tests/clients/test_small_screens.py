@@ -16,14 +16,13 @@ pytest.importorskip("numpy")
 pytest.importorskip("ale_py")
 pytest.importorskip("gymnasium")
 
-import unittest  # noqa: E402
 
 import client as racebeam  # noqa: E402
 import cv2  # noqa: E402
 import numpy as np  # noqa: E402
 from ale_py import roms  # noqa: E402
 from ale_py.vector_env import AtariVectorEnv  # noqa: E402
-from harness import BINARY, main  # noqa: E402
+from harness import BINARY  # noqa: E402
 
 ROMS = str(roms.get_rom_path("pong").parent)
 STEPS = 300
@@ -33,19 +32,19 @@ def plane(data, *shape):
     return np.frombuffer(data, np.uint8).reshape(shape)
 
 
-class OpenCv(unittest.TestCase):
-    def test_small_screens_are_those_of_INTER_AREA(self):
-        for game, height in (("beamfall", 210), ("pong", 210), ("air_raid", 250), ("gravitar", 210)):
-            with self.subTest(game=game), racebeam.Session.start(BINARY, "--roms", ROMS) as session:
-                self.assertEqual(session.load(game, seed=5)["height"], height)
-                session.observe("grey", "grey84")
-                for step in range(STEPS):
-                    result = session.act(step // 7 % 18)
-                    expected = cv2.resize(plane(result["grey"], height, 160), (84, 84), interpolation=cv2.INTER_AREA)
-                    self.assertEqual(result["grey84"], expected.tobytes(), f"step {step}")
+class TestOpenCv:
+    @pytest.mark.parametrize("game, height", (("beamfall", 210), ("pong", 210), ("air_raid", 250), ("gravitar", 210)))
+    def test_small_screens_are_those_of_INTER_AREA(self, game, height):
+        with racebeam.Session.start(BINARY, "--roms", ROMS) as session:
+            assert session.load(game, seed=5)["height"] == height
+            session.observe("grey", "grey84")
+            for step in range(STEPS):
+                result = session.act(step // 7 % 18)
+                expected = cv2.resize(plane(result["grey"], height, 160), (84, 84), interpolation=cv2.INTER_AREA)
+                assert result["grey84"] == expected.tobytes(), f"step {step}"
 
 
-class VectorEnvironment(unittest.TestCase):
+class TestVectorEnvironment:
     """Until the end of an episode: at that point the reference shows a picture that mixes frames of two
     acts."""
 
@@ -66,32 +65,26 @@ class VectorEnvironment(unittest.TestCase):
             actions = list(session.actions())
             rewards = 0
             for step in range(STEPS):
-                self.assertEqual(plane(ours["grey84x4"], 4, 84, 84).tobytes(), shown[0].tobytes(), f"step {step}")
-                self.assertEqual(
-                    (ours["lives"], ours["episode_frame"]),
-                    (info["lives"][0], info["episode_frame_number"][0]),
-                    f"step {step}",
+                assert plane(ours["grey84x4"], 4, 84, 84).tobytes() == shown[0].tobytes(), f"step {step}"
+                assert (ours["lives"], ours["episode_frame"]) == (info["lives"][0], info["episode_frame_number"][0]), (
+                    f"step {step}"
                 )
                 choice = (step * 7 + step // 11) % len(actions)
                 shown, reward, terminated, truncated, info = reference.step(np.array([choice]))
                 ours = session.act(actions[choice])
-                self.assertEqual(ours["reward"], reward[0])
-                self.assertEqual((ours["terminated"], ours["truncated"]), (terminated[0], truncated[0]))
+                assert ours["reward"] == reward[0]
+                assert (ours["terminated"], ours["truncated"]) == (terminated[0], truncated[0])
                 rewards += abs(ours["reward"])
                 if terminated[0] or truncated[0]:
                     break
             return rewards
 
-    def test_stacks_pooling_noops_and_stickiness_are_the_same(self):
+    def test_stacks_pooling_noops_and_stickiness_are_the_same(self, subtests):
         rewards = 0
         for game in ("pong", "ms_pacman", "breakout"):
             for seed, skip, sticky, noops in ((1, 4, 0.25, 30), (2, 4, 0.0, 30), (3, 1, 0.25, 5), (4, 3, 0.0, 0)):
-                with self.subTest(game=game, seed=seed, frame_skip=skip):
+                with subtests.test(game=game, seed=seed, frame_skip=skip):
                     rewards += self.compare(
                         game, seed, frameskip=skip, repeat_action_probability=sticky, noop_max=noops
                     )
-        self.assertGreater(rewards, 0)
-
-
-if __name__ == "__main__":
-    main()
+        assert rewards > 0

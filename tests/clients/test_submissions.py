@@ -8,13 +8,13 @@ import shutil
 import struct
 import subprocess
 import sys
-import unittest
 import zlib
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(SOURCE / "tests/server"))
+import pytest
 
-from harness import BINARY, PATIENCE, Server, main  # noqa: E402
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+
+from harness import BINARY, PATIENCE, Server
 
 HEAD = 24  # bytes of a log before its contents (docs/episodes.md)
 LUA = next(filter(None, map(shutil.which, ("lua5.4", "luajit", "lua5.1"))), None)
@@ -28,10 +28,11 @@ def resealed(log, alter):
     return head + struct.pack("<I", zlib.crc32(head + deflated)) + deflated
 
 
-class Submissions(unittest.TestCase):
-    def setUp(self):
+class TestSubmissions:
+    @pytest.fixture(autouse=True)
+    def set_up(self, cleanup):
         self.server = Server("serve", "--listen", "tcp://127.0.0.1:0", "--record-dir", ".")
-        self.addCleanup(self.server.__exit__)
+        cleanup(self.server.__exit__)
         self.address = f"tcp://127.0.0.1:{self.server.port()}"
         self.folder = pathlib.Path(self.server.path("mine"))
 
@@ -44,8 +45,8 @@ class Submissions(unittest.TestCase):
             text=True,
             timeout=PATIENCE * 5,
         )
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("3 episodes are in the server's folder mine\n", done.stdout)
+        assert (done.returncode, done.stderr) == (0, "")
+        assert "3 episodes are in the server's folder mine\n" in done.stdout
 
     def play_in_python(self):
         self.play(sys.executable, "-B", SOURCE / "clients/python/logged_agent.py", "mine")
@@ -66,14 +67,14 @@ class Submissions(unittest.TestCase):
 
     def check_confirmed(self):
         status, output = self.verify()
-        self.assertEqual((status, output.split(";")[0]), (0, "3 rows confirmed, 0 wrong, 0 could not be checked"))
+        assert (status, output.split(";")[0]) == (0, "3 rows confirmed, 0 wrong, 0 could not be checked")
 
     def check_refused(self, sentence):
         status, output = self.verify()
-        self.assertEqual(status, 1, output)
-        self.assertIn(sentence, output)
+        assert status == 1, output
+        assert sentence in output
 
-    @unittest.skipUnless(LUA, "Lua is not installed")
+    @pytest.mark.skipif(not LUA, reason="Lua is not installed")
     def test_an_agent_in_lua(self):
         self.play(LUA, SOURCE / "clients/lua/examples/submission.lua", "mine")
         self.check_confirmed()
@@ -81,10 +82,13 @@ class Submissions(unittest.TestCase):
     def test_an_agent_in_python(self):
         self.play_in_python()
         self.check_confirmed()
-        self.assertEqual(
-            (self.folder / "agent.toml").read_text(),
-            'agent = "python-random"\nversion = "1"\npreset = "machado2018"\ntraining_frames = 0\nrole = "baseline"\n',
-        )
+        assert (self.folder / "agent.toml").read_text().splitlines() == [
+            'agent = "python-random"',
+            'version = "1"',
+            'preset = "machado2018"',
+            "training_frames = 0",
+            'role = "baseline"',
+        ]
 
     def test_a_score_that_was_raised_is_refused(self):
         self.play_in_python()
@@ -109,7 +113,3 @@ class Submissions(unittest.TestCase):
         path.write_bytes(resealed(path.read_bytes(), alter))
         self.write_rows([first | {"log_digest": hashlib.sha256(path.read_bytes()).hexdigest()}, *others])
         self.check_refused("(beamfall-python-random-1, episode 1): not confirmed: ")
-
-
-if __name__ == "__main__":
-    main()

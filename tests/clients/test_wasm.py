@@ -3,15 +3,12 @@
 import os
 import pathlib
 import subprocess
-import sys
-import unittest
 
 import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(SOURCE / "tests/server"))
 
-from harness import BINARY, PATIENCE  # noqa: E402
+from harness import BINARY, PATIENCE
 
 pytestmark = [
     pytest.mark.needs_programs("node"),
@@ -19,7 +16,7 @@ pytestmark = [
 ]
 
 
-class WebAssembly(unittest.TestCase):
+class TestWebAssembly:
     def test_its_tests_pass(self):
         done = subprocess.run(
             ["node", "--test", "wasm/"],
@@ -29,5 +26,5 @@ class WebAssembly(unittest.TestCase):
             text=True,
             env=dict(os.environ, RACEBEAM_PROGRAM=BINARY),
         )
-        self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertIn("\n# skipped 0\n", done.stdout)
+        assert done.returncode == 0, done.stdout
+        assert "\n# skipped 0\n" in done.stdout

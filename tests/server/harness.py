@@ -14,7 +14,6 @@ import subprocess
 import sys
 import tempfile
 import time
-import unittest
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BINARY = os.environ.get("RACEBEAM_BINARY", os.path.join(SOURCE, "build", "release", "racebeam"))
@@ -37,7 +36,7 @@ def built(name):
 # racebeam obeys.
 for _number in (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT):
     if signal.getsignal(_number) == signal.SIG_IGN:
-        signal.signal(_number, signal.SIG_DFL)
+        signal.signal(_number, signal.default_int_handler if _number == signal.SIGINT else signal.SIG_DFL)
 
 
 def rom(name):
@@ -298,8 +297,3 @@ class Session:
     def status(self):
         """The exit status of the process. A server of many sessions is told to stop first."""
         return self.server.stop() if self.transport in ("tcp", "unix") else self.server.wait()
-
-
-def main():
-    """Runs the tests of the calling file."""
-    unittest.main(module="__main__", verbosity=2)
