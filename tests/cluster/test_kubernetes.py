@@ -13,9 +13,10 @@ import subprocess
 import sys
 import tempfile
 import time
-import unittest
 import urllib.parse
 import urllib.request
+
+import pytest
 
 try:
     import kubernetes_validate
@@ -93,13 +94,13 @@ def built(name):
     return {each["kind"]: each for each in yaml.safe_load_all(done.stdout)}, done.stderr
 
 
-@unittest.skipUnless(
-    yaml and KUBECTL, "kubectl or kubernetes-validate is not installed; scripts/cluster-test installs both"
+@pytest.mark.skipif(
+    not (yaml and KUBECTL), reason="kubectl or kubernetes-validate is not installed; scripts/cluster-test installs both"
 )
-class Manifests(unittest.TestCase):
+class TestManifests:
     def objects(self, name):
         found, complaints = built(name)
-        self.assertEqual(complaints, "")
+        assert complaints == ""
         return copy.deepcopy(found)
 
     def pod(self, name, kind):
@@ -108,64 +109,61 @@ class Manifests(unittest.TestCase):
     def test_the_schemas_accept_all_of_it(self):
         for name, count in (("server", 5), ("benchmark", 1)):
             found = self.objects(name)
-            self.assertEqual(len(found), count)
+            assert len(found) == count
             for each in found.values():
                 kubernetes_validate.validate(each, desired_version=kubernetes_validate.latest_version(), strict=True)
 
     def test_the_schemas_refuse_what_is_wrong(self):
         deployment = self.objects("server")["Deployment"]
         deployment["spec"]["template"]["spec"]["containers"][0]["port"] = 1
-        with self.assertRaises(kubernetes_validate.ValidationError):
+        with pytest.raises(kubernetes_validate.ValidationError):
             kubernetes_validate.validate(deployment, desired_version=kubernetes_validate.latest_version(), strict=True)
 
     def test_the_objects_select_the_pods_of_the_deployment(self):
         found = self.objects("server")
-        self.assertEqual(found["Deployment"]["spec"]["selector"]["matchLabels"], LABELS)
-        self.assertEqual(found["Deployment"]["spec"]["template"]["metadata"]["labels"], LABELS)
-        self.assertEqual(found["Service"]["spec"]["selector"], LABELS)
-        self.assertEqual(found["NetworkPolicy"]["spec"]["podSelector"]["matchLabels"], LABELS)
-        self.assertEqual(found["PodDisruptionBudget"]["spec"]["selector"]["matchLabels"], LABELS)
-        self.assertEqual(
-            found["HorizontalPodAutoscaler"]["spec"]["scaleTargetRef"],
-            {"apiVersion": "apps/v1", "kind": "Deployment", "name": found["Deployment"]["metadata"]["name"]},
-        )
+        assert found["Deployment"]["spec"]["selector"]["matchLabels"] == LABELS
+        assert found["Deployment"]["spec"]["template"]["metadata"]["labels"] == LABELS
+        assert found["Service"]["spec"]["selector"] == LABELS
+        assert found["NetworkPolicy"]["spec"]["podSelector"]["matchLabels"] == LABELS
+        assert found["PodDisruptionBudget"]["spec"]["selector"]["matchLabels"] == LABELS
+        assert found["HorizontalPodAutoscaler"]["spec"]["scaleTargetRef"] == {
+            "apiVersion": "apps/v1",
+            "kind": "Deployment",
+            "name": found["Deployment"]["metadata"]["name"],
+        }
 
     def test_agents_need_one_label_and_may_reach_the_protocol_alone(self):
         agents, monitoring = self.objects("server")["NetworkPolicy"]["spec"]["ingress"]
-        self.assertEqual(
-            agents,
-            {
-                "from": [{"podSelector": {"matchLabels": {"racebeam-client": "true"}}}],
-                "ports": [{"protocol": "TCP", "port": 7800}],
-            },
-        )
-        self.assertEqual(monitoring["ports"], [{"protocol": "TCP", "port": 7801}])
+        assert agents == {
+            "from": [{"podSelector": {"matchLabels": {"racebeam-client": "true"}}}],
+            "ports": [{"protocol": "TCP", "port": 7800}],
+        }
+        assert monitoring["ports"] == [{"protocol": "TCP", "port": 7801}]
 
     def test_a_pod_has_no_privileges(self):
         for pod in (self.pod("server", "Deployment"), self.pod("benchmark", "Job")):
-            self.assertFalse(pod["automountServiceAccountToken"])
-            self.assertTrue(pod["securityContext"]["runAsNonRoot"])
-            self.assertEqual(
-                pod["containers"][0]["securityContext"],
-                {"allowPrivilegeEscalation": False, "readOnlyRootFilesystem": True, "capabilities": {"drop": ["ALL"]}},
-            )
+            assert not pod["automountServiceAccountToken"]
+            assert pod["securityContext"]["runAsNonRoot"]
+            assert pod["containers"][0]["securityContext"] == {
+                "allowPrivilegeEscalation": False,
+                "readOnlyRootFilesystem": True,
+                "capabilities": {"drop": ["ALL"]},
+            }
 
     def test_the_server_takes_its_options(self):
         container = self.pod("server", "Deployment")["containers"][0]
         done = subprocess.run([BINARY, "config", *container["args"]], capture_output=True, text=True, timeout=PATIENCE)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        assert (done.returncode, done.stderr) == (0, "")
         settings = dict(
             line.split(" = ")
             for line in (line.split("  #")[0].strip() for line in done.stdout.splitlines())
             if " = " in line
         )
         ports = {each["name"]: each["containerPort"] for each in container["ports"]}
-        self.assertEqual(settings["listen"], f'["tcp://0.0.0.0:{ports["line"]}"]')
-        self.assertEqual(settings["http"], f'"0.0.0.0:{ports["http"]}"')
+        assert settings["listen"] == f'["tcp://0.0.0.0:{ports["line"]}"]'
+        assert settings["http"] == f'"0.0.0.0:{ports["http"]}"'
         grace = int(settings["grace"])
-        self.assertGreater(
-            self.pod("server", "Deployment")["terminationGracePeriodSeconds"], grace + 5 + 1
-        )  # preStop, farewell
+        assert self.pod("server", "Deployment")["terminationGracePeriodSeconds"] > grace + 5 + 1  # preStop, farewell
 
     def test_the_server_has_the_pages_of_the_probes(self):
         container = self.pod("server", "Deployment")["containers"][0]
@@ -186,10 +184,10 @@ class Manifests(unittest.TestCase):
             ).stdout.split()[-1]
             for index in range(job["completions"])
         ]
-        self.assertEqual(shards, [f"{number}/{len(shards)}" for number in range(1, len(shards) + 1)])
+        assert shards == [f"{number}/{len(shards)}" for number in range(1, len(shards) + 1)]
 
 
-class Monitoring(unittest.TestCase):
+class TestMonitoring:
     def test_every_metric_that_is_named_exists(self):
         with Server() as server:
             exist = set(METRIC.findall(get(server.port, "/metrics")))
@@ -197,16 +195,16 @@ class Monitoring(unittest.TestCase):
         texts[FOLDER / "server/autoscaler.yaml"] = (FOLDER / "server/autoscaler.yaml").read_text()
         for path, text in texts.items():
             metrics = set(METRIC.findall(text))
-            self.assertLessEqual(metrics, exist, path)
-        self.assertIn("racebeam_sessions_open", exist)
+            assert metrics <= exist, path
+        assert "racebeam_sessions_open" in exist
 
     def test_the_dashboard_is_whole(self):
         dashboard = json.loads((FOLDER / "monitoring/dashboard.json").read_text())
         panels = dashboard["panels"]
-        self.assertEqual(len({panel["id"] for panel in panels}), len(panels))
-        self.assertTrue(all(target["expr"] for panel in panels for target in panel["targets"]))
+        assert len({panel["id"] for panel in panels}) == len(panels)
+        assert all(target["expr"] for panel in panels for target in panel["targets"])
 
-    @unittest.skipUnless(shutil.which("promtool"), "promtool is not installed")
+    @pytest.mark.needs_programs("promtool")
     def test_promtool_accepts_the_rules_and_their_tests_pass(self):
         for words in (
             ("check", "config", "prometheus.yaml"),
@@ -216,9 +214,9 @@ class Monitoring(unittest.TestCase):
             done = subprocess.run(
                 ["promtool", *words], cwd=FOLDER / "monitoring", capture_output=True, text=True, timeout=PATIENCE
             )
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            assert done.returncode == 0, done.stdout + done.stderr
 
-    @unittest.skipUnless(shutil.which("prometheus"), "prometheus is not installed")
+    @pytest.mark.needs_programs("prometheus")
     def test_prometheus_scrapes_a_server_and_knows_the_panels(self):
         with Server() as server, tempfile.TemporaryDirectory() as folder:
             text = (
@@ -247,14 +245,10 @@ class Monitoring(unittest.TestCase):
                     return json.loads(reply)["data"]["result"]
 
                 wait_for(lambda: values('up{job="racebeam"} == 1'))
-                self.assertEqual(values("racebeam_sessions_open")[0]["value"][1], "0")
+                assert values("racebeam_sessions_open")[0]["value"][1] == "0"
                 for panel in json.loads((FOLDER / "monitoring/dashboard.json").read_text())["panels"]:
                     for target in panel["targets"]:
                         values(target["expr"].replace("$__rate_interval", "1m"))  # an error is an HTTPError
             finally:
                 prometheus.terminate()
                 prometheus.wait()
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

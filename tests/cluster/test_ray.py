@@ -5,13 +5,14 @@ scripts/cluster-test --ray runs it by a Python that has racebeam and Ray.
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 import threading
 import time
-import unittest
 
+import pytest
 import slurm
 from small_experiment import PLAN, files
 
@@ -32,9 +33,7 @@ COUNT, STEPS = 24, 200
 STORE = 200 << 20  # bytes of a node's object store
 
 
-def setUpModule():
-    if MISSING:
-        raise unittest.SkipTest(MISSING)
+pytestmark = pytest.mark.skipif(MISSING is not None, reason=str(MISSING))
 
 
 def patiently(start, tries=4):
@@ -48,7 +47,11 @@ def patiently(start, tries=4):
                 raise
 
 
-class Nodes(unittest.TestCase):
+class Nodes:
+    @pytest.fixture(autouse=True)
+    def keep_cleanup(self, cleanup):
+        self.cleanup = cleanup
+
     def nodes(self, count):
         """Starts a cluster. Its first node is this process's, and has no processor for actors and tasks. Returns the
         cluster and its other nodes, which play."""
@@ -57,11 +60,11 @@ class Nodes(unittest.TestCase):
         )  # of the workers
         head = {"num_cpus": 0, "object_store_memory": STORE, "include_dashboard": False}
         cluster = patiently(lambda: Cluster(initialize_head=True, head_node_args=head))
-        self.addCleanup(cluster.shutdown)
+        self.cleanup(cluster.shutdown)
         nodes = [patiently(lambda: cluster.add_node(num_cpus=1, object_store_memory=STORE)) for _ in range(count)]
         cluster.wait_for_nodes()
         ray.init(address=cluster.address, log_to_driver=False)
-        self.addCleanup(ray.shutdown)
+        self.cleanup(ray.shutdown)
         return cluster, nodes
 
     def after(self, found, act):
@@ -88,22 +91,22 @@ def mapping_of(array):
     return ""
 
 
-class Rollouts(Nodes):
+class TestRollouts(Nodes):
     def total(self, actors, after=lambda count: None):
         """The total of rewards. Calls `after` with the number of rollouts that are there."""
         total = steps = 0
         for one in rollouts.rollouts("beamfall", actors=actors, count=COUNT, num_envs=4, steps=STEPS, obs_type="ram"):
-            self.assertEqual(one["observations"].shape, (STEPS + 1, 4, 128))
+            assert one["observations"].shape == (STEPS + 1, 4, 128)
             total += int(one["rewards"].sum())
             steps += 1
             after(steps)
-        self.assertEqual(steps, COUNT)
+        assert steps == COUNT
         return total
 
     def test_the_total_is_the_same_on_three_nodes_one_of_which_is_killed(self):
         cluster, _ = self.nodes(1)
         expected = self.total(1)
-        self.assertGreater(expected, 0)
+        assert expected > 0
         ray.shutdown()
         cluster.shutdown()
         cluster, nodes = self.nodes(3)
@@ -114,28 +117,28 @@ class Rollouts(Nodes):
                 cluster.remove_node(nodes[0], allow_graceful=False)
                 killed.append(seen)
 
-        self.assertEqual((self.total(3, kill), killed), (expected, [5]))
+        assert (self.total(3, kill), killed) == (expected, [5])
 
     def test_a_rollout_is_read_where_it_lies(self):
         self.nodes(1)
         for one in rollouts.rollouts("beamfall", actors=1, count=2, num_envs=4):
-            self.assertEqual(one["observations"].shape, (129, 4, 4, 84, 84))
-            self.assertFalse(one["observations"].flags.writeable)
-            self.assertIn("plasma", mapping_of(one["observations"]))
+            assert one["observations"].shape == (129, 4, 4, 84, 84)
+            assert not one["observations"].flags.writeable
+            assert "plasma" in mapping_of(one["observations"])
 
     def test_a_policy_plays_and_errors_end_it(self):
         self.nodes(1)
         (one,) = rollouts.rollouts(
             "beamfall", actors=1, count=1, num_envs=2, steps=5, policy=lambda observations, _: [len(observations), 0]
         )
-        self.assertEqual(one["actions"].tolist(), [[2, 0]] * 5)
-        with self.assertRaisesRegex(ray.exceptions.RayActorError, "unknown game 'pongg'"):
+        assert one["actions"].tolist() == [[2, 0]] * 5
+        with pytest.raises(ray.exceptions.RayActorError, match="unknown game 'pongg'"):
             list(rollouts.rollouts("pongg", actors=1, count=1))
-        with self.assertRaisesRegex(IndexError, "99"):
+        with pytest.raises(IndexError, match="99"):
             list(rollouts.rollouts("beamfall", actors=1, count=1, num_envs=1, policy=lambda seen, _: [99]))
 
 
-class Words(unittest.TestCase):
+class TestWords:
     """What is wrong gets one sentence and no traceback: status 2 for a usage error, else 1."""
 
     def check(self, status, says, script, *words):
@@ -143,27 +146,29 @@ class Words(unittest.TestCase):
             done = subprocess.run(
                 [sys.executable, FOLDER / script, *words], cwd=folder, capture_output=True, text=True, timeout=300
             )
-        self.assertEqual(done.returncode, status, done.stderr)
-        self.assertRegex(done.stderr.splitlines()[-1], f"^{script}: {says}")
-        self.assertNotIn("Traceback", done.stderr)
+        assert done.returncode == status, done.stderr
+        assert re.search(f"^{script}: {says}", done.stderr.splitlines()[-1])
+        assert "Traceback" not in done.stderr
 
-    def test_a_number_that_cannot_be(self):
-        for script, words, option in (
+    @pytest.mark.parametrize(
+        "script, words, option",
+        (
             ("rollouts.py", ("beamfall",), "--actors"),
             ("rollouts.py", ("beamfall",), "--rollouts"),
             ("rollouts.py", ("beamfall",), "--envs"),
             ("rollouts.py", ("beamfall",), "--steps"),
             ("experiment.py", ("smoke", "results"), "--shards"),
-        ):
-            for number in ("0", "-2", "many"):
-                with self.subTest(script=script, option=option, number=number):
-                    self.check(
-                        2,
-                        f"error: argument {option}: it is '{number}'; it takes a whole number from 1 on",
-                        script,
-                        *words,
-                        f"{option}={number}",
-                    )
+        ),
+    )
+    @pytest.mark.parametrize("number", ("0", "-2", "many"))
+    def test_a_number_that_cannot_be(self, script, words, option, number):
+        self.check(
+            2,
+            f"error: argument {option}: it is '{number}'; it takes a whole number from 1 on",
+            script,
+            *words,
+            f"{option}={number}",
+        )
 
     def test_a_game_and_a_plan_that_are_not_there(self):
         self.check(1, ".*unknown game 'nosuch'", "rollouts.py", "nosuch", "--actors", "1", "--rollouts", "1")
@@ -172,32 +177,32 @@ class Words(unittest.TestCase):
         )
 
 
-class Rllib(Nodes):
-    def test_an_algorithm_learns_with_and_without_vector_environments(self):
+class TestRllib(Nodes):
+    def test_an_algorithm_learns_with_and_without_vector_environments(self, subtests):
         try:
             import rllib_ppo
             import torch  # noqa: F401
         except ImportError as error:
-            self.skipTest(f"RLlib and PyTorch are not both installed: {error}")
-        Words.check(self, 1, ".*`Nosuch` doesn't exist", "rllib_ppo.py", "Nosuch")
+            pytest.skip(f"RLlib and PyTorch are not both installed: {error}")
+        TestWords.check(self, 1, ".*`Nosuch` doesn't exist", "rllib_ppo.py", "Nosuch")
         self.nodes(1)
         for vector, actors in (
             (True, "racebeam.vector_env.AtariVectorEnv"),
             (False, "gymnasium.vector.sync_vector_env.SyncVectorEnv"),
         ):
-            with self.subTest(vector=vector):
+            with subtests.test(vector=vector):
                 algorithm = rllib_ppo.config("Beamfall", runners=1, envs=4, vector=vector).build_algo()
                 result = algorithm.train()
-                self.assertGreaterEqual(result["env_runners"]["num_env_steps_sampled"], 1024)
+                assert result["env_runners"]["num_env_steps_sampled"] >= 1024
                 envs = algorithm.env_runner_group.foreach_env_runner(
                     lambda runner: f"{type(runner.env.unwrapped).__module__}.{type(runner.env.unwrapped).__name__}",
                     local_env_runner=False,
                 )
-                self.assertEqual(envs, [actors])
+                assert envs == [actors]
                 algorithm.stop()
 
 
-class Experiment(Nodes):
+class TestExperiment(Nodes):
     def test_the_results_are_the_same_when_a_node_is_killed(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
@@ -215,6 +220,6 @@ class Experiment(Nodes):
             )
             experiment.run(str(plan), str(folder / "parts"), 8, [])
             killer.join()
-            self.assertEqual(files(folder / "parts"), files(folder / "whole"))
-            with self.assertRaisesRegex(Exception, "shard 1/1: .*nonexistent"):
+            assert files(folder / "parts") == files(folder / "whole")
+            with pytest.raises(Exception, match="shard 1/1: .*nonexistent"):
                 experiment.run("/nonexistent.toml", str(folder / "none"), 1, [])

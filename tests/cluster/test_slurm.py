@@ -12,7 +12,6 @@ import signal
 import subprocess
 import sys
 import time
-import unittest
 
 import agent
 import pytest
@@ -35,15 +34,14 @@ SHARDS = 24  # for 21 units: some have none
 READY_WITHIN = 60  # seconds, for 200 servers
 
 
-class Slurm(unittest.TestCase):
-    maxDiff = None
-
+class Slurm:
+    @pytest.fixture(scope="class", autouse=True)
     @classmethod
-    def setUpClass(cls):
+    def set_up_class(cls, request):
         if (reason := slurm.missing()) is not None:
-            raise unittest.SkipTest(reason)
+            pytest.skip(reason)
         cls.cluster = slurm.Cluster().__enter__()
-        cls.addClassCleanup(cls.cluster.__exit__)
+        request.addfinalizer(cls.cluster.__exit__)
         cls.jobs = cls.cluster.folder / "jobs"
         cls.temporary = cls.cluster.folder / "tmp"
         cls.temporary.mkdir()
@@ -56,10 +54,11 @@ class Slurm(unittest.TestCase):
         with client.Session.start(BINARY, "--log-level", "warning") as game:
             cls.expected = {number: agent.play(game, number) for number in range(16)}
 
-    def setUp(self):
+    @pytest.fixture(autouse=True)
+    def set_up(self, request):
         for path in self.jobs.iterdir():
             path.unlink() if path.is_file() else None
-        self.results = self.jobs / self.id().rsplit(".", 1)[1]
+        self.results = self.jobs / re.sub(r"\W+", "-", request.node.name)
         self.results.mkdir()
 
     def job_processes(self):
@@ -83,7 +82,7 @@ class Slurm(unittest.TestCase):
 
     def check_results(self, numbers):
         found = {path.name: path.read_text() for path in self.results.iterdir() if path.name.startswith("result-")}
-        self.assertEqual(found, {f"result-{number}": f"{self.expected[number]}\n" for number in numbers})
+        assert found == {f"result-{number}": f"{self.expected[number]}\n" for number in numbers}
 
     def agent(self, *words):
         return ("python3", AGENT, "--into", self.results, *words)
@@ -92,16 +91,16 @@ class Slurm(unittest.TestCase):
         self.cluster.wait(f"{count} of {pattern}", lambda: len(list(self.results.glob(pattern))) >= count)
 
 
-class Slice(Slurm):
+class TestSlice(Slurm):
     def test_each_element_of_an_array_has_a_server(self):
         job = self.cluster.submit("--array=0-7", SCRIPTS / "array.sbatch", *self.agent())
-        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
+        assert self.cluster.wait_for_end(job) == {"COMPLETED"}
         self.check_results(range(8))
         self.nothing_is_left()
 
     def test_a_server_on_each_node_and_agents_in_another_step(self):
         job = self.cluster.submit("--nodes=4", "--ntasks-per-node=2", SCRIPTS / "nodes.sbatch", *self.agent())
-        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"}, self.cluster.logs())
+        assert self.cluster.wait_for_end(job) == {"COMPLETED"}, self.cluster.logs()
         self.check_results(range(8))
         self.nothing_is_left()
 
@@ -114,20 +113,20 @@ class Slice(Slurm):
             env=self.cluster.environment,
             timeout=slurm.PATIENCE,
         )
-        self.assertEqual(done.returncode, 0, done.stderr)
+        assert done.returncode == 0, done.stderr
         self.check_results([0])
         self.nothing_is_left()
 
     def test_the_protocol_on_the_standard_streams_of_srun(self):
         os.environ |= {name: self.cluster.environment[name] for name in ("SLURM_CONF", "PATH", "RACEBEAM_TEST")}
         with client.Session.start(SRUN, "--log-level", "warning") as game:
-            self.assertEqual(agent.play(game, 3), self.expected[3])
+            assert agent.play(game, 3) == self.expected[3]
         self.nothing_is_left()
 
     def test_servers_for_an_agent_in_python(self):
         imports = ("-c", "import racebeam.vector_env, submitit")
         if not pathlib.Path(PYTHON).exists() or subprocess.run([PYTHON, *imports], capture_output=True).returncode != 0:
-            self.skipTest(f"{PYTHON} lacks racebeam or submitit (scripts/wheel --venv)")
+            pytest.skip(f"{PYTHON} lacks racebeam or submitit (scripts/wheel --venv)")
         done = subprocess.run(
             [PYTHON, slurm.TOP / "tests/cluster/python_agent.py"],
             cwd=self.results,
@@ -136,15 +135,13 @@ class Slice(Slurm):
             env=self.cluster.environment | {"RACEBEAM_PROGRAM": BINARY},
             timeout=slurm.PATIENCE,
         )
-        self.assertEqual(
-            (done.returncode, done.stdout), (0, "the same; 2 environments were lost, and played on\n"), done.stderr
-        )
+        assert (done.returncode, done.stdout) == (0, "the same; 2 environments were lost, and played on\n"), done.stderr
         self.nothing_is_left()
-        self.assertEqual(list(self.results.iterdir()), [])
+        assert list(self.results.iterdir()) == []
 
 
 @pytest.mark.slow
-class Whole(Slurm):
+class TestWhole(Slurm):
     def test_a_server_that_is_killed_ends_its_element_and_no_other(self):
         job = self.cluster.submit(
             "--array=0-3", SCRIPTS / "array.sbatch", *self.agent("--reached", self.results, "--pause", "8")
@@ -153,25 +150,25 @@ class Whole(Slurm):
         with_one = [number for number, words in self.job_processes().items() if "racebeam with" in words]
         children = [number for number in with_one if slurm.parent(number) in with_one]
         os.kill(children[0], signal.SIGKILL)
-        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED", "FAILED"})
-        self.assertEqual(len(list(self.results.glob("result-*"))), 3)
+        assert self.cluster.wait_for_end(job) == {"COMPLETED", "FAILED"}
+        assert len(list(self.results.glob("result-*"))) == 3
         self.nothing_is_left()
 
-    def test_scancel_leaves_nothing(self):
-        for script, words in (
+    @pytest.mark.parametrize(
+        "script, words",
+        (
             ("array.sbatch", ("--array=0-3",)),
             ("nodes.sbatch", ("--nodes=2", "--ntasks-per-node=2")),
-        ):
-            with self.subTest(script=script):
-                job = self.cluster.submit(
-                    *words, SCRIPTS / script, *self.agent("--reached", self.results, "--pause", "60")
-                )
-                self.wait_for_files("reached-*", 4)
-                self.cluster.run("scancel", job)
-                self.assertEqual(self.cluster.wait_for_end(job), {"CANCELLED"})
-                self.nothing_is_left()
-                for path in self.results.iterdir():
-                    path.unlink()
+        ),
+    )
+    def test_scancel_leaves_nothing(self, script, words):
+        job = self.cluster.submit(*words, SCRIPTS / script, *self.agent("--reached", self.results, "--pause", "60"))
+        self.wait_for_files("reached-*", 4)
+        self.cluster.run("scancel", job)
+        assert self.cluster.wait_for_end(job) == {"CANCELLED"}
+        self.nothing_is_left()
+        for path in self.results.iterdir():
+            path.unlink()
 
     def test_the_time_limit_leaves_nothing(self):
         job = self.cluster.submit(
@@ -181,7 +178,7 @@ class Whole(Slurm):
             SCRIPTS / "nodes.sbatch",
             *self.agent("--reached", self.results, "--pause", "300"),
         )
-        self.assertEqual(self.cluster.wait_for_end(job, 240), {"TIMEOUT"})
+        assert self.cluster.wait_for_end(job, 240) == {"TIMEOUT"}
         self.nothing_is_left()
 
     def test_a_requeued_job_gives_the_same(self):
@@ -193,25 +190,25 @@ class Whole(Slurm):
         )
         self.wait_for_files("reached-*", 4)
         self.cluster.run("scontrol", "requeue", job)
-        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
+        assert self.cluster.wait_for_end(job) == {"COMPLETED"}
         self.check_results(range(4))
         self.nothing_is_left()
 
-    def test_a_node_that_fails_is_replaced(self):
+    def test_a_node_that_fails_is_replaced(self, cleanup):
         job = self.cluster.submit(
             "--array=5", SCRIPTS / "array.sbatch", *self.agent("--reached", self.results, "--pause", "60")
         )
         self.wait_for_files("reached-*", 1)
         node = self.cluster.run("squeue", "-h", "-j", job, "-o", "%N").strip()
         self.cluster.set_slurmd_timeout(15)
-        self.addCleanup(self.cluster.set_slurmd_timeout, slurm.SLURMD_TIMEOUT)
-        self.addCleanup(self.cluster.restart_node, node)
+        cleanup(self.cluster.set_slurmd_timeout, slurm.SLURMD_TIMEOUT)
+        cleanup(self.cluster.restart_node, node)
         self.cluster.kill_node(node)
         self.cluster.wait("the end of its processes", lambda: not self.job_processes())
         (socket_folder,) = self.temporary.iterdir()  # on the node's own disk
-        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
-        self.assertEqual(self.cluster.restarts(f"{job}_5"), 1)
-        self.assertNotEqual(self.cluster.field("NodeList", f"{job}_5"), node)
+        assert self.cluster.wait_for_end(job) == {"COMPLETED"}
+        assert self.cluster.restarts(f"{job}_5") == 1
+        assert self.cluster.field("NodeList", f"{job}_5") != node
         self.check_results([5])
         shutil.rmtree(socket_folder)
         self.nothing_is_left()
@@ -228,11 +225,11 @@ class Whole(Slurm):
             self.results,
         )
         job = self.cluster.submit(SCRIPTS / "learner.sbatch", *learner)
-        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"}, self.cluster.logs())
+        assert self.cluster.wait_for_end(job) == {"COMPLETED"}, self.cluster.logs()
         self.check_results(range(2))
         self.nothing_is_left()
 
-    def test_an_experiment_in_shards_is_the_same_byte_for_byte(self):
+    def test_an_experiment_in_shards_is_the_same_byte_for_byte(self, cleanup):
         plan = self.results / "plan.toml"
         plan.write_text(PLAN)
         alone, shared = self.results / "alone", self.results / "shared"
@@ -244,15 +241,15 @@ class Whole(Slurm):
         for element in stopped:
             self.cluster.run("scontrol", "requeue", element)
         self.cluster.run("scontrol", "update", "nodename=n2", "state=down", "reason=test")
-        self.addCleanup(self.cluster.run, "scontrol", "update", "nodename=n2", "state=resume", check=False)
+        cleanup(self.cluster.run, "scontrol", "update", "nodename=n2", "state=resume", check=False)
         gathered = self.cluster.submit(
             f"--dependency=afterany:{job}", "--output", self.results / "gathered", SCRIPTS / "gather.sbatch", *words
         )
-        self.assertEqual(self.cluster.wait_for_end(gathered, 400), {"COMPLETED"}, self.cluster.logs())
-        self.assertTrue(all(self.cluster.restarts(element) > 0 for element in stopped))
-        self.assertEqual(files(shared), files(alone))
-        self.assertRegex(
-            (self.results / "gathered").read_text(), r"\d+ rows confirmed, 0 wrong, 0 could not be checked"
+        assert self.cluster.wait_for_end(gathered, 400) == {"COMPLETED"}, self.cluster.logs()
+        assert all(self.cluster.restarts(element) > 0 for element in stopped)
+        assert files(shared) == files(alone)
+        assert re.search(
+            r"\d+ rows confirmed, 0 wrong, 0 could not be checked", (self.results / "gathered").read_text()
         )
         self.nothing_is_left()
 
@@ -287,16 +284,16 @@ class Whole(Slurm):
         gathered = self.cluster.submit(f"--dependency=afterany:{job}", SCRIPTS / "gather.sbatch", *words)
         ((element, node),) = self.stop_elements(job, 1).items()
         urgent = self.cluster.submit("--partition=urgent", "--exclusive", f"--nodelist={node}", "--wrap", "hostname")
-        self.assertEqual(self.cluster.wait_for_end(urgent), {"COMPLETED"})
-        self.assertGreater(self.cluster.restarts(element), 0)
-        self.assertRegex(
-            (self.cluster.folder / "slurmctld.log").read_text(), f"preempted JobId={element}.* has been requeued"
+        assert self.cluster.wait_for_end(urgent) == {"COMPLETED"}
+        assert self.cluster.restarts(element) > 0
+        assert re.search(
+            f"preempted JobId={element}.* has been requeued", (self.cluster.folder / "slurmctld.log").read_text()
         )
-        self.assertEqual(self.cluster.wait_for_end(gathered, 400), {"COMPLETED"}, self.cluster.logs())
-        self.assertEqual(files(shared), files(alone))
+        assert self.cluster.wait_for_end(gathered, 400) == {"COMPLETED"}, self.cluster.logs()
+        assert files(shared) == files(alone)
         self.nothing_is_left()
 
-    def test_a_full_shared_disk_ends_the_element_with_a_sentence_and_loses_nothing(self):
+    def test_a_full_shared_disk_ends_the_element_with_a_sentence_and_loses_nothing(self, cleanup):
         plan, alone, shared = (self.results / name for name in ("plan.toml", "alone", "shared"))
         plan.write_text(PLAN)
         subprocess.run([BINARY, "experiment", plan, "--into", alone, "--threads", "1"], check=True, capture_output=True)
@@ -307,21 +304,21 @@ class Whole(Slurm):
             ).returncode
             != 0
         ):
-            self.skipTest("a file system cannot be mounted here")
-        self.addCleanup(subprocess.run, ["umount", "--lazy", shared], check=True)
+            pytest.skip("a file system cannot be mounted here")
+        cleanup(subprocess.run, ["umount", "--lazy", shared], check=True)
         job = self.cluster.submit(
             "--array=1-2", "--output", self.results / "said-%a", SCRIPTS / "experiment.sbatch", plan, shared
         )
-        self.assertEqual(self.cluster.wait_for_end(job), {"FAILED"})
+        assert self.cluster.wait_for_end(job) == {"FAILED"}
         for number in (1, 2):
-            self.assertRegex(
-                (self.results / f"said-{number}").read_text(),
+            assert re.search(
                 r"(?m)^racebeam: cannot write .*: No space left on device$",
+                (self.results / f"said-{number}").read_text(),
             )
         subprocess.run(["mount", "-o", "remount,size=64m", shared], check=True)
         job = self.cluster.submit(SCRIPTS / "gather.sbatch", plan, shared)
-        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"}, self.cluster.logs())
-        self.assertEqual(files(shared), files(alone))
+        assert self.cluster.wait_for_end(job) == {"COMPLETED"}, self.cluster.logs()
+        assert files(shared) == files(alone)
 
     def test_a_shard_number_beyond_the_plan_is_named(self):
         job = self.cluster.submit(
@@ -332,19 +329,19 @@ class Whole(Slurm):
             "smoke",
             self.results / "shared",
         )
-        self.assertEqual(self.cluster.wait_for_end(job), {"FAILED"})
-        self.assertIn(
-            "racebeam: --shard: '0/0' is not a shard; accepted is K/N, with K from 1 to N",
-            (self.results / "said").read_text(),
+        assert self.cluster.wait_for_end(job) == {"FAILED"}
+        assert (
+            "racebeam: --shard: '0/0' is not a shard; accepted is K/N, with K from 1 to N"
+            in (self.results / "said").read_text()
         )
-        self.assertFalse((self.results / "shared").exists())
+        assert not (self.results / "shared").exists()
 
     def test_two_hundred_servers_of_one_array(self):
         """All are ready within a minute, in the best of three attempts."""
         seconds = []
         while len(seconds) < 3 and min(seconds, default=READY_WITHIN) >= READY_WITHIN:
             seconds.append(self.two_hundred_servers())
-        self.assertLess(min(seconds), READY_WITHIN)
+        assert min(seconds) < READY_WITHIN
 
     def two_hundred_servers(self):
         """Seconds until the last of them has loaded a game for its agent."""
@@ -360,10 +357,10 @@ class Whole(Slurm):
             f"source {slurm.TOP}/clients/shell/racebeam.bash; racebeam_connect && racebeam_ask load beamfall "
             f"&& racebeam_value game >{self.results}/found-$SLURM_ARRAY_TASK_ID",
         )
-        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
+        assert self.cluster.wait_for_end(job) == {"COMPLETED"}
         seconds = max(path.stat().st_mtime for path in self.results.glob("found-*")) - began
-        self.assertEqual({path.read_text() for path in self.results.glob("found-*")}, {"beamfall\n"})
-        self.assertEqual(len(list(self.results.glob("found-*"))), 200)
+        assert {path.read_text() for path in self.results.glob("found-*")} == {"beamfall\n"}
+        assert len(list(self.results.glob("found-*"))) == 200
         self.nothing_is_left()
         print(f"\n200 servers of one array job: {seconds:.1f} s, load {os.getloadavg()[0]:.1f}")
         return seconds
@@ -394,7 +391,7 @@ class Whole(Slurm):
                 "-c",
                 f"((SLURM_PROCID)) || exec python3 {script} >{self.results}/found",
             )
-            self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"}, self.cluster.logs())
+            assert self.cluster.wait_for_end(job) == {"COMPLETED"}, self.cluster.logs()
             return json.loads((self.results / "found").read_text())
 
         found = {
@@ -404,7 +401,7 @@ class Whole(Slurm):
             "TCP, two steps": between_steps(),
         }
         lengths = [{field: one["length"] for field, one in way.items()} for way in found.values()]
-        self.assertEqual(lengths, lengths[:1] * len(found))
+        assert lengths == lengths[:1] * len(found)
         self.nothing_is_left()
         print(
             f"\nsteps/s, load {os.getloadavg()[0]:.1f}\n{'':32}"

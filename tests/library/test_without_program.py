@@ -7,13 +7,12 @@ import os
 import pathlib
 import re
 import shutil
-import sys
-import unittest
+
+import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(SOURCE / "tests/support"))
 
-from commands import output_of as run  # noqa: E402
+from commands import output_of as run
 
 BUILD = SOURCE / "build/release/without_program"  # is kept, so that the next run compiles only what has changed
 ABSENT = ("Boost", "OpenSSL", "PNG", "spdlog", "nlohmann_json", "Catch2")
@@ -34,9 +33,11 @@ except FileNotFoundError as error:
 SCORE = "82 400"  # protocol/PROTOCOL.md, "States"
 
 
-class WithoutProgram(unittest.TestCase):
+@pytest.mark.slow
+class TestWithoutProgram:
+    @pytest.fixture(scope="class", autouse=True)
     @classmethod
-    def setUpClass(cls):
+    def set_up_class(cls):
         absent = (f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ABSENT)
         compiler = f"-DCMAKE_CXX_COMPILER={os.environ.get('CXX', 'c++')}"
         run("cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", compiler, "-DCMAKE_BUILD_TYPE=Debug",
@@ -49,10 +50,10 @@ class WithoutProgram(unittest.TestCase):
     def test_golden_needs_no_library_but_those_of_the_compiler_and_zlib(self):
         table = run("readelf", "--dynamic", "--wide", BUILD / "tests/golden/golden")
         needed = set(re.findall(r"NEEDED.*\[(\w+)", table))
-        self.assertEqual(needed - {"libstdc", "libm", "libgcc_s", "libc", "ld", "libpthread"}, {"libz"})
+        assert needed - {"libstdc", "libm", "libgcc_s", "libc", "ld", "libpthread"} == {"libz"}
 
     def test_the_server_is_not_a_target(self):
-        self.assertNotIn("\nracebeam_server:", run("cmake", "--build", BUILD, "--target", "help"))
+        assert "\nracebeam_server:" not in run("cmake", "--build", BUILD, "--target", "help")
 
     def test_what_is_installed_plays(self):
         prefix = BUILD / "installed"
@@ -68,12 +69,12 @@ class WithoutProgram(unittest.TestCase):
         )
         run("cmake", "-S", consumer / "project", "-B", consumer / "built", f"-DCMAKE_PREFIX_PATH={prefix}", absent)
         run("cmake", "--build", consumer / "built")
-        self.assertRegex(run(consumer / "built/in_process"), rf"^[\d.]+ {SCORE}\n$")
+        assert re.search(rf"^[\d.]+ {SCORE}\n$", run(consumer / "built/in_process"))
 
     def test_the_python_module_plays_and_launch_says_what_to_install(self):
         builder, player = (PYTHON / folder / "bin/python" for folder in ("tools", "venv"))
         if not (builder.exists() and player.exists()):
-            self.skipTest("no environments of scripts/wheel --venv")
+            pytest.skip("no environments of scripts/wheel --venv")
         absent = (f"--config-settings=cmake.define.CMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ABSENT)
         package = BUILD / "package"
         shutil.rmtree(package, ignore_errors=True)
@@ -81,8 +82,8 @@ class WithoutProgram(unittest.TestCase):
             "--target", package, "--config-settings=cmake.define.RACEBEAM_PROGRAM=OFF", *absent,
             "--config-settings=cmake.build-type=Debug", f"--config-settings=build-dir={BUILD}/python",
             SOURCE)  # fmt: skip
-        self.assertEqual([file for file in package.rglob("racebeam") if file.is_file()], [])
+        assert [file for file in package.rglob("racebeam") if file.is_file()] == []
         plain = {key: value for key, value in os.environ.items() if key != "RACEBEAM_PROGRAM"}
         score, sentence = run(player, "-B", "-c", PLAY, env={**plain, "PYTHONPATH": package, "PATH": ""}).splitlines()
-        self.assertEqual(score, SCORE)
-        self.assertRegex(sentence, "the program racebeam is neither .*; install a wheel that has it")
+        assert score == SCORE
+        assert re.search("the program racebeam is neither .*; install a wheel that has it", sentence)
