@@ -177,6 +177,24 @@ class TestSteps:
         assert (status, lines[-1]) == (0, "0 passed, 0 failed, 0 skipped")
 
 
+def words_of_ctest(folder):
+    """The words of the nearest CMakeLists.txt above a folder, and where it is."""
+    while not (folder / "CMakeLists.txt").exists():
+        folder = folder.parent
+    return re.findall(r"[\w./+]+", (folder / "CMakeLists.txt").read_text()), folder
+
+
+class TestCtest:
+    def test_it_runs_each_file_of_tests(self):
+        missing = []
+        for path in sorted((ROOT / "tests").rglob("test_*.py")):
+            words, folder = words_of_ctest(path.parent)
+            file = path.relative_to(folder)
+            if not {str(file), file.parts[0], "."} & set(words) and "cluster" not in path.parts:
+                missing.append(path.relative_to(ROOT).as_posix())
+        assert missing == []
+
+
 class TestSubjects:
     def refusal(self, subject):
         with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:

@@ -41,12 +41,12 @@ class Agent:
             ask(self.wire, b"act FIRE")
             self.times.append(time.monotonic() - begin)
             self.acts += 1
-            time.sleep(0.002)
+            time.sleep(0.002)  # the pace of a player
 
     def measure(self, seconds):
         """How long acts take from now on, in seconds: that which nine of ten exceed, and the slowest."""
         self.times = []
-        time.sleep(seconds)
+        time.sleep(seconds)  # play() measures meanwhile
         times = sorted(self.times)
         return times[len(times) // 10], times[-1]
 
