@@ -236,6 +236,12 @@ Delivery Board::write_cartridge(std::uint16_t address, std::uint8_t value) {
   return delivery;
 }
 
+void Board::observe(const Access& access) {
+  const std::uint64_t banks = selected_banks();
+  slot.scheme.observe(slot, access);
+  if (selected_banks() != banks) code.close();
+}
+
 std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
   if (address & 0x1000) return read_cartridge(address, cycle);
   if (address & unwatched_) return read_riot(address, cycle);

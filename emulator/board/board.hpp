@@ -100,7 +100,12 @@ class Board {
   void set_format_limits();  // after `video` or the frame's origin has changed
 
   // Whether translated code does not know what accesses do: a pin that follows the beam, or watched RAM.
-  bool must_be_interpreted() const { return ports_.has_light_gun() || slot.scheme.watches_mirrors; }
+  bool must_be_interpreted() const {
+    return ports_.has_light_gun() || slot.scheme.watches_mirrors || slot.scheme.observe != nullptr;
+  }
+
+  // For a cartridge that sees all accesses to operands.
+  void observe(const Access& access);
 
   // RAM that no cartridge watches is where only bit 7 of these is set.
   const std::uint16_t ram_bits;

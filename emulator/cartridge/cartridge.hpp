@@ -32,6 +32,14 @@ struct CartridgeSlot {
 // What happens to a write after the cartridge has seen it.
 enum class Delivery : bool { kTaken, kToTia };
 
+// An access of the CPU to the operand of an instruction.
+struct Access {
+  std::uint16_t address;
+  std::uint8_t value;   // read or written; for both, the one that was written
+  std::uint8_t before;  // the byte that the CPU read before
+  bool writes;
+};
+
 using PortReader = std::uint8_t (*)(CartridgeSlot&, std::uint16_t address, std::int32_t cycle);
 
 struct MapperOps {
@@ -50,6 +58,10 @@ struct MapperOps {
   // For translated code: the function that does the work of `read` at `address`. Null if that may select a
   // bank.
   PortReader (*port_reader)(std::uint16_t address) = nullptr;
+
+  // Sees all accesses to operands, also to RAM, when their instruction has ended. Such a cartridge is
+  // interpreted, one instruction at a time.
+  void (*observe)(CartridgeSlot&, const Access&) = nullptr;
 };
 
 struct Scheme : MapperOps {
@@ -67,6 +79,7 @@ struct Scheme : MapperOps {
   // Sees accesses to RAM at addresses with bit 11 set; then watches_riot must be set. Such a cartridge is
   // interpreted. RAM at other addresses is never watched.
   bool watches_mirrors = false;
+  std::uint8_t version = 0;  // of schemes that share their functions
 };
 
 // RAM up to this size is part of the state. Larger RAM has a block of its own, which keeps the state of most

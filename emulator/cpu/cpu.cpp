@@ -73,7 +73,10 @@ void reset_cpu(Board& board) {
   cpu.store_state();
 }
 
-void interpret(Board& board, std::int32_t instructions) { interpret(board, instructions, instructions); }
+void interpret(Board& board, std::int32_t instructions) {
+  if (board.slot.scheme.observe != nullptr) return interpret_observed(board, instructions);
+  interpret(board, instructions, instructions);
+}
 
 void interpret(Board& board, std::int32_t most, std::int32_t enough) {
   if (board.state.cpu.jammed) return;

@@ -16,4 +16,7 @@ void interpret(Board& board, std::int32_t instructions);
 // by Core::kLongestRow or more, this is much faster, because instructions need not be counted one by one.
 void interpret(Board& board, std::int32_t most, std::int32_t enough);
 
+// The first one, for a cartridge that sees all accesses to operands (MapperOps::observe).
+void interpret_observed(Board& board, std::int32_t instructions);
+
 }  // namespace racebeam

@@ -139,7 +139,7 @@ class TestOptions(Case):
     def test_what_the_console_of_an_image_does_not_take(self, subtests):
         for command, *words in MACHINES:
             for option, value, reason in (
-                ("--scheme", "4A50", "unsupported cartridge scheme '4A50'"),
+                ("--scheme", "BUS", "unsupported cartridge scheme 'BUS'"),
                 ("--left", "mindlink", "joystick, paddles"),
                 ("--right", "mouse", "joystick, paddles"),
                 ("--format", "hd", "auto, ntsc, pal, pal60, secam"),

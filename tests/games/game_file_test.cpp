@@ -93,7 +93,7 @@ TEST_CASE("an image's cartridge scheme can be asked for, and two dumps always ha
   CHECK(game_with("[[image]]\nscheme = '3F'").properties_for("any").scheme == "3F");
   CHECK_THAT(error_in("[[image]]\nscheme = 'F9'"),
              Contains("my.toml:3: image.scheme: unknown cartridge scheme 'F9'") && Contains("F8 swapped"));
-  for (const std::string name : {"WDSW", "4A50", "CDF", "CTY"})
+  for (const std::string name : {"GL", "BUS", "ELF", "CTY"})
     CHECK_THAT(error_in("[[image]]\nscheme = '" + name + "'"),
                Contains("my.toml:3: image.scheme: unsupported cartridge scheme '" + name + "'"));
   for (const char* md5 : {"bc24440b59092559a1ec26055fd1270e", "75ee371ccfc4f43e7d9b8f24e1266b55"})

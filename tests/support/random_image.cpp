@@ -63,6 +63,8 @@ const std::vector<Recipe>& recipes() {
       {"0FA0", 8192, 4096, {{0x06A0, 1}, {0x06C0, 1}, {0x0FC0, 1}}},
       {"0840", 8192, 4096, {{0x0800, 1}, {0x0840, 1}}},
       {"03E0", 8192, 4096, {{0x03B0, 0x38}}},
+      {"WF8", 8192, 4096, {{0x1FF8, 1}}},
+      {"WDSW", 8195, 1024, {{0x0030, 16}, {0x1040, 0x40}}},
       {"WD", 8192, 1024, {{0x0030, 16}, {0x1040, 0x40}}},
       {"3EX", 16384, 2048, {{0x003E, 2}, {0x103E, 2}, {0x1000, 0x800}}},
       {"JANE", 16384, 4096, {{0x1FF0, 16}}},
@@ -71,6 +73,7 @@ const std::vector<Recipe>& recipes() {
       {"FC", 32768, 4096, {{0x1FF8, 2}, {0x1FFC, 1}}},
       {"SB", 131072, 4096, {{0x0800, 0x40}}},
       {"EF", 65536, 4096, {{0x1FE0, 16}}},
+      {"EFF", 65536, 4096, {{0x1FE0, 16}, {0x1FF0, 5}, {0x1FF0, 4}}},
       {"EFSC", 65536, 4096, {{0x1FE0, 16}, {0x1000, 0x100}}},
       {"DF", 131072, 4096, {{0x1FC0, 32}}},
       {"DFSC", 131072, 4096, {{0x1FC0, 32}, {0x1000, 0x100}}},
@@ -78,6 +81,12 @@ const std::vector<Recipe>& recipes() {
       {"BFSC", 262144, 4096, {{0x1F80, 64}, {0x1000, 0x100}}},
       {"MDM", 32768, 4096, {{0x0800, 0x80}, {0x0800, 8}, {0x0880, 1}}},
       {"X07", 65536, 4096, {{0x080D, 1}, {0x088D, 1}, {0x08ED, 1}, {0x08FD, 1}, {0x0000, 0x80}}},
+      // The program goes on in a page that it selects first.
+      {"4A50",
+       65536,
+       2048,
+       {{0x6E00, 16}, {0x6E40, 16}, {0x6F10, 16}, {0x6400, 512}, {0x1000, 0x800}, {0x6C0E, 1}, {0x00F8, 4}},
+       {0xAD, 0x06, 0x6C}},
       {"2IN1", 4096, 2048, {{0x1000, 0x1000}}},
       {"MB", 65536, 4096, {{0x1FF0, 1}}},
       // The program's window shows ROM.
@@ -88,6 +97,8 @@ const std::vector<Recipe>& recipes() {
        4096,
        {{0x1FF6, 6}, {0x1000, 0x28}, {0x1028, 0x58}, {0x1058, 3}},
        {0xA5, 0x80, 0x29, 0x01, 0x8D, 0x58, 0x10, 0xA9, 0xFF, 0x8D, 0x5A, 0x10}},
+      {"CDF0", 32768, 4096, {{0x1FF5, 7}, {0x1FF0, 4}}, kStartOfCdf},
+      {"CDF", 32768, 4096, {{0x1FF5, 7}, {0x1FF0, 4}}, kStartOfCdf},
       {"CDFJ", 32768, 4096, {{0x1FF5, 7}, {0x1FF0, 4}}, kStartOfCdf},
       {"CDFJ+", 32768, 4096, {{0x1FF4, 7}, {0x1FF0, 4}}, kStartOfCdf},
   };
@@ -130,8 +141,10 @@ class Writer {
       bytes_[vector + 1] = static_cast<std::uint8_t>(begin() >> 8);
     }
     if (recipe_.scheme == "AR") return starpath_load();
-    if (recipe_.scheme == "CDFJ") return cdf(false);
-    if (recipe_.scheme == "CDFJ+") return cdf(true);
+    if (recipe_.scheme == "CDF0") return cdf(0x768);
+    if (recipe_.scheme == "CDF") return cdf(0x128);
+    if (recipe_.scheme == "CDFJ") return cdf(0x124);
+    if (recipe_.scheme == "CDFJ+") return cdf(0x124, true);
     return recipe_.scheme == "DPC+" ? dpcplus() : units(recipe_.size);
   }
 
@@ -222,11 +235,11 @@ class Writer {
 
   // The banks begin behind the driver, or behind the ARM's program. That adds to bytes of the display data.
   // Streams read all of it, step by step.
-  Bytes cdf(bool is_plus) {
+  Bytes cdf(unsigned increments, bool is_plus = false) {
     using namespace thumb;
     Bytes driver = random_bytes(kCdfDriver), arm = random_bytes(kCdfCode);
-    std::fill(driver.begin() + 0x124, driver.begin() + 0x1B0, std::uint8_t{0});
-    for (std::size_t increment = 0x124; increment < 0x1B0; increment += 4) driver[increment + 1] = 1;
+    constexpr unsigned kStreams = 35;
+    for (std::size_t i = 0; i < 4 * kStreams; ++i) driver[increments + i] = i % 4 == 1;
     thumb::put(arm, is_plus ? 0 : 8,
                {mov_number(1, 1), lsl(1, 1, 30), mov_number(2, 8), lsl(2, 2, 8), add(1, 1, 2), ldrb(3, 1, 0),
                 add_number(3, 1), strb(3, 1, 0), add_number(1, 16), ldr(4, 1, 0), add(4, 4, 3), str(4, 1, 0),

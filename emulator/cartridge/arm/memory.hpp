@@ -1,5 +1,6 @@
-// The memory of the LPC2103 on a cartridge: flash memory, which ends at kFlashEnd, and RAM. All other
-// addresses read as 0. Writes to them, and to the flash memory, do nothing (docs/spec/cartridges.md, 13).
+// The memory of the ARM on a cartridge: flash memory, which ends at kFlashEnd or behind a larger image, and
+// RAM. All other addresses read as 0. Writes to them, and to the flash memory, do nothing
+// (docs/spec/cartridges.md, 13).
 #pragma once
 
 #include <bit>
@@ -17,10 +18,12 @@ struct Memory {
   std::span<const std::uint8_t> flash;
   std::span<std::uint8_t> ram;
   std::uint32_t code_begin = 0;  // code in front of it is not executed
+  std::uint32_t flash_begin =
+      flash.size() < kFlashEnd ? kFlashEnd - static_cast<std::uint32_t>(flash.size()) : 0;
 
   // The bytes from `address` on; null unless `size` of them are in one of the two.
   const std::uint8_t* find(std::uint32_t address, std::size_t size) const {
-    const auto in_flash = static_cast<std::uint32_t>(address + flash.size() - kFlashEnd);
+    const std::uint32_t in_flash = address - flash_begin;
     if (in_flash + size <= flash.size()) return flash.data() + in_flash;
     return find_ram(address, size);
   }

@@ -3,46 +3,59 @@
 #include <algorithm>
 #include <cstring>
 #include <new>
+#include <span>
+#include <utility>
 
 #include "emulator/cartridge/arm/thumb.hpp"
 
 namespace racebeam::cdf {
 namespace {
 
-// Where CDFJ and CDFJ+ differ.
+// Where the versions differ.
 struct Variant {
-  unsigned banks_at;  // in the image
-  unsigned fraction;  // bits of a pointer behind the place in the display data
-  unsigned sample;    // bits of a phase behind the byte of a sample
+  unsigned banks_at;                         // in the image
+  unsigned fraction;                         // bits of a pointer behind the place in the display data
+  unsigned sample;                           // bits of a phase behind the byte of a sample
+  unsigned pointers, increments, waveforms;  // in the ARM's RAM
+  std::uint32_t functions;                   // of the driver, four bytes each
+  std::uint8_t amplitude;                    // its number, behind those of streams
   bool is_plus;
 };
-constexpr Variant kPlain{0x1000, 20, 21, false}, kPlus{0x800, 16, 13, true};
+constexpr Variant kVariants[] = {
+    {0x1000, 20, 21, 0x6E0, 0x768, 0x7F0, 0x6E0, 34, false},  // kCdf0
+    {0x1000, 20, 21, 0x0A0, 0x128, 0x1B0, 0x750, 34, false},  // kCdf1
+    {0x1000, 20, 21, 0x098, 0x124, 0x1B0, 0x750, 35, false},  // kCdfj
+    {0x0800, 16, 13, 0x098, 0x124, 0x1B0, 0x750, 35, true},   // kCdfjPlus
+};
 
-const Variant& variant_of(const CartridgeSlot& slot) {
-  return slot.scheme.hotspot == kFirstHotSpotPlus ? kPlus : kPlain;
-}
+const Variant& variant_of(const CartridgeSlot& slot) { return kVariants[slot.scheme.version]; }
 
 // The image: places in the driver and behind it.
-constexpr unsigned kDriver = 0x800, kEntry = 0x808;
-constexpr unsigned kLoadsX = 0x34C, kLoadsY = 0x350, kFirstStream = 0x3E0;  // choices of the program, CDFJ+
-constexpr unsigned kMostFirstStream = 220;
+constexpr unsigned kDriver = 0x800, kEntry = 0x808, kFunctions = 4;
 constexpr unsigned kStackPlus = 0x17F4, kEntryPlus = 0x17F8;
-constexpr std::uint32_t kFunctions = 0x750, kFunctionsEnd = 0x760;  // of the driver, four bytes each
 
 // The ARM's RAM.
-constexpr unsigned kPointers = 0x98, kIncrements = 0x124, kWaveforms = 0x1B0;
 constexpr std::uint32_t kDisplay = arm::kRamBegin + kDriver;
-constexpr std::uint32_t kStack = 0x40001FDC;
+constexpr std::uint32_t kStack = 0x40001FDC, kStackOfDriver = 36;
+constexpr std::uint32_t kReturn = 0x40000594, kReturnPlus = 0x4000058C;
+constexpr unsigned kLastAmplitude = 0x1BC;  // CDFJ+ is one fetch late
 
-constexpr unsigned kComm = 0x20, kFirstJump = 0x21, kAmplitude = 0x23;  // numbers of streams
-constexpr unsigned kRegisters = 0xFF0, kHotPage = 0xFC0;
+constexpr unsigned kComm = 0x20, kFirstJump = 0x21;  // numbers of streams
+constexpr unsigned kRegisters = 0xFF0, kFirstSpot = 0xFF4, kHotPage = 0xFC0;
 constexpr std::uint8_t kLoadA = 0xA9, kLoadX = 0xA2, kLoadY = 0xA0, kJump = 0x4C;  // opcodes
 constexpr std::uint8_t kWaveOf32 = 27;
 constexpr unsigned kNibble = 4;
 
 Chip& chip_of(CartridgeSlot& slot) { return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data())); }
 
-arm::Memory memory_of(const CartridgeSlot& slot) { return {slot.rom, slot.ram, kDriver}; }
+// Boards with more flash memory have more RAM.
+std::span<std::uint8_t> ram_of(const CartridgeSlot& slot) {
+  constexpr std::size_t kMiddleImage = 131072, kMiddleRam = 16384;
+  const std::size_t image = slot.rom.size();
+  return slot.ram.first(image <= kImage ? kRam : image <= kMiddleImage ? kMiddleRam : kMostRamPlus);
+}
+
+arm::Memory memory_of(const CartridgeSlot& slot) { return {slot.rom, ram_of(slot), kDriver}; }
 
 const std::uint8_t* bank(const CartridgeSlot& slot) {
   return slot.rom.data() + variant_of(slot).banks_at + kBankSize * slot.state.bank[kShown];
@@ -58,15 +71,23 @@ void set_word(CartridgeSlot& slot, unsigned at, std::uint32_t number) {
   std::memcpy(&slot.ram[at], &number, sizeof number);
 }
 
-unsigned pointer_at(unsigned stream) { return kPointers + 4 * stream; }
+unsigned pointer_at(const CartridgeSlot& slot, unsigned stream) {
+  return variant_of(slot).pointers + 4 * stream;
+}
 
-std::uint8_t read_stream(CartridgeSlot& slot, unsigned stream) {
+// The byte that the stream points to. The pointer then moves on by `step` / 256.
+std::uint8_t take(CartridgeSlot& slot, unsigned stream, std::uint32_t step) {
   const unsigned fraction = variant_of(slot).fraction;
-  const std::uint32_t pointer = word(slot, pointer_at(stream));
-  const std::uint32_t step = word(slot, kIncrements + 4 * stream) << (fraction - 8);
-  set_word(slot, pointer_at(stream), pointer + step);
+  const std::uint32_t pointer = word(slot, pointer_at(slot, stream));
+  set_word(slot, pointer_at(slot, stream), pointer + (step << (fraction - 8)));
   return memory_of(slot).load<std::uint8_t>(kDisplay + (pointer >> fraction));
 }
+
+std::uint8_t read_stream(CartridgeSlot& slot, unsigned stream) {
+  return take(slot, stream, word(slot, variant_of(slot).increments + 4 * stream));
+}
+
+std::uint8_t read_jump(CartridgeSlot& slot, unsigned stream) { return take(slot, stream, 0x100); }
 
 // Sound.
 
@@ -74,53 +95,49 @@ std::uint8_t wave_amplitude(const CartridgeSlot& slot, const Chip& chip) {
   unsigned sum = 0;
   for (unsigned i = 0; i < chip.wave.size(); ++i) {
     const std::uint32_t place = chip.clock.voice[i].phase >> chip.wave[i];
-    sum += memory_of(slot).load<std::uint8_t>(word(slot, kWaveforms + 4 * i) + place);
+    sum += memory_of(slot).load<std::uint8_t>(word(slot, variant_of(slot).waveforms + 4 * i) + place);
   }
   return static_cast<std::uint8_t>(sum);
 }
 
-// A byte of a sample has two amplitudes, the upper four bits first.
+// A byte of a sample has two amplitudes, the upper four bits first. CDFJ+ leaves them to the TIA to mask.
 std::uint8_t sample_amplitude(const CartridgeSlot& slot, const Chip& chip) {
+  const Variant& variant = variant_of(slot);
   const std::uint32_t phase = chip.clock.voice[0].phase;
-  const unsigned behind = variant_of(slot).sample;
-  const auto pair = memory_of(slot).load<std::uint8_t>(word(slot, kWaveforms) + (phase >> behind));
-  const bool second = (phase >> (behind - 1) & 1) != 0;
-  return static_cast<std::uint8_t>(second ? pair & 0xF : pair >> kNibble);
+  const auto pair =
+      memory_of(slot).load<std::uint8_t>(word(slot, variant.waveforms) + (phase >> variant.sample));
+  const bool second = (phase >> (variant.sample - 1) & 1) != 0;
+  return static_cast<std::uint8_t>(!second ? pair >> kNibble : variant.is_plus ? pair : pair & 0xF);
 }
 
 std::uint8_t amplitude(CartridgeSlot& slot, std::int32_t cycle) {
   Chip& chip = chip_of(slot);
   chip.clock.pass(slot.machine, cycle);
-  return chip.plays_waves ? wave_amplitude(slot, chip) : sample_amplitude(slot, chip);
+  const std::uint8_t now = chip.plays_waves ? wave_amplitude(slot, chip) : sample_amplitude(slot, chip);
+  return variant_of(slot).is_plus ? std::exchange(slot.ram[kLastAmplitude], now) : now;
 }
 
 // Fast fetch.
 
-bool loads(const CartridgeSlot& slot, std::uint8_t opcode) {
-  if (opcode == kLoadA || !variant_of(slot).is_plus) return opcode == kLoadA;
-  return (opcode == kLoadX && slot.rom[kLoadsX] == kLoadX) ||
-         (opcode == kLoadY && slot.rom[kLoadsY] == kLoadY);
-}
-
-unsigned first_stream(const CartridgeSlot& slot) {
-  const bool has_one = variant_of(slot).is_plus && slot.rom[kFirstStream] <= kMostFirstStream;
-  return has_one ? slot.rom[kFirstStream] : 0;
+bool loads(const Chip& chip, std::uint8_t opcode) {
+  return opcode == kLoadA || (opcode == kLoadX && (chip.loads & kLoadsX) != 0) ||
+         (opcode == kLoadY && (chip.loads & kLoadsY) != 0);
 }
 
 std::uint8_t loaded(CartridgeSlot& slot, std::uint8_t value, std::int32_t cycle) {
-  const unsigned stream = value - first_stream(slot);
-  if (stream == kAmplitude) return amplitude(slot, cycle);
-  return stream < kAmplitude ? read_stream(slot, stream) : value;
+  const unsigned stream = value - unsigned{chip_of(slot).first_stream}, last = variant_of(slot).amplitude;
+  if (stream == last) return amplitude(slot, cycle);
+  return stream < last ? read_stream(slot, stream) : value;
 }
 
-// JMP $0000 and $0001 go where two bytes of a stream say.
+// JMP $0000, and $0001 with a second stream for jumps, go where two bytes of a stream say.
 std::uint8_t target(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
   Chip& chip = chip_of(slot);
-  if (chip.follower.missing == 0) return chip.jump != 0 ? read_stream(slot, chip.jump) : value;
+  if (chip.follower.missing == 0) return chip.jump != 0 ? read_jump(slot, chip.jump) : value;
   const std::uint8_t upper = bank(slot)[(address + 1U) % kBankSize];
-  if (value > 1 || upper != 0) return value;
+  if (kFirstJump + value >= variant_of(slot).amplitude || upper != 0) return value;
   chip.jump = static_cast<std::uint8_t>(kFirstJump + value);
-  return read_stream(slot, chip.jump);
+  return read_jump(slot, chip.jump);
 }
 
 // `value` was read at `address`. Returns what the CPU gets.
@@ -131,41 +148,51 @@ std::uint8_t follow(CartridgeSlot& slot, std::uint16_t address, std::uint8_t val
     return value;
   }
   if (chip.follower.opcode == kJump) return target(slot, address, value);
-  return loads(slot, chip.follower.opcode) ? loaded(slot, value, cycle) : value;
+  return loads(chip, chip.follower.opcode) ? loaded(slot, value, cycle) : value;
 }
 
 // Calls of the ARM.
 
+// What the driver leaves, and in CDF and CDFJ two instructions of ARM code at $800.
 arm::Registers at_call(const CartridgeSlot& slot) {
+  constexpr std::uint32_t kFlash = 0x3FFFC000, kNoThumb = ~std::uint32_t{1};
   arm::Registers registers;
-  registers.r[arm::kLr] = arm::kRamBegin;
-  registers.r[arm::kSp] = kStack;
-  registers.r[arm::kPc] = kEntry;
-  registers.r[0] = kEntry + 1;
+  auto& r = registers.r;
+  r[arm::kLr] = kReturn;
+  r[arm::kSp] = kStack - kStackOfDriver;
+  r[arm::kPc] = kEntry;
+  r[0] = kEntry + 1;
   if (!variant_of(slot).is_plus) return registers;
   const arm::Memory memory = memory_of(slot);
-  registers.r[arm::kSp] = memory.load<std::uint32_t>(kStackPlus);
-  registers.r[arm::kPc] = memory.load<std::uint32_t>(kEntryPlus) & ~std::uint32_t{1};
-  registers.r[0] = 0;
+  r[0] = kFlash;
+  r[1] = arm::kRamBegin;
+  r[2] = kEntryPlus;
+  r[3] = memory.load<std::uint32_t>(kEntryPlus);
+  r[arm::kLr] = kReturnPlus;
+  r[arm::kSp] = memory.load<std::uint32_t>(kStackPlus) - kStackOfDriver;
+  r[arm::kPc] = r[3] & kNoThumb;
   return registers;
 }
 
-// The driver's functions are ARM code. Their arguments are in R2 and R3.
-bool call_driver(Chip& chip, arm::Registers& registers) {
-  const std::uint32_t place = registers.r[arm::kPc];
-  if (place < kFunctions || place >= kFunctionsEnd || place % 4 != 0) return false;
-  std::uint32_t &voice = registers.r[2], number = registers.r[3];
-  registers.r[arm::kPc] = registers.r[arm::kLr] & ~std::uint32_t{1};
-  if (voice >= chip.wave.size()) return true;
+// The driver's functions are ARM code. Their arguments are in R2 and R3. They leave R4 as they find LR.
+bool call_driver(CartridgeSlot& slot, arm::Registers& registers) {
+  const std::uint32_t place = registers.r[arm::kPc] - variant_of(slot).functions;
+  if (place >= 4 * kFunctions || place % 4 != 0) return false;
+  Chip& chip = chip_of(slot);
+  std::uint32_t& argument = registers.r[2];
+  const std::uint32_t number = registers.r[3];
+  const auto voice = static_cast<std::size_t>(std::clamp(static_cast<std::int32_t>(argument), 0, 2));
   auto& [frequency, phase] = chip.clock.voice[voice];
-  switch ((place - kFunctions) / 4) {
+  switch (place / 4) {
     case 0: frequency = number; break;
     case 1: phase = 0; break;
-    case 2: voice = phase; break;
+    case 2: argument = phase; break;
     default:
       if (number >= kLeastWave && number <= kMostWave) chip.wave[voice] = static_cast<std::uint8_t>(number);
       break;
   }
+  registers.r[4] = registers.r[arm::kLr] | 1;
+  registers.r[arm::kPc] = registers.r[4] - 1;
   return true;
 }
 
@@ -178,12 +205,12 @@ void finish_call(CartridgeSlot& slot) {
   auto ending = arm::Ending::kFault;
   do {
     ending = arm::run(memory, registers, chip.clock.instructions);
-  } while (ending == arm::Ending::kFault && call_driver(chip, registers));
+  } while (ending == arm::Ending::kFault && call_driver(slot, registers));
   chip.stopped = ending != arm::Ending::kReturned;
 }
 
-void call(CartridgeSlot& slot, std::uint8_t function) {
-  if (function < 254 || chip_of(slot).stopped) return;
+void call(CartridgeSlot& slot) {
+  if (chip_of(slot).stopped) return;
   slot.state.bank[kCalled] = 1;
   map(slot);
 }
@@ -201,30 +228,50 @@ void set_mode(CartridgeSlot& slot, std::uint8_t value) {
 
 void write_register(CartridgeSlot& slot, unsigned number, std::uint8_t value) {
   const unsigned fraction = variant_of(slot).fraction;
-  const std::uint32_t pointer = word(slot, pointer_at(kComm)), place = pointer >> fraction;
+  const unsigned comm = pointer_at(slot, kComm);
+  const std::uint32_t pointer = word(slot, comm), place = pointer >> fraction;
   switch (number) {
     case 0:
       memory_of(slot).store(kDisplay + place, value);
-      set_word(slot, pointer_at(kComm), pointer + (1U << fraction));
+      set_word(slot, comm, pointer + (1U << fraction));
       break;
-    case 1: set_word(slot, pointer_at(kComm), (place << 8 | value) << fraction); break;
+    case 1: set_word(slot, comm, (place << 8 | value) << fraction); break;
     case 2: set_mode(slot, value); break;
-    default: call(slot, value); break;
+    default: call(slot); break;
   }
 }
 
 void select(CartridgeSlot& slot, std::uint16_t address) {
-  const unsigned selected = (address & 0xFFFU) - slot.scheme.hotspot;
-  if (selected >= kBanks || selected == slot.state.bank[kShown]) return;
+  const unsigned spot = address & 0xFFFU;
+  if (spot < kFirstSpot || spot > kFirstSpot + kBanks) return;
+  const unsigned selected = (spot + kBanks - slot.scheme.hotspot) % kBanks;
+  if (selected == slot.state.bank[kShown]) return;
   slot.state.bank[kShown] = static_cast<std::uint8_t>(selected);
   map(slot);
+}
+
+// The program's choices are in instructions of the driver: CMP R2, with an opcode of the 6507, and SUB R2,
+// with the number of the first stream.
+void find_choices(const CartridgeSlot& slot, Chip& chip) {
+  const std::span driver = std::span(slot.rom).first(kDriver);
+  const auto has = [&](std::uint8_t opcode) {
+    const std::uint8_t compares[] = {opcode, 0x00, 0x52, 0x13};
+    return !std::ranges::search(driver, compares).empty();
+  };
+  constexpr std::uint8_t kSubtracts[] = {0x20, 0x42, 0xE2};
+  const auto found = std::ranges::search(driver, kSubtracts).begin();
+  const bool has_number = found != driver.begin() && found != driver.end();
+  const std::uint8_t number = has_number ? *(found - 1) : std::uint8_t{0};
+  chip.first_stream = number <= kMostFirstStream ? number : std::uint8_t{0};
+  chip.loads = static_cast<std::uint8_t>((has(kLoadX) ? kLoadsX : 0) | (has(kLoadY) ? kLoadsY : 0));
 }
 
 bool can_be(const Chip& chip) {
   const auto is_size = [](std::uint8_t size) { return size >= kLeastWave && size <= kMostWave; };
   const bool can_jump = chip.jump == 0 || chip.jump == kFirstJump || chip.jump == kFirstJump + 1;
   return chip.clock.can_be() && chip.follower.can_be() && std::ranges::all_of(chip.wave, is_size) &&
-         chip.plays_waves <= 1 && can_jump && chip.stopped <= 1 && chip.spare[0] == 0 && chip.spare[1] == 0;
+         chip.plays_waves <= 1 && can_jump && chip.stopped <= 1 && chip.loads <= (kLoadsX | kLoadsY) &&
+         chip.first_stream <= kMostFirstStream;
 }
 
 }  // namespace
@@ -232,9 +279,11 @@ bool can_be(const Chip& chip) {
 void reset(CartridgeSlot& slot) {
   Chip& chip = chip_of(slot) = Chip{};
   chip.wave.fill(kWaveOf32);
+  if (variant_of(slot).is_plus) find_choices(slot, chip);
   slot.state.bank = {slot.scheme.initial};
   const auto end = std::copy_n(slot.rom.begin(), kDriver, slot.ram.begin());
   std::fill(end, slot.ram.end(), std::uint8_t{0});
+  slot.machine.riot.ram.fill(0);  // the driver has cleared it, and found no 7800
 }
 
 void map(CartridgeSlot& slot) {

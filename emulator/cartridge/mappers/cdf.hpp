@@ -1,6 +1,6 @@
-// CDFJ and CDFJ+, of homebrew games since 2017: seven banks of 4K, 35 streams that read display data in RAM,
-// jumps through two of them, three voices or a sample, and an ARM, whose Thumb code the program calls
-// (docs/spec/cartridges.md, 15).
+// CDF, CDFJ and CDFJ+, of homebrew games since 2016: seven banks of 4K, streams that read display data in
+// RAM, jumps through one or two of them, three voices or a sample, and an ARM, whose Thumb code the program
+// calls (docs/spec/cartridges.md, 15).
 //
 // While "fast fetch" is on, the cartridge follows each instruction. All its pages are then hidden, and while
 // a call of the ARM waits, too. In between, code is plain memory, as in other schemes.
@@ -15,8 +15,10 @@
 namespace racebeam::cdf {
 
 constexpr unsigned kBanks = 7, kBankSize = 4096, kImage = 32768, kRam = 8192;
+constexpr unsigned kMostImagePlus = 524288, kMostRamPlus = 32768;
 constexpr unsigned kFirstBank = 6, kFirstBankPlus = 0;                // the initial ones
 constexpr unsigned kFirstHotSpot = 0xFF5, kFirstHotSpotPlus = 0xFF4;  // that select banks
+enum Version : std::uint8_t { kCdf0, kCdf1, kCdfj, kCdfjPlus };       // Scheme::version
 constexpr std::uint8_t kLeastWave = 20, kMostWave = 31;               // sizes
 
 // Stored and used in the bytes of the state in which other schemes have RAM. Pointers, increments and
@@ -28,8 +30,10 @@ struct Chip {
   std::uint8_t plays_waves;          // else a sample
   std::uint8_t jump;                 // the stream that gives the second byte of a jump's address; 0: none
   std::uint8_t stopped;              // the ARM stands still
-  std::uint8_t spare[2];
+  std::uint8_t loads;                // kLoadsX, kLoadsY: LDX # and LDY # read streams, too
+  std::uint8_t first_stream;         // its number
 };
+constexpr std::uint8_t kLoadsX = 1, kLoadsY = 2, kMostFirstStream = 220;
 static_assert(sizeof(Chip) <= kRamInState && std::has_unique_object_representations_v<Chip>);
 static_assert(alignof(Chip) <= alignof(CartridgeState));
 

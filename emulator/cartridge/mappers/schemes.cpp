@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "emulator/cartridge/cartridge.hpp"
+#include "emulator/cartridge/detection/marks.hpp"
 #include "emulator/cartridge/mappers/activision.hpp"
 #include "emulator/cartridge/mappers/amiga.hpp"
 #include "emulator/cartridge/mappers/atari.hpp"
@@ -18,10 +19,11 @@
 #include "emulator/cartridge/mappers/dpcplus.hpp"
 #include "emulator/cartridge/mappers/dynacom.hpp"
 #include "emulator/cartridge/mappers/jentzsch.hpp"
-#include "emulator/cartridge/mappers/marks.hpp"
 #include "emulator/cartridge/mappers/megacart.hpp"
 #include "emulator/cartridge/mappers/mnetwork.hpp"
 #include "emulator/cartridge/mappers/parker.hpp"
+#include "emulator/cartridge/mappers/payson.hpp"
+#include "emulator/cartridge/mappers/savecircuit.hpp"
 #include "emulator/cartridge/mappers/starcastle.hpp"
 #include "emulator/cartridge/mappers/starpath.hpp"
 #include "emulator/cartridge/mappers/superbank.hpp"
@@ -54,14 +56,17 @@ constexpr MapperOps kCdf      = {cdf::reset,             cdf::map,            cd
 constexpr MapperOps k3f       = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write,    tigervision::admits};
 constexpr MapperOps k3e       = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e, tigervision::admits_3e};
 constexpr MapperOps kJane     = {atari::reset,           atari::map,          coleco::read,   coleco::write,         atari::admits};
+constexpr MapperOps kWf8      = {atari::reset,           atari::map,          coleco::read_wf8, coleco::write_wf8,   atari::admits};
 constexpr MapperOps k3ePlus   = {jentzsch::reset,        jentzsch::map,       no_hidden_page, jentzsch::write,       jentzsch::admits};
 constexpr MapperOps kFa2      = {starcastle::reset,      starcastle::map,     starcastle::read, starcastle::write,   starcastle::admits};
+constexpr MapperOps kEff      = {savecircuit::reset,     savecircuit::map,    savecircuit::read, savecircuit::write, savecircuit::admits, savecircuit::power_on};
 constexpr MapperOps kFc       = {amiga::reset,           amiga::map,          amiga::read,    amiga::write,          amiga::admits};
 constexpr MapperOps kSb       = {superbank::reset,       ua::map,             ua::read<superbank::touch>, ua::write<superbank::touch>,     superbank::admits};
 constexpr MapperOps kMdm      = {superbank::reset_mdm,   ua::map,             ua::read<superbank::touch_mdm>, ua::write<superbank::touch_mdm>, superbank::admits_mdm};
 constexpr MapperOps k03e0     = {parker::reset,          parker::map_03e0,    ua::read<parker::touch_03e0>, ua::write<parker::touch_03e0>, parker::admits};
 constexpr MapperOps kX07      = {atari::reset,           ua::map,             ua::read<atariage::touch>, ua::write<atariage::touch>,       atari::admits};
 constexpr MapperOps kWd       = {wickstead::reset,       wickstead::map,      wickstead::read, wickstead::write,     wickstead::admits};
+constexpr MapperOps k4a50     = {payson::reset,          payson::map,         no_hidden_page, payson::write,         payson::admits, nullptr, nullptr, payson::observe};
 constexpr MapperOps kUa       = ua::kOps<ua::kUa>;
 constexpr MapperOps kUaClone  = ua::kOps<ua::kClone>;
 constexpr MapperOps kUasw     = ua::kOps<ua::kSwapped>;
@@ -80,6 +85,10 @@ constexpr Scheme many(std::string_view name, std::uint8_t games) {
 
 constexpr unsigned kChip = sizeof(dpc::Chip), kDpcPlusChip = sizeof(dpcplus::Chip);
 constexpr unsigned kCdfChip = sizeof(cdf::Chip);
+
+constexpr Scheme cdf_of(std::string_view name, cdf::Version version) {
+  return {kCdf, name, cdf::kImage, cdf::kFirstHotSpot, cdf::kBanks, cdf::kFirstBank, cdf::kRam, false, false, false, kCdfChip, cdf::kImage, false, version};
+}
 constexpr unsigned kDpcPlusLeast = dpcplus::kLeastImage, kDpcPlusMost = dpcplus::kMostImage;
 
 constexpr Scheme kSchemes[] = {
@@ -97,14 +106,15 @@ constexpr Scheme kSchemes[] = {
     {kAtari,    "FASC",        12288, 0xFF8,    3, 2,   256, true,  false},
     {kFa2,      "FA2",         24576, 0xFF5,    7, 0,   256, true,  false},
     {kJane,     "JANE",        16384, 0xFF0,    4, 0,     0, false, false},
+    {kWf8,      "WF8",          8192, 0xFF8,    2, 0,     0, false, false},
     {kFc,       "FC",           8192, 0,        0, 0,     0, false, false},
     {kE0,       "E0",           8192, 0,        0, 0,     0, false, false},
     {kE7,       "E7",           8192, 0,        0, 0,  2048, true,  false},
     {kFe,       "FE",           8192, 0,        0, 0,     0, false, false},
     {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false, false},
     {kDpcPlus,  "DPC+", kDpcPlusLeast, 0xFF6,   6, 5, dpcplus::kRam, false, false, false, kDpcPlusChip, kDpcPlusMost},
-    {kCdf,      "CDFJ", cdf::kImage, cdf::kFirstHotSpot, cdf::kBanks, cdf::kFirstBank, cdf::kRam, false, false, false, kCdfChip, cdf::kImage},
-    {kCdf,      "CDFJ+", cdf::kImage, cdf::kFirstHotSpotPlus, cdf::kBanks, cdf::kFirstBankPlus, cdf::kRam, false, false, false, kCdfChip, cdf::kImage},
+    cdf_of("CDF0", cdf::kCdf0), cdf_of("CDF", cdf::kCdf1), cdf_of("CDFJ", cdf::kCdfj),
+    {kCdf,      "CDFJ+", cdf::kImage, cdf::kFirstHotSpotPlus, cdf::kBanks, cdf::kFirstBankPlus, cdf::kMostRamPlus, false, false, false, kCdfChip, cdf::kMostImagePlus, false, cdf::kCdfjPlus},
     {k3f,       "3F",           2048, 0,        0, 0,     0, false, true},
     {k3e,       "3E",           2048, 0,        0, 0, 32768, true,  true},
     {k3e,       "3EX",          2048, 0,        0, 0, 262144, false, true},
@@ -116,10 +126,12 @@ constexpr Scheme kSchemes[] = {
     {k0840,     "0840",         8192, 0,        2, 0,     0, false, true},
     {k03e0,     "03E0",         8192, 0,        0, 0,     0, false, true, true},
     {kWd,       "WD",           8192, 0,        0, 0,    64, true,  true},
+    {kWd,       "WDSW",         8195, 0,        0, 0,    64, true,  true, false, 0, 8195, false, wickstead::kSwapped},
     {kCv,       "CV",           2048, 0,        0, 0,  1024, true,  false},
     {kCvFilled, "CV 4K",        4096, 0,        0, 0,  1024, false, false},
     {kAr,       "AR",           8448, 0,        0, 0,  6144, true,  false},
     {kAtari,    "EF",          65536, 0xFE0,   16, 1,     0, false, false},
+    {kEff,      "EFF",         65536, 0xFE0,   16, 1, savecircuit::kBytes, false, false, false, sizeof(savecircuit::Eeprom)},
     {kAtari,    "EFSC",        65536, 0xFE0,   16, 15,  128, true,  false},
     {kAtari,    "DF",         131072, 0xFC0,   32, 1,     0, false, false},
     {kAtari,    "DFSC",       131072, 0xFC0,   32, 15,  128, true,  false},
@@ -127,6 +139,7 @@ constexpr Scheme kSchemes[] = {
     {kAtari,    "BFSC",       262144, 0xF80,   64, 15,  128, true,  false},
     {kSb,       "SB",         131072, 0,        0, 0,     0, false, true},
     {kMdm,      "MDM",          8192, 0,        0, 0,     0, false, true, true, 0, 0, true},
+    {k4a50,     "4A50", payson::kImage, 0,      0, 0, payson::kRam, true, false, false, 0, payson::kImage},
     {kX07,      "X07",         65536, 0,       16, 0,     0, false, true, true, 0, 0, true},
     many("2IN1", 2), many("4IN1", 4), many("8IN1", 8), many("16IN1", 16), many("32IN1", 32), many("64IN1", 64), many("128IN1", 128),
     {kMb,       "MB",          65536, 0xFF0,   16, 1,     0, false, false},
@@ -155,8 +168,7 @@ const std::deque<GameOfMany>& games_of_many() {
   return all;
 }
 
-constexpr std::string_view kUnsupported[] = {"4A50", "BUS", "CDF", "CM",    "CTY",  "DEVC", "EFF",
-                                             "ELF",  "GL",  "MVC", "TVBOY", "WDSW", "WF8"};
+constexpr std::string_view kUnsupported[] = {"BUS", "CM", "CTY", "DEVC", "ELF", "GL", "MVC", "TVBOY"};
 
 [[noreturn]] void refuse_scheme(std::string sentence) {
   std::string_view separator = "; accepted: ";

@@ -1,7 +1,8 @@
 // Wickstead Design's WD. Four segments of 1K show four of eight slices. An access to $30-$3F, which are the
 // TIA's addresses, too, selects one of eight arrangements. Programs access one by LDA, and leave by JMP. So
 // the next three accesses of the cartridge still find the old one. 64 bytes of RAM are read at $1000-$103F,
-// and written at $1040-$107F, where ROM is read.
+// and written at $1040-$107F, where ROM is read. WDSW is a bad dump of such a cartridge, in which two slices
+// have changed places.
 #pragma once
 
 #include <array>
@@ -23,8 +24,12 @@ constexpr std::array<std::array<std::uint8_t, kSegments>, kArrangements> kSlices
                                                                                      {2, 3, 4, 5},
                                                                                      {6, 0, 5, 1}}};
 
+enum Version : std::uint8_t { kRight, kSwapped };  // Scheme::version
+
 inline const std::uint8_t* segment(const CartridgeSlot& slot, unsigned number) {
-  return slot.rom.data() + kSlice * kSlices[slot.state.bank[kShown]][number];
+  unsigned slice = kSlices[slot.state.bank[kShown]][number];
+  if (slot.scheme.version == kSwapped && (slice == 2 || slice == 3)) slice ^= 1;
+  return slot.rom.data() + kSlice * slice;
 }
 
 inline void reset(CartridgeSlot& slot) { slot.state.bank = {}; }

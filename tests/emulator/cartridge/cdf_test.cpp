@@ -6,6 +6,7 @@
 #include "emulator/cartridge/mappers/cdf.hpp"
 #include "tests/emulator/bench.hpp"
 #include "tests/emulator/cartridge/both_processors.hpp"
+#include "tests/emulator/reference/reference_cdf.hpp"
 #include "tests/support/thumb_code.hpp"
 
 namespace racebeam::test {
@@ -102,9 +103,7 @@ TEST_CASE("CDFJ+: LDX # and LDY # read streams if the driver says so, from the n
   const Bytes code = {0xA9, 0x00, 0x8D, 0xF2, 0x1F, 0xA2, 0xC8, 0xA0, 0xC9, 0xA9, 0x05};
   for (const bool has_y : {false, true}) {
     Rom rom = image(code, {bx(kLr)}, true);
-    rom[0x34C] = 0xA2;
-    rom[0x350] = has_y ? 0xA0 : 0xA9;
-    rom[0x3E0] = 200;
+    put_choices(rom, true, has_y, 200);
     put_word(rom, 0x98 + 4, 3U << 16);
     Running bench(rom, true);
     bench.display(0) = 0x77, bench.display(3) = 0x66;

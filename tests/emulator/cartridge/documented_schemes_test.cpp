@@ -76,10 +76,7 @@ struct Sign {
 
 std::map<std::string, Sign> signs() {
   return {{"BUS", {"text", with(32768, "BUS", {700, 900})}},
-          {"CDF", {"text", with(32768, "CDF", {700, 900})}},
           {"CTY", {"text", with(32768, "LENIN", {700})}},
-          {"WDSW", {"size", filled(8195)}},
-          {"4A50", {"vector", with(65536, "\x50\x4A", {65530})}},
           {"ELF",
            {"first bytes", with(32768,
                                 "\x7F"

@@ -49,30 +49,31 @@ void keep_below(std::uint8_t& byte, unsigned limit) { byte = static_cast<std::ui
 
 // Many LDA #, LDX #, LDY # and JMP that fast fetch exchanges, pointers within the display data, waveforms in
 // it and in the image, and a program for the ARM.
-template <bool kPlus>
+template <unsigned kVersion>
 void prepare_cdf(Rom& rom) {
   constexpr std::array<std::uint8_t, 4> kOpcodes = {0xA9, 0xA2, 0xA0, 0x4C};
-  for (std::size_t i = 0x800; i + 2 < rom.size(); i += 4 + rom[i] % 4U) {
+  constexpr CdfPlaces kPlaces = kCdfPlaces[kVersion];
+  for (std::size_t i = 0x800; i + 2 < 32768; i += 4 + rom[i] % 4U) {
     rom[i] = kOpcodes[rom[i] % 4U];
     const bool jumps = rom[i] == 0x4C;
     keep_below(rom[i + 1], jumps ? 3 : 0x40);
     if (jumps) keep_below(rom[i + 2], 2);
   }
-  for (unsigned i = 0; i < 35; ++i) {
-    keep_below(rom[0x98 + 4 * i + 3], kPlus ? 0x18 : 0xFF);
-    keep_below(rom[0x124 + 4 * i + 1], 3);
-    rom[0x124 + 4 * i + 2] = rom[0x124 + 4 * i + 3] = 0;
+  for (unsigned i = 0; i < kPlaces.amplitude; ++i) {
+    keep_below(rom[kPlaces.pointers + 4 * i + 3], kVersion == 3 ? 0x18 : 0xFF);
+    const unsigned increment = kPlaces.increments + 4 * i;
+    keep_below(rom[increment + 1], 3);
+    rom[increment + 2] = rom[increment + 3] = 0;
   }
   for (unsigned v = 0; v < 3; ++v) {
-    rom[0x1B0 + 4 * v + 1] = 0x09;
-    rom[0x1B0 + 4 * v + 2] = 0;
-    rom[0x1B0 + 4 * v + 3] = rom[0x1B0 + 4 * v] % 4U == 0 ? 0 : 0x40;
+    const unsigned waveform = kPlaces.waveforms + 4 * v;
+    rom[waveform + 1] = 0x09;
+    rom[waveform + 2] = 0;
+    rom[waveform + 3] = rom[waveform] % 4U == 0 ? 0 : 0x40;
   }
-  const bool has_choices = rom[0x1B0] % 2U == 0;
-  rom[0x34C] = has_choices ? 0xA2 : 0xA9;
-  rom[0x350] = rom[0x1B4] % 2U == 0 ? 0xA0 : 0xA9;
-  rom[0x3E0] = has_choices ? 8 : 0xE0;
-  put_counting_cdf_program(rom, kPlus);
+  const std::uint8_t dice = rom[0x1B0];
+  put_choices(rom, dice % 2U == 0, dice % 4U < 2, dice % 2U == 0 ? 8 : 0xE0);
+  put_counting_cdf_program(rom, kVersion);
 }
 
 const std::vector<Range> kCdfPorts = {{0x1FF0, 4}, {0x1FF0, 1}, {0x1FF2, 1}, {0x1FF3, 1}, {0x1FF4, 8}};
@@ -93,7 +94,8 @@ const std::vector<Case> kCases = {
     {"0FA0", 8192, make<ModelTwo<0x16E0, 0x6A0, 0x6C0>>, {{0x06A0, 1}, {0x06C0, 1}, {0x0F80, 0x80}}},
     {"0840", 8192, make<ModelTwo<0x1840, 0x800, 0x840>>, {{0x0800, 0x80}, {0x0F00, 0x80}}},
     {"03E0", 8192, make<Model03e0>, {{0x0380, 0x80}, {0x0280, 0x80}}},
-    {"WD", 8192, make<ModelWd>, {{0x0030, 16}, {0x0020, 32}, {0x1000, 0x80}}},
+    {"WD", 8192, make<ModelWd<false>>, {{0x0030, 16}, {0x0020, 32}, {0x1000, 0x80}}},
+    {"WDSW", 8195, make<ModelWd<true>>, {{0x0030, 16}, {0x0020, 32}, {0x1000, 0x80}}},
     {"SB", 131072, make<ModelSb>, {{0x0800, 0x40}, {0x0840, 0x40}}},
     {"SB", 262144, make<ModelSb>, {{0x0800, 0x40}}},
     {"MDM", 32768, make<ModelMdm>, {{0x0800, 0x80}, {0x0900, 0x80}, {0x0B00, 0x80}, {0x0000, 0x800}}},
@@ -105,10 +107,12 @@ const std::vector<Case> kCases = {
     {"FC", 8192, make<ModelFc>, {{0x1FF8, 2}, {0x1FFC, 1}}},
     {"FC", 32768, make<ModelFc>, {{0x1FF8, 2}, {0x1FFC, 1}}},
     {"3EX", 16384, make<Model3eLike<256>>, {{0x003E, 2}, {0x103E, 2}, {0x1000, 0x800}, {0x0000, 0x40}}},
+    {"WF8", 8192, make<ModelWf8>, {{0x1FF8, 2}, {0x1FF8, 1}}},
     {"JANE", 16384, make<ModelJane>, {{0x1FF0, 16}}},
     {"CV", 2048, make<ModelCv>, {{0x1000, 0x800}}},
     {"CV 4K", 4096, make<ModelCv>, {{0x1000, 0x800}}},
     {"EF", 65536, make<ModelLarge<0x1FE0, 16, 1, 0>>, {{0x1FE0, 16}}},
+    {"EFF", 65536, make<ModelEff>, {{0x1FF0, 5}, {0x1FF0, 4}, {0x1FE0, 16}}},
     {"EFSC", 65536, make<ModelLarge<0x1FE0, 16, 15, 128>>, {{0x1FE0, 16}, {0x1000, 0x100}}},
     {"DF", 131072, make<ModelLarge<0x1FC0, 32, 1, 0>>, {{0x1FC0, 32}}},
     {"DFSC", 131072, make<ModelLarge<0x1FC0, 32, 15, 128>>, {{0x1FC0, 32}, {0x1000, 0x100}}},
@@ -135,8 +139,12 @@ const std::vector<Case> kCases = {
     {"DPC+", 32768, make<ModelDpcPlus>, kDpcPlusPorts, prepare_dpcplus},
     {"DPC+", 29696, make<ModelDpcPlus>, kDpcPlusPorts, prepare_dpcplus},
     {"DPC+", 30001, make<ModelDpcPlus>, kDpcPlusPorts, prepare_dpcplus},
-    {"CDFJ", 32768, make<ModelCdf<false>>, kCdfPorts, prepare_cdf<false>},
-    {"CDFJ+", 32768, make<ModelCdf<true>>, kCdfPorts, prepare_cdf<true>},
+    {"CDF0", 32768, make<ModelCdf<0>>, kCdfPorts, prepare_cdf<0>},
+    {"CDF", 32768, make<ModelCdf<1>>, kCdfPorts, prepare_cdf<1>},
+    {"CDFJ", 32768, make<ModelCdf<2>>, kCdfPorts, prepare_cdf<2>},
+    {"CDFJ+", 32768, make<ModelCdf<3>>, kCdfPorts, prepare_cdf<3>},
+    {"CDFJ+", 65536, make<ModelCdf<3>>, kCdfPorts, prepare_cdf<3>},
+    {"CDFJ+", 524288, make<ModelCdf<3>>, kCdfPorts, prepare_cdf<3>},
 };
 
 Properties asking_for(const char* scheme) {
@@ -259,7 +267,7 @@ TEST_CASE("Random accesses find each cartridge as its model has it, through save
 }  // namespace
 
 std::set<std::string> modelled_schemes() {
-  std::set<std::string> names;
+  std::set<std::string> names = {"4A50"};  // payson_test.cpp
   for (const Case& one : kCases) names.insert(one.name);
   return names;
 }

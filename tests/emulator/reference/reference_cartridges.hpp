@@ -129,6 +129,15 @@ struct ModelJane : Copyable<ModelJane> {
   void write(unsigned a, unsigned) override { access(a); }
 };
 
+struct ModelWf8 : Copyable<ModelWf8> {
+  using Copyable::Copyable;
+  unsigned bank = 0;
+  unsigned read(unsigned a, int) override { return image[bank * 4096 + (a & 0xFFF)]; }
+  void write(unsigned a, unsigned v) override {
+    if (a == 0x1FF8) bank = v / 4 % 2;
+  }
+};
+
 struct ModelCv : Copyable<ModelCv> {
   explicit ModelCv(Image bytes) : Copyable(std::move(bytes)) {
     if (image.size() == 4096)
@@ -163,6 +172,63 @@ struct ModelLarge : Copyable<ModelLarge<kFirst, kBanks, kInitial, kRam>> {
   }
 };
 
+// EF with an EEPROM behind two lines.
+struct ModelEff : Copyable<ModelEff> {
+  using Copyable::Copyable;
+  unsigned bank = 1;
+  bool clock = true, data = true, low = false;  // low: the EEPROM's doing
+  char waits_for = '-';                         // control byte, address, byte to write, byte to read
+  unsigned count = 0, byte = 0, place = 0;
+  std::vector<unsigned> cells = std::vector<unsigned>(2048, 0xFF);
+
+  void set_data(bool level) {
+    if (clock && level != data) waits_for = level ? '-' : 'c', count = byte = 0, low = false;
+    data = level;
+  }
+  void rise() {
+    const bool bit = data && !low;
+    if (waits_for == '-') return;
+    if (count == 8 && waits_for == 'r' && bit) waits_for = '-';
+    if (count < 8) byte = (2 * byte + (bit ? 1 : 0)) % 256;
+    ++count;
+  }
+  void fall() {
+    low = false;
+    if (waits_for == '-') return;
+    const char awaited = waits_for;
+    if (count == 8 && awaited == 'c') {
+      low = byte / 16 == 0xA;
+      waits_for = !low ? '-' : byte % 2 == 1 ? 'r' : 'a';
+      if (low) place = byte / 2 % 8 * 256 + place % 256;
+    } else if (count == 8 && awaited == 'a') {
+      low = true;
+      waits_for = 'w';
+      place = place / 256 * 256 + byte;
+    } else if (count == 8) {
+      if (awaited == 'w') low = true, cells[place] = byte;
+      place = (place + 1) % 2048;
+    }
+    if (count == 9) count = 0;
+    if (waits_for == 'r' && count < 8) low = (cells[place] >> (7 - count)) % 2 == 0;
+  }
+  void access(unsigned a) {
+    if (a >= 0x1FE0 && a <= 0x1FEF) bank = a - 0x1FE0;
+    if (a == 0x1FF2 || a == 0x1FF3) set_data(a == 0x1FF3);
+    if (a != 0x1FF0 && a != 0x1FF1) return;
+    const bool level = a == 0x1FF1;
+    if (level != clock) {
+      clock = level;
+      level ? rise() : fall();
+    }
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    const unsigned value = image[bank * 4096 + (a & 0xFFF)];
+    return a == 0x1FF4 ? value / 2 * 2 + (data && !low ? 1 : 0) : value;
+  }
+  void write(unsigned a, unsigned) override { access(a); }
+};
+
 // UA, its clones, 0FA0 and 0840.
 template <unsigned kMask, unsigned kBank0, unsigned kBank1>
 struct ModelTwo : Copyable<ModelTwo<kMask, kBank0, kBank1>> {
@@ -195,8 +261,10 @@ struct Model03e0 : Copyable<Model03e0> {
   void write(unsigned a, unsigned) override { access(a); }
 };
 
-struct ModelWd : Copyable<ModelWd> {
-  using Copyable::Copyable;
+// kSwapped: WDSW.
+template <bool kSwapped>
+struct ModelWd : Copyable<ModelWd<kSwapped>> {
+  using Copyable<ModelWd>::Copyable;
   unsigned arrangement = 0, next = 0, left = 0;
   std::array<unsigned, 64> ram{};
   void access(unsigned a) {
@@ -211,8 +279,9 @@ struct ModelWd : Copyable<ModelWd> {
     static constexpr unsigned kSlices[8] = {0x0013, 0x0123, 0x4567, 0x7423, 0x0067, 0x0176, 0x2345, 0x6051};
     access(a);
     if (a < 0x1000) return kNotOurs;
-    const unsigned slice = kSlices[arrangement] >> (12 - 4 * (a >> 10 & 3)) & 0xF;
-    const unsigned value = a <= 0x103F ? ram[a - 0x1000] : image[slice * 1024 + (a & 0x3FF)];
+    unsigned slice = kSlices[arrangement] >> (12 - 4 * (a >> 10 & 3)) & 0xF;
+    if (kSwapped && slice / 2 == 1) slice = 5 - slice;
+    const unsigned value = a <= 0x103F ? ram[a - 0x1000] : this->image[slice * 1024 + (a & 0x3FF)];
     pass();
     return value;
   }

@@ -7,6 +7,7 @@
 #include "emulator/cartridge/mappers/cdf.hpp"
 #include "emulator/cartridge/mappers/dpc.hpp"
 #include "emulator/cartridge/mappers/dpcplus.hpp"
+#include "emulator/cartridge/mappers/savecircuit.hpp"
 #include "environment/saved/saved_state_format.hpp"
 #include "environment/saved_state.hpp"
 #include "tests/environment/steered.hpp"
@@ -88,20 +89,23 @@ struct Most {
 
 constexpr std::uint8_t kAny = 255;
 const std::vector<Most> kMost = {
-    {"F8", 0, 1},     {"F8 swapped", 0, 1}, {"F8SC", 0, 1},   {"F6", 0, 3},       {"F6SC", 0, 3},
-    {"F4", 0, 7},     {"F4SC", 0, 7},       {"FASC", 0, 2},   {"E0", 0, 7},       {"E0", 1, 7},
-    {"E0", 2, 7},     {"E0", 3, 7},         {"E7", 0, 7},     {"E7", 1, 3},       {"DPC", 0, 1},
-    {"3F", 0, 3},     {"3E", 0, 7},         {"3E", 1, 31},    {"3E", 2, 1},       {"UA", 0, 1},
-    {"AR", 0, kAny},  {"AR", 1, kAny},      {"AR", 2, 1},     {"MB", 0, 15},      {"3EX", 0, 7},
-    {"3EX", 1, kAny}, {"3EX", 2, 1},        {"JANE", 0, 3},   {"UA clone", 0, 1}, {"UASW", 0, 1},
-    {"0FA0", 0, 1},   {"0840", 0, 1},       {"03E0", 0, 7},   {"03E0", 1, 7},     {"03E0", 2, 7},
-    {"03E0", 3, 7},   {"3E+", 0, 0xBF},     {"3E+", 1, 0xBF}, {"3E+", 2, 0xBF},   {"3E+", 3, 0xBF},
-    {"FA2", 0, 6},    {"FC", 0, 7},         {"FC", 1, 7},     {"SB", 0, 31},      {"EF", 0, 15},
-    {"EFSC", 0, 15},  {"DF", 0, 31},        {"DFSC", 0, 31},  {"BF", 0, 63},      {"BFSC", 0, 63},
-    {"MC", 0, kAny},  {"MC", 1, kAny},      {"MC", 2, kAny},  {"MC", 3, kAny},    {"MC", 4, 1},
-    {"DPC+", 0, 5},   {"DPC+", 1, 1},       {"DPC+", 2, 1},   {"CDFJ", 0, 6},     {"CDFJ", 1, 1},
-    {"CDFJ", 2, 1},   {"CDFJ+", 0, 6},      {"CDFJ+", 1, 1},  {"CDFJ+", 2, 1},    {"X07", 0, 15},
-    {"WD", 0, 7},     {"WD", 1, 7},         {"WD", 2, 3},     {"MDM", 0, 7},      {"MDM", 1, 1}};
+    {"F8", 0, 1},      {"F8 swapped", 0, 1}, {"F8SC", 0, 1},    {"F6", 0, 3},       {"F6SC", 0, 3},
+    {"F4", 0, 7},      {"F4SC", 0, 7},       {"FASC", 0, 2},    {"E0", 0, 7},       {"E0", 1, 7},
+    {"E0", 2, 7},      {"E0", 3, 7},         {"E7", 0, 7},      {"E7", 1, 3},       {"DPC", 0, 1},
+    {"3F", 0, 3},      {"3E", 0, 7},         {"3E", 1, 31},     {"3E", 2, 1},       {"UA", 0, 1},
+    {"AR", 0, kAny},   {"AR", 1, kAny},      {"AR", 2, 1},      {"MB", 0, 15},      {"3EX", 0, 7},
+    {"3EX", 1, kAny},  {"3EX", 2, 1},        {"JANE", 0, 3},    {"UA clone", 0, 1}, {"UASW", 0, 1},
+    {"0FA0", 0, 1},    {"0840", 0, 1},       {"03E0", 0, 7},    {"03E0", 1, 7},     {"03E0", 2, 7},
+    {"03E0", 3, 7},    {"3E+", 0, 0xBF},     {"3E+", 1, 0xBF},  {"3E+", 2, 0xBF},   {"3E+", 3, 0xBF},
+    {"FA2", 0, 6},     {"FC", 0, 7},         {"FC", 1, 7},      {"SB", 0, 31},      {"EF", 0, 15},
+    {"EFSC", 0, 15},   {"DF", 0, 31},        {"DFSC", 0, 31},   {"BF", 0, 63},      {"BFSC", 0, 63},
+    {"MC", 0, kAny},   {"MC", 1, kAny},      {"MC", 2, kAny},   {"MC", 3, kAny},    {"MC", 4, 1},
+    {"DPC+", 0, 5},    {"DPC+", 1, 1},       {"DPC+", 2, 1},    {"CDFJ", 0, 6},     {"CDFJ", 1, 1},
+    {"CDFJ", 2, 1},    {"CDFJ+", 0, 6},      {"CDFJ+", 1, 1},   {"CDFJ+", 2, 1},    {"X07", 0, 15},
+    {"WD", 0, 7},      {"WD", 1, 7},         {"WD", 2, 3},      {"MDM", 0, 7},      {"MDM", 1, 1},
+    {"4A50", 0, 0x4F}, {"4A50", 1, 0x4F},    {"4A50", 2, kAny}, {"4A50", 3, 1},     {"CDF0", 0, 6},
+    {"CDF0", 1, 1},    {"CDF0", 2, 1},       {"CDF", 0, 6},     {"CDF", 1, 1},      {"CDF", 2, 1},
+    {"WF8", 0, 1},     {"WDSW", 0, 7},       {"WDSW", 1, 7},    {"WDSW", 2, 3},     {"EFF", 0, 15}};
 
 std::uint8_t most_of(std::string_view scheme, std::size_t index) {
   for (const Most& one : kMost)
@@ -209,6 +213,20 @@ TEST_CASE("Registers that DPC+'s chip can't have are refused") {
     CHECK_THAT(refusal_of_chip(environment, spoil), Catch::Contains("has no such banks or registers"));
 }
 
+TEST_CASE("Lines and bits that EFF's EEPROM can't have are refused") {
+  using savecircuit::Eeprom;
+  Environment environment = random_machine("EFF");
+  CHECK(refusal_of_chip<Eeprom>(environment, [](Eeprom& eeprom) {
+          eeprom = {2047, savecircuit::kReads, 9, 255, 1, 1, 1};
+        }).empty());
+  const std::function<void(Eeprom&)> spoilt[] = {
+      [](Eeprom& eeprom) { eeprom.pointer = 2048; }, [](Eeprom& eeprom) { eeprom.phase = 5; },
+      [](Eeprom& eeprom) { eeprom.bits = 10; },      [](Eeprom& eeprom) { eeprom.clock = 2; },
+      [](Eeprom& eeprom) { eeprom.data = 2; },       [](Eeprom& eeprom) { eeprom.pulls = 2; }};
+  for (const auto& spoil : spoilt)
+    CHECK_THAT(refusal_of_chip(environment, spoil), Catch::Contains("has no such banks or registers"));
+}
+
 TEST_CASE("Registers that CDFJ's chip can't have are refused") {
   using cdf::Chip;
   Environment environment = random_machine("CDFJ");
@@ -218,7 +236,7 @@ TEST_CASE("Registers that CDFJ's chip can't have are refused") {
     chip.clock.into_sample = harmony::kSampleParts - 1;
     chip.follower = {0x1FFF, 2, 0xFF};
     chip.wave.fill(31);
-    chip.plays_waves = 1, chip.jump = 0x22, chip.stopped = 1;
+    chip.plays_waves = 1, chip.jump = 0x22, chip.stopped = 1, chip.loads = 3, chip.first_stream = 220;
   };
   CHECK(refusal_of_chip<Chip>(environment, highest).empty());
   const std::function<void(Chip&)> spoilt[] = {
@@ -232,7 +250,8 @@ TEST_CASE("Registers that CDFJ's chip can't have are refused") {
       [](Chip& chip) { chip.jump = 0x20; },
       [](Chip& chip) { chip.jump = 0x23; },
       [](Chip& chip) { chip.stopped = 2; },
-      [](Chip& chip) { chip.spare[1] = 1; }};
+      [](Chip& chip) { chip.loads = 4; },
+      [](Chip& chip) { chip.first_stream = 221; }};
   for (const auto& spoil : spoilt)
     CHECK_THAT(refusal_of_chip(environment, spoil), Catch::Contains("has no such banks or registers"));
 }

@@ -77,7 +77,7 @@ TEST_CASE("The console of an image can be told, is shown, and is refused where i
   CHECK(value(reply, "left") == "joystick");
   for (const auto& [words, sentence] :
        {std::pair("scheme=F8", "the cartridge scheme F8 needs an image of at least 8192 bytes"),
-        {"scheme=4A50", "unsupported cartridge scheme '4A50'"},
+        {"scheme=BUS", "unsupported cartridge scheme 'BUS'"},
         {"scheme=F9", "unknown cartridge scheme 'F9'"},
         {"left=mindlink", "left is 'mindlink'; it takes joystick, paddles"},
         {"format=hd", "format is 'hd'; it takes auto, ntsc, pal, pal60, secam"},

@@ -110,7 +110,7 @@ class TestOwn:
         assert envs.single_observation_space.shape[1] == 220
         for words, sentence in (
             ({"scheme": "F8"}, "8192"),
-            ({"scheme": "4A50"}, "unsupported cartridge scheme '4A50'"),
+            ({"scheme": "BUS"}, "unsupported cartridge scheme 'BUS'"),
             ({"left": "mindlink"}, "joystick, paddles"),
             ({"height": 99}, "100 to 256"),
         ):

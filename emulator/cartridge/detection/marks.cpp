@@ -1,4 +1,4 @@
-#include "emulator/cartridge/mappers/marks.hpp"
+#include "emulator/cartridge/detection/marks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,10 +18,12 @@ struct Text {
 };
 
 constexpr std::size_t kAnySize = ~std::size_t{0};
+constexpr std::string_view kCdf0("CDF\0", 4);  // the version behind the text is a byte
 constexpr Text kTexts[] = {
     {"DPC+", 1, 8192, kAnySize, "DPC+"},
     {"PLUSCDFJ", 1, 8192, kAnySize, "CDFJ+"},
     {"CDFJ", 2, 8192, kAnySize, "CDFJ"},
+    {kCdf0, 2, 8192, kAnySize, "CDF0"},
     {"CDF", 2, 8192, kAnySize, "CDF"},
     {"BUS", 2, 32768, kAnySize, "BUS"},
     {"EFEF", 1, 65536, 65536, "EF"},
