@@ -122,9 +122,12 @@ std::vector<std::string_view> game_names() {
   return names;
 }
 
-std::shared_ptr<const Game> load_game_file(const std::string& path) {
-  const std::string text = read_input_file("game file", path, kMaxGameFile);
+std::shared_ptr<const Game> game_in_file(std::string_view text, const std::string& path) {
   return std::make_shared<const Game>(parse_game(text, as_name(stem_of(path)), path));
+}
+
+std::shared_ptr<const Game> load_game_file(const std::string& path) {
+  return game_in_file(read_input_file("game file", path, kMaxGameFile), path);
 }
 
 std::vector<std::shared_ptr<const Game>> load_game_folder(const std::string& folder) {

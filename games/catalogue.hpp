@@ -42,6 +42,9 @@ std::vector<std::string_view> game_names();  // of catalogue(), in its order
 // Loads a game file of the user. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 std::shared_ptr<const Game> load_game_file(const std::string& path);
 
+// The game of a game file's contents, which load_game_file() reads like this.
+std::shared_ptr<const Game> game_in_file(std::string_view text, const std::string& path);
+
 // Loads all files of a folder that end in .toml. Throws InvalidInput for the first wrong one, and for a
 // folder without such files.
 std::vector<std::shared_ptr<const Game>> load_game_folder(const std::string& folder);

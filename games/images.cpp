@@ -63,6 +63,14 @@ void Images::add(std::shared_ptr<const Image> image, const Recognition& recognit
   put(by_md5_, image->md5);
 }
 
+const Cartridge& Images::put(const std::shared_ptr<const Image>& image,
+                             const std::shared_ptr<const Game>& own) {
+  const Recognition recognition = own ? recognise_as(*image, own) : recognise(*image);
+  scheme_of(*image->bytes, recognition.game->properties_for(image->md5).scheme);  // throws
+  const Entry entry{{image, recognition.game}, certainty_of(recognition.how)};
+  return by_md5_.insert_or_assign(image->md5, entry).first->second.cartridge;
+}
+
 const Cartridge* Images::find(std::string_view name) const {
   for (const auto* map : {&by_name_, &by_md5_}) {
     if (const auto found = map->find(name); found != map->end()) return &found->second.cartridge;

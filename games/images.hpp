@@ -1,5 +1,5 @@
-// The cartridge images that clients may load: by name or MD5, never by path. Read once, when the server
-// starts; const afterwards, and shared by all sessions.
+// The cartridge images that clients may load: by name or MD5, never by path. A server reads them once, when
+// it starts; they are const afterwards, and shared by all sessions.
 #pragma once
 
 #include <map>
@@ -24,6 +24,11 @@ class Images {
   void add_folder(const std::string& folder, const std::vector<std::shared_ptr<const Game>>& own = {});
   // Gives the images that are part of the program to the user's games, as recognise_among() does.
   void add_built_in(const std::vector<std::shared_ptr<const Game>>& own);
+
+  // Adds an image that is found by its MD5 only. It replaces the one with this MD5. own: its game; null: the
+  // catalogue decides. Returns what find() returns. Throws InvalidInput if no cartridge scheme fits the
+  // image.
+  const Cartridge& put(const std::shared_ptr<const Image>& image, const std::shared_ptr<const Game>& own);
 
   // name: a game of the catalogue, the stem of an unknown image's file, or an MD5. Returns null if there is
   // no such image.

@@ -1,11 +1,10 @@
 #include "games/rom_image.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 
+#include "games/gzip.hpp"
 #include "games/md5.hpp"
 #include "games/zip_archive.hpp"
 #include "system/input_file.hpp"
@@ -47,7 +46,7 @@ std::size_t mirror(std::vector<std::uint8_t>& bytes) {
 std::shared_ptr<const Image> image_of(std::vector<std::uint8_t> bytes, std::string stem) {
   std::string md5 = md5_of(bytes);
   const std::size_t file_size = mirror(bytes);
-  bytes.shrink_to_fit();  // it was read into space for the largest image
+  bytes.shrink_to_fit();  // it was unpacked into space for the largest image
   return std::make_shared<const Image>(
       Image{std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes)), std::move(md5),
             std::move(stem), file_size});
@@ -74,26 +73,9 @@ bool looks_like_archive(const std::filesystem::path& path) {
   return ending == ".zip" || ending == ".7z";
 }
 
-struct Closer {
-  void operator()(gzFile file) const { gzclose(file); }
-};
-using GzipFile = std::unique_ptr<gzFile_s, Closer>;
-
-// Reads one byte more than an image may have, at most. zlib passes files through that are not gzip.
-std::vector<std::uint8_t> read_file(const std::string& path) {
-  const GzipFile file(gzdopen(open_input_file("image", path), "rb"));
-  std::vector<std::uint8_t> bytes(kMaxImageSize + 1);
-  const int count = gzread(file.get(), bytes.data(), static_cast<unsigned>(bytes.size()));
-  int error = Z_OK;
-  gzerror(file.get(), &error);
-  if (error == Z_BUF_ERROR) refuse(path, "the gzip file is truncated");
-  if (count < 0) refuse(path, error == Z_ERRNO ? "the file cannot be read" : "the gzip file is damaged");
-  bytes.resize(static_cast<std::size_t>(count));
-  return bytes;
-}
-
 // Archives
 
+constexpr std::size_t kLargestFile = 16 << 20;
 constexpr std::string_view kSevenZip = "7z\xBC\xAF\x27\x1C";
 
 // What the archiver of macOS adds to each file.
@@ -108,21 +90,27 @@ std::string names_of(const std::vector<ZipEntry>& entries) {
 }
 
 // The one image of a zip archive. Its own name counts, not that of the archive.
-std::shared_ptr<const Image> image_in_zip(const std::string& path) {
-  constexpr std::size_t kLargestArchive = 16 << 20;
-  const std::string archive = read_input_file("image", path, kLargestArchive);
-  try {
-    std::vector<ZipEntry> images = zip_entries(archive);
-    std::erase_if(images,
-                  [](const ZipEntry& entry) { return !looks_like_image(entry.name) || is_fork(entry.name); });
-    if (images.empty()) throw InvalidInput("the zip archive has no file that ends in .bin, .a26 or .rom");
-    if (images.size() > 1)
-      throw InvalidInput("the zip archive has " + std::to_string(images.size()) +
-                         " images, and one is accepted: " + names_of(images));
-    return make_image(unzip(archive, images.front(), kMaxImageSize), stem_of(images.front().name));
-  } catch (const InvalidInput& error) {
-    refuse(path, error.what());
-  }
+std::shared_ptr<const Image> image_in_zip(std::string_view archive) {
+  std::vector<ZipEntry> images = zip_entries(archive);
+  std::erase_if(images,
+                [](const ZipEntry& entry) { return !looks_like_image(entry.name) || is_fork(entry.name); });
+  if (images.empty()) throw InvalidInput("the zip archive has no file that ends in .bin, .a26 or .rom");
+  if (images.size() > 1)
+    throw InvalidInput("the zip archive has " + std::to_string(images.size()) +
+                       " images, and one is accepted: " + names_of(images));
+  return make_image(unzip(archive, images.front(), kMaxImageSize), stem_of(images.front().name));
+}
+
+std::shared_ptr<const Image> unpacked(std::string_view file, const std::string& where) {
+  if (is_zip(file)) return image_in_zip(file);
+  if (file.starts_with(kSevenZip))
+    throw InvalidInput("7z archives are not read; unpack it, or make it a zip archive with one image");
+  std::vector<std::uint8_t> bytes =
+      is_gzip(file) ? gunzip(file, kMaxImageSize) : std::vector<std::uint8_t>(file.begin(), file.end());
+  if (bytes.empty()) throw InvalidInput("the file is empty");
+  if (bytes.size() > kMaxImageSize)
+    throw InvalidInput("larger than the largest image, " + std::to_string(kMaxImageSize) + " bytes");
+  return image_of(std::move(bytes), stem_of(where));
 }
 
 }  // namespace
@@ -149,17 +137,17 @@ std::vector<std::string> image_files(const std::string& folder) {
   return files;
 }
 
+std::shared_ptr<const Image> image_in_file(std::string_view file, const std::string& name) {
+  try {
+    return unpacked(file, name);
+  } catch (const InvalidInput& error) {
+    refuse(name, error.what());
+  }
+}
+
 std::shared_ptr<const Image> load_image(const std::string& where) {
   if (where.starts_with(kBuiltIn)) return built_in(std::string_view(where).substr(kBuiltIn.size()));
-  std::vector<std::uint8_t> bytes = read_file(where);
-  if (bytes.empty()) refuse(where, "the file is empty");
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (is_zip(text)) return image_in_zip(where);
-  if (text.starts_with(kSevenZip))
-    refuse(where, "7z archives are not read; unpack it, or make it a zip archive with one image");
-  if (bytes.size() > kMaxImageSize)
-    refuse(where, "larger than the largest image, " + std::to_string(kMaxImageSize) + " bytes");
-  return image_of(std::move(bytes), stem_of(where));
+  return image_in_file(read_input_file("image", where, kLargestFile), where);
 }
 
 }  // namespace racebeam

@@ -30,6 +30,10 @@ struct Image {
 // with a sentence.
 std::shared_ptr<const Image> load_image(const std::string& where);
 
+// The image in the contents of a file, which load_image() reads like this. Throws InvalidInput with a
+// sentence.
+std::shared_ptr<const Image> image_in_file(std::string_view file, const std::string& name);
+
 // Makes an image of bytes. `stem` is its name. Throws InvalidInput if `bytes` is empty or too long.
 std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const std::string& stem);
 

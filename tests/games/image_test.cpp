@@ -69,6 +69,16 @@ TEST_CASE("an image that cannot be had is refused with the reason") {
   CHECK_THROWS_WITH(load_image(gzipped(scratch, "empty.gz", "")), Contains("empty"));
 }
 
+TEST_CASE("a gzip file may have several members, and other bytes after them") {
+  const Scratch scratch;
+  std::string bytes;
+  for (const char* half : {"first", "second"}) {
+    std::ifstream member(gzipped(scratch, half, half), std::ios::binary);
+    bytes.append(std::istreambuf_iterator<char>(member), {});
+  }
+  CHECK(contents(*load_image(scratch.write("two.gz", bytes + "and more"))) == "firstsecond");
+}
+
 TEST_CASE("a truncated or damaged gzip file is refused") {
   const Scratch scratch;
   std::ifstream whole(gzipped(scratch, "whole.gz", numbers(20000)), std::ios::binary);
