@@ -4,11 +4,14 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
-import test from "node:test";
+import test, { after } from "node:test";
 import { launch, LostError, RefusedError } from "racebeam";
-import { EmulatorWorker, open } from "racebeam/wasm";
+import { gzipSync } from "node:zlib";
+import { addImage, EmulatorWorker, open } from "racebeam/wasm";
 
 const source = readFileSync(process.env.RACEBEAM_WASM);
+const worker = new EmulatorWorker({ source });
+after(() => worker.end());
 const path = (name) => new URL(`../../../${name}`, import.meta.url);
 const IMAGE = readFileSync(path("games/homebrew/updraft.bin"));
 
@@ -116,6 +119,45 @@ test("an image from outside is played", async (context) => {
   const sent = await digest(game, 50);
   await game.load("updraft", { seed: (await game.settings()).seed });
   assert.equal(await digest(game, 50), sent);
+});
+
+const CHANGED = Uint8Array.from(IMAGE); // an image that no game file lists
+CHANGED[CHANGED.length - 8] ^= 1; // between the code and the vectors
+const file = (name, ...parts) => Object.assign(new Blob(parts), { name });
+
+for (const [kind, add] of [["the process", (blob, options) => addImage(blob, { source, ...options })], ["a worker", (blob, options) => worker.addImage(blob, options)]]) {
+  test(`an image that is added in ${kind} is loaded by its MD5`, async () => {
+    const known = await add(file("any.bin", IMAGE));
+    assert.deepEqual(known, { md5: createHash("md5").update(IMAGE).digest("hex"), game: "updraft" });
+    const added = await add(file("Mine.bin.gz", gzipSync(CHANGED)));
+    assert.deepEqual(added, { md5: createHash("md5").update(CHANGED).digest("hex"), game: "mine" });
+    const game = await (kind === "a worker" ? worker.open() : open({ source }));
+    assert.deepEqual((({ rule, md5 }) => ({ rule, md5 }))(await game.load(added.md5)), { rule: 0, md5: added.md5 });
+    await add(file("mine.bin", CHANGED), { gameFile: file("game.toml", readFileSync(path("games/catalogue/updraft.toml"))) });
+    assert.deepEqual((({ rule, game }) => ({ rule, game }))(await game.load(added.md5)), { rule: 1, game: "game" });
+    await game.disconnect();
+  });
+}
+
+const REFUSED = {
+  "image empty.bin: the file is empty": [file("empty.bin")],
+  "image large.bin: larger than the largest image, 524288 bytes": [file("large.bin", new Uint8Array(524289))],
+  "huge.bin: larger than 16777216 bytes": [file("huge.bin", new Uint8Array(2 ** 24 + 1))],
+  "image cut.gz: the gzip file is truncated": [file("cut.gz", gzipSync(IMAGE).subarray(0, 500))],
+  "image a.zip: the zip archive is damaged": [file("a.zip", "PK\x03\x04...")],
+  "image a.7z: 7z archives are not read": [file("a.7z", Uint8Array.from([0x37, 0x7a, 0xbc, 0xaf, 0x27, 0x1c]))],
+  "no cartridge scheme fits an image of 3000 bytes": [file("odd.bin", new Uint8Array(3000))],
+  "game.toml:1: title: a game must have this key": [file("a.bin", IMAGE), { gameFile: file("game.toml", "modes = [1]\n") }],
+};
+
+test("files that cannot be played are refused", async () => {
+  for (const [sentence, [image, options]] of Object.entries(REFUSED)) {
+    await assert.rejects(addImage(image, { source, ...options }), (error) => {
+      assert.ok(error instanceof RefusedError);
+      assert.ok(error.message.startsWith("bad-image: ") && error.message.includes(sentence), error.message);
+      return true;
+    });
+  }
 });
 
 test("seeds are drawn at random", async (context) => {

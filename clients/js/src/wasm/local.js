@@ -2,6 +2,7 @@ import { fillRandom, readBytes } from "#system";
 import { LostError } from "../errors.js";
 import { rawSize } from "../raw.js";
 
+const encoder = new TextEncoder();
 const NEWLINE = 10;
 const NOT_SUPPORTED = 58; // as a result of WASI's functions; those of Emscripten return it negated
 
@@ -66,10 +67,13 @@ class LocalConnection {
     this.#receiver = receiver;
   }
 
-  send(line) {
+  /** Sends a line, or adds an image for all sessions: { image, gameFile }, each with its name and bytes. */
+  send(request) {
     try {
-      for (let rest = new TextEncoder().encode(`${line}\n`); rest.length;) {
-        rest = this.#take(rest);
+      if (typeof request === "string") {
+        this.#ask(request);
+      } else {
+        this.#add(request);
       }
       if (this.#emulator.calls.finished(this.#session)) {
         this.#receiver.lost(new LostError("the session has ended"));
@@ -84,18 +88,32 @@ class LocalConnection {
     this.#session = 0;
   }
 
-  /** Takes bytes of a request, and gives the replies to the receiver. Returns the bytes that are left. */
-  #take(bytes) {
+  #ask(line) {
     const { calls } = this.#emulator;
-    const some = bytes.subarray(0, calls.room(this.#session));
-    this.#emulator.memory.set(some, calls.space(this.#session));
-    const size = calls.run(this.#session, some.length);
-    const at = calls.replies();
-    this.#deliver(this.#emulator.memory.subarray(at, at + size));
-    return bytes.subarray(some.length);
+    for (let rest = encoder.encode(`${line}\n`); rest.length;) {
+      const some = rest.subarray(0, calls.room(this.#session));
+      this.#emulator.memory.set(some, calls.space(this.#session));
+      this.#deliver(calls.run(this.#session, some.length));
+      rest = rest.subarray(some.length);
+    }
   }
 
-  #deliver(replies) {
+  #add({ image, gameFile = { name: "", bytes: new Uint8Array() } }) {
+    const { calls } = this.#emulator;
+    const parts = [encoder.encode(image.name), image.bytes, encoder.encode(gameFile.name), gameFile.bytes];
+    const sizes = parts.map((part) => part.length);
+    let at = calls.file_space(sizes.reduce((sum, size) => sum + size));
+    for (const part of parts) {
+      this.#emulator.memory.set(part, at);
+      at += part.length;
+    }
+    this.#deliver(calls.add_image(...sizes.slice(0, 3)));
+  }
+
+  /** Gives replies of so many bytes to the receiver. */
+  #deliver(size) {
+    const at = this.#emulator.calls.replies();
+    let replies = this.#emulator.memory.subarray(at, at + size);
     while (replies.length) {
       const end = replies.indexOf(NEWLINE);
       const line = new TextDecoder().decode(replies.subarray(0, end));

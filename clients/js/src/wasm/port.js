@@ -1,4 +1,4 @@
-// The line protocol over a MessagePort: a message is a request's line, or a reply's line and bytes.
+// The line protocol over a MessagePort: a message is a request's line or an image to add, or a reply's line and bytes.
 
 import { LostError } from "../errors.js";
 
@@ -24,8 +24,8 @@ export class PortConnection {
     this.#failed.catch((error) => receiver.lost(new LostError(`the worker has failed: ${error.message}`, { cause: error })));
   }
 
-  send(line) {
-    this.#port.postMessage(line);
+  send(request) {
+    this.#port.postMessage(request);
   }
 
   end() {
@@ -42,12 +42,12 @@ export async function serve(port, connecting) {
       reply: (line, bytes) => port.postMessage({ line, bytes }, [bytes.buffer]),
       lost: (error) => port.postMessage({ lost: error.message }),
     });
-    port.onmessage = ({ data: line }) => {
-      if (line === null) {
+    port.onmessage = ({ data: request }) => {
+      if (request === null) {
         connection.end();
         port.close();
       } else {
-        connection.send(line);
+        connection.send(request);
       }
     };
   } catch (error) {
