@@ -37,7 +37,7 @@ def in_browser(option, least, program, *marks):
         pytest.param("unit", 50, id="unit"),
         in_browser("browser", 30, "chromium"),
         in_browser("firefox", 4, "firefox-esr"),
-        in_browser("static", 3, "chromium", BUILT),
+        in_browser("static", 14, "chromium", pytest.mark.needs_programs("firefox-esr"), BUILT),
     ),
 )
 def test_it_passes(option, least):

@@ -7,6 +7,8 @@ import { WatchView } from "./watch/watch_view.js";
 const VIEWS = ["play", "watch", "replay"] as const;
 type View = typeof VIEWS[number];
 
+declare const WITHOUT_SERVER: boolean; // build.mjs --static
+
 let shown: View | undefined;
 
 const server = new Server();
@@ -45,6 +47,11 @@ function show(view: View): void {
   watch.active = view === "watch";
 }
 
+if (WITHOUT_SERVER) {
+  const { OwnImages } = await import("./play/own_images.js");
+  new OwnImages((md5) => play.add(md5));
+  byId("watch", HTMLElement).hidden = true; // other clients share nothing with this page
+}
 addEventListener("hashchange", navigate);
 navigate();
 await replay.follow(location.hash);

@@ -1,5 +1,5 @@
 import type { Session } from "racebeam";
-import { EmulatorWorker } from "racebeam/wasm";
+import { EmulatorWorker, type AddedImage, type Beside, type NamedBlob } from "racebeam/wasm";
 
 const worker = new EmulatorWorker({
   source: new URL("racebeam.wasm", document.baseURI),
@@ -9,4 +9,9 @@ const worker = new EmulatorWorker({
 /** A session of the page's own emulator. */
 export function open(): Promise<Session> {
   return worker.open();
+}
+
+/** Makes an image known to these sessions. */
+export function addImage(file: NamedBlob, beside: Beside): Promise<AddedImage> {
+  return worker.addImage(file, beside);
 }

@@ -80,12 +80,17 @@ export class Server {
   }
 }
 
-/** What failed, for people: a refusal without its code, and without the advice for authors of clients after the semicolon. */
-export function reasonOf(error: unknown): string {
+/** What failed, for people: a refusal without its code. */
+export function sentenceOf(error: unknown): string {
   if (error instanceof RefusedError) {
-    return error.message.slice(`${error.code}: `.length).split(";")[0]!;
+    return error.message.slice(`${error.code}: `.length);
   }
   return error instanceof Error ? error.message : String(error);
+}
+
+/** The same, without the advice for authors of clients after the semicolon. */
+export function reasonOf(error: unknown): string {
+  return error instanceof RefusedError ? sentenceOf(error).split(";")[0]! : sentenceOf(error);
 }
 
 /** Whether the server shares all sessions: it then refuses to unshare one. */

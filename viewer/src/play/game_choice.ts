@@ -43,7 +43,7 @@ export class GameChoice {
   /** Shows a game that was loaded, its modes and its difficulties. `described`: the reply of `games GAME`. */
   show(game: Game, described: Group, difficulties: readonly number[]): void {
     this.#game = game;
-    this.#games.mark(game.name);
+    this.#games.mark(game.key);
     const two = new Set(list(described.two_player_modes));
     const modes = new Set([...list(described.modes), ...two]);
     offer(this.#mode, [...modes].map((mode) => [mode, two.has(mode) ? `${mode}, two players` : mode]), String(game.mode));
@@ -63,8 +63,8 @@ export class GameChoice {
 
   #choose(change: Partial<Choice>): void {
     if (this.#game) {
-      const { name, mode } = this.#game;
-      this.chosen({ game: name, mode, difficulty: this.#difficulty, ...change });
+      const { key: game, mode } = this.#game;
+      this.chosen({ game, mode, difficulty: this.#difficulty, ...change });
     }
   }
 }

@@ -15,7 +15,7 @@ import { Speaker } from "../sound/speaker.js";
 import { Figures } from "./figures.js";
 import { GameChoice } from "./game_choice.js";
 import { Pictures } from "./pictures.js";
-import { Player, type Choice, type Motion, type Shown } from "./player.js";
+import { Player, type Choice, type Game, type Motion, type Shown } from "./player.js";
 
 const INSPECTED = ["grey84x84x1:delta", "tia:raw"]; // fields of the panels
 
@@ -41,7 +41,8 @@ export class PlayView {
   #session: Session | undefined;
   #lost = false;
   #active = false;
-  #begun = false;
+  #begun: Promise<void> | undefined;
+  #games: string[] = [];
   #minimal: number[] = [0]; // actions of the game
 
   constructor(server: Server) {
@@ -63,6 +64,7 @@ export class PlayView {
   async #begin(): Promise<void> {
     await this.#open();
     const games = await this.#session!.games();
+    this.#games = games;
     this.#choice.offer(games);
     const named = new URLSearchParams(location.search).get("game");
     const first = named && games.includes(named) ? named : games[0];
@@ -79,13 +81,18 @@ export class PlayView {
     this.#active = active;
     if (active) {
       requestAnimationFrame((now) => this.#tick(now));
-      if (!this.#begun) {
-        this.#begun = true;
-        void this.#begin().catch((error) => this.#lose(error));
-      }
+      this.#begun ??= this.#begin().catch((error) => this.#lose(error));
     } else if (this.#player?.motion !== "paused") {
       this.#move("paused");
     }
+  }
+
+  /** Offers an image that the user has added, and loads it. */
+  async add(md5: string): Promise<Game> {
+    await this.#begun;
+    this.#games = [...new Set([...this.#games, md5])];
+    this.#choice.offer(this.#games);
+    return this.#choose({ game: md5 });
   }
 
   async #open(): Promise<void> {
@@ -114,9 +121,9 @@ export class PlayView {
     const { game, acts = [] } = this.#player ?? {};
     try {
       if (game) {
-        const { name, mode, difficulty, seed } = game;
+        const { key, mode, difficulty, seed } = game;
         await this.#open();
-        await this.#load({ game: name, mode, difficulty, seed }, acts);
+        await this.#load({ game: key, mode, difficulty, seed }, acts);
       } else {
         await this.#begin();
       }
@@ -126,7 +133,7 @@ export class PlayView {
     }
   }
 
-  async #load(choice: Choice, acts: readonly string[] = []): Promise<void> {
+  async #load(choice: Choice, acts: readonly string[] = []): Promise<Game> {
     const player = this.#player!;
     this.#move("paused");
     const game = await player.load(choice, acts);
@@ -136,25 +143,27 @@ export class PlayView {
     this.#screen.become(colours, game.format, game.height);
     this.#speaker.rate = soundRate(game.format);
     this.#inspector.begin(colours, await this.#session!.names());
-    const described = await this.#session!.game(game.name).catch((): Group => ({})); // an image without rules has no description
+    const described = await this.#session!.game(game.key).catch((): Group => ({})); // an image without rules has no description
     this.#minimal = String(described.minimal ?? "0").split(",").map(Number);
     this.#choice.show(game, described, await this.#session!.difficulties());
-    this.#screen.canvas.setAttribute("aria-label", `Screen of ${titleOf(game.name)}`);
+    this.#screen.canvas.setAttribute("aria-label", `Screen of ${titleOf(game.key)}`);
     const last = await this.#session!.look("screen");
     this.#screen.draw(last.screen);
-    this.#curtain(acts.length ? "Continue" : `Play ${titleOf(game.name)}`);
+    this.#curtain(acts.length ? "Continue" : `Play ${titleOf(game.key)}`);
+    return game;
   }
 
   /** The user has chosen a game or a setting: the new game begins at once if the one before was being played. */
-  async #choose(choice: Choice): Promise<void> {
-    const playing = this.#player?.motion === "playing" && choice.game === this.#player.game?.name;
-    await this.#load(choice);
+  async #choose(choice: Choice): Promise<Game> {
+    const playing = this.#player?.motion === "playing" && choice.game === this.#player.game?.key;
+    const game = await this.#load(choice);
     this.#stage.scrollIntoView({ block: "nearest" });
     if (playing) {
       this.#go();
     } else {
       this.#start.focus({ preventScroll: true });
     }
+    return game;
   }
 
   #listen(): void {
@@ -231,7 +240,7 @@ export class PlayView {
   #moveSwitch(bit: 1 | 2): void {
     const player = this.#player;
     if (player?.game && player.over) {
-      const { name: game, mode } = player.game;
+      const { key: game, mode } = player.game;
       void this.#choose({ game, mode, difficulty: player.difficulty ^ bit }).catch((error) => this.#lose(error));
     } else {
       player?.act(moveOf(bit, player.difficulty));
@@ -299,9 +308,9 @@ export class PlayView {
   #replayThis(): void {
     const { game, acts = [] } = this.#player ?? {};
     if (game) {
-      const { name, mode, difficulty, seed } = game;
+      const { key, mode, difficulty, seed } = game;
       const settings = { seed: String(seed), mode: String(mode), difficulty: String(difficulty), sticky: "0", frame_skip: "1", action_set: "console" };
-      this.replay({ title: `${titleOf(name)}, played here`, game: name, settings, acts: [...acts] });
+      this.replay({ title: `${titleOf(key)}, played here`, game: key, settings, acts: [...acts] });
     }
   }
 

@@ -16,6 +16,8 @@ const FIELDS = ["reward", "terminated", "truncated", "lives", "screen:delta", "a
 
 /** What is known of the game that is loaded. */
 export interface Game {
+  /** What it was loaded as: its name, or the MD5 of an image that the user added. */
+  key: string;
   name: string;
   md5: string;
   format: string;
@@ -24,6 +26,8 @@ export interface Game {
   difficulty: number;
   seed: number;
   rule: boolean;
+  /** What is to be said of the image, if anything: "other" or "doubtful". */
+  image: string;
 }
 
 /** What to load. Without a mode, that of the game. */
@@ -113,7 +117,7 @@ export class Player {
     const { game, seed = newSeed(), ...settings } = choice;
     this.#busy = true;
     try {
-      this.#game = described(await this.#session.load(game, { sticky: 0, sound: 1, frame_skip: 1, action_set: "console", seed, ...settings }));
+      this.#game = described(game, await this.#session.load(game, { sticky: 0, sound: 1, frame_skip: 1, action_set: "console", seed, ...settings }));
       this.#pacer.restart(frameRate(this.#game.format));
       await this.#begin(acts);
       return this.#game;
@@ -267,7 +271,7 @@ function newSeed(): number {
   return 1 + Math.floor(Math.random() * 0xfffffffe);
 }
 
-function described(loaded: Group): Game {
-  const { game, md5, format, height, mode, difficulty, seed, rule } = loaded;
-  return { name: String(game), md5: String(md5), format, height, mode, difficulty, seed, rule: rule === 1 };
+function described(key: string, loaded: Group): Game {
+  const { game, md5, format, height, mode, difficulty, seed, rule, image = "" } = loaded;
+  return { key, name: String(game), md5: String(md5), format, height, mode, difficulty, seed, rule: rule === 1, image };
 }

@@ -1,5 +1,6 @@
 import type { Group, Session } from "racebeam";
 import { joined } from "../input/actions.js";
+import { isOwn } from "../page/titles.js";
 import { HASH_EVERY, hexOf, type Episode } from "./log.js";
 
 const MOST_STATES = 240;
@@ -77,6 +78,12 @@ export class Track {
     return this.#attempt(1, progress);
   }
 
+  /** Loads the game of the episode: with the image that the user has added, if the log names that. */
+  #load(session: Session): Promise<Group> {
+    const { game, md5 = "" } = this.#episode;
+    return isOwn(md5) ? session.load(md5, { as: game, ...this.#settings }) : session.load(game, this.#settings);
+  }
+
   /** The moment after a step, as the session shows it. */
   async show(step: number): Promise<Group> {
     const target = Math.max(0, Math.min(this.length, step));
@@ -97,7 +104,7 @@ export class Track {
 
   /** Records the episode under a name in the server's folder, in another session. The reply says what was made. */
   async film(session: Session, kind: string, name: string, progress: (part: number) => void): Promise<Group> {
-    await session.load(this.#episode.game, this.#settings);
+    await this.#load(session);
     await session.record(kind, name);
     for (let at = 0; at < this.length; at += FILMED_AHEAD) {
       await Promise.all(this.#steps.slice(at, at + FILMED_AHEAD).map((act) => session.act(act)));
@@ -108,9 +115,9 @@ export class Track {
 
   /** Plays with each act divided into `parts` frames. */
   async #attempt(parts: number, progress: (part: number) => void): Promise<Outcome> {
-    const { game, settings, acts } = this.#episode;
+    const { settings, acts } = this.#episode;
     this.#settings = { ...settings, ...(parts > 1 ? { frame_skip: 1 } : {}), sound: 1 };
-    this.#loaded = await this.#session.load(game, this.#settings);
+    this.#loaded = await this.#load(this.#session);
     this.#framesAStep = parts > 1 ? 1 : Number(settings.frame_skip ?? 1) || 1;
     this.#steps = parts > 1 ? acts.flatMap((act) => new Array<string>(parts).fill(act)) : [...acts];
     this.#spacing = Math.max(1, Math.ceil((this.#steps.length + 1) / this.#states));

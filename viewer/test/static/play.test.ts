@@ -1,36 +1,23 @@
-// The page without a server, in Chromium: build/viewer-static, as scripts/viewer --static makes it.
+// The page without a server, in Chromium.
 
 import assert from "node:assert/strict";
-import { once } from "node:events";
-import { readFileSync } from "node:fs";
-import { createServer } from "node:http";
-import type { AddressInfo } from "node:net";
-import path from "node:path";
 import { after, afterEach, before, describe, test } from "node:test";
 import type { Page } from "playwright-core";
 import { numberIn, Tabs, until } from "../browser/harness.js";
-
-const FOLDER = path.resolve("../build/viewer-static");
-const TYPES: Record<string, string> = { ".css": "text/css", ".html": "text/html", ".js": "text/javascript", ".svg": "image/svg+xml" };
+import { Folder } from "./folder.js";
 
 describe("the page without a server", () => {
   const tabs = new Tabs();
-  const asked: string[] = [];
-  const files = createServer(({ url = "/" }, reply) => {
-    const name = url === "/" ? "index.html" : url.slice(1);
-    asked.push(name);
-    reply.setHeader("Content-Type", TYPES[path.extname(name)] ?? "application/octet-stream");
-    reply.end(readFileSync(path.join(FOLDER, name)));
-  });
+  const folder = new Folder();
   let page: Page;
 
   before(async () => {
-    await once(files.listen(0, "127.0.0.1"), "listening");
-    page = await tabs.open(`http://127.0.0.1:${(files.address() as AddressInfo).port}/`);
+    await folder.start();
+    page = await tabs.open(folder.address);
   });
   after(async () => {
     await tabs.close();
-    files.close();
+    folder.stop();
   });
   afterEach(() => assert.deepEqual(tabs.problems(), []));
 
@@ -44,16 +31,20 @@ describe("the page without a server", () => {
   });
 
   test("RAM is inspected while nothing is sent", async () => {
-    const before = asked.length;
+    const before = folder.asked.length;
     await page.keyboard.press("i");
     const ram = page.locator("#ram");
     const first = await ram.textContent();
     await until(async () => await ram.textContent() !== first, "other bytes");
-    assert.equal(asked.length, before);
+    assert.equal(folder.asked.length, before);
   });
 
   test("the episode is replayed", async () => {
     await page.getByRole("button", { name: "Replay this episode" }).click();
     await page.locator("#decks").getByText("score 0 of").waitFor();
+  });
+
+  test("it offers no view of other sessions", async () => {
+    assert.deepEqual(await page.locator("nav a:visible").allTextContents(), ["Play", "Replay"]);
   });
 });
