@@ -1,6 +1,8 @@
 """All sentences of errors are in sentences.txt, so that other tests check the types of errors and what they name.
 
-The file has an expression a line, and below it, indented, the error that it raises. `--write` writes the errors anew.
+The file has an expression a line, and below it, indented, the error that it raises. This writes the errors anew:
+
+    PYTHONPATH=tests/support build/python/venv/bin/python tests/python/test_sentences.py --write
 """
 
 import ast

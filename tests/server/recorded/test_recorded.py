@@ -1,7 +1,7 @@
 """The program answers the conversations of earlier versions as those versions did. VERSION.txt has them.
 
 A reply may have keys that the recorded one lacks. To record the conversations of clients/conformance with this version:
-  RACEBEAM_BINARY=... tests/server/recorded/test_recorded.py >tests/server/recorded/VERSION.txt
+  .venv/bin/python tests/server/recorded/test_recorded.py >tests/server/recorded/VERSION.txt
 """
 
 import base64

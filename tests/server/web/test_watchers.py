@@ -13,7 +13,7 @@ import threading
 import time
 
 import pytest
-from harness import PATIENCE, Server, ask, connect_tcp, main
+from harness import PATIENCE, Server, ask, connect_tcp
 from web_socket import TEXT, WebSocket, frame
 
 REQUEST = b"watch room screen:raw"
@@ -82,6 +82,15 @@ def ask_ahead(port, count, ahead, seconds, is_ready, total):
                 total.value += pictures
                 with contextlib.suppress(BlockingIOError):
                     connection.send(frame(TEXT, REQUEST) * pictures)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def many_files():
+    """The server inherits how many files it may open."""
+    before = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (4096, before[1]))
+    yield
+    resource.setrlimit(resource.RLIMIT_NOFILE, before)
 
 
 class TestWatchers:
@@ -200,10 +209,3 @@ class TestWatchers:
         while max(shares, default=0) < 0.2:  # usually about 1, and 0.05 where the agent waits for all that they sent
             assert len(shares) < 5, shares
             shares.append(self.acts_for_each_picture(agent, 200, 2))
-
-
-if __name__ == "__main__":
-    resource.setrlimit(
-        resource.RLIMIT_NOFILE, (4096, resource.getrlimit(resource.RLIMIT_NOFILE)[1])
-    )  # the server inherits it
-    main()
