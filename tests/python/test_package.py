@@ -123,7 +123,7 @@ class TestFiles:
         if not has("mypy"):
             pytest.skip("mypy is not installed")
         for command in (
-            ["mypy", "--strict", "--cache-dir", str(package.VENV.parent / "mypy"), "-p", "racebeam"],
+            ["mypy", "--strict", "--cache-dir", str(package.SOURCE / "build/python/mypy"), "-p", "racebeam"],
             [
                 "mypy.stubtest",
                 "racebeam._core",
@@ -152,7 +152,16 @@ class TestFiles:
             "reveal_type(racebeam.envpool.make('Pong-v5', 'dm').reset())\n"
         )
         done = subprocess.run(
-            [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(package.VENV.parent / "mypy"), "-c", calls],
+            [
+                sys.executable,
+                "-m",
+                "mypy",
+                "--strict",
+                "--cache-dir",
+                str(package.SOURCE / "build/python/mypy"),
+                "-c",
+                calls,
+            ],
             capture_output=True,
             text=True,
             cwd=FOLDER.parent.parent,
