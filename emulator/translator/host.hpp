@@ -37,11 +37,20 @@ struct Value {
 
 }  // namespace racebeam::translator
 
+#if defined(__aarch64__)
+#include "emulator/translator/aarch64/processor.hpp"
+namespace racebeam::translator {
+namespace target = aarch64;
+}
+#else
 #include "emulator/translator/x86_64/processor.hpp"
+namespace racebeam::translator {
+namespace target = x86_64;
+}
+#endif
 
 namespace racebeam::translator {
 
-namespace target = x86_64;
 using target::Assembler, target::AssemblyError, target::Label;
 
 class Host : private target::Processor {

@@ -19,6 +19,12 @@ std::atomic<std::size_t> most_shared = std::numeric_limits<std::size_t>::max(), 
 
 constexpr std::size_t kBatchCapacity = 1U << 16;  // a batch is begun only with this much memory left
 constexpr std::size_t kViewCapacity = 4U << 20;   // of an image
+constexpr std::size_t kUsualPage = 4096;
+
+// Each batch begins on a page. Where pages are larger, so is the memory, that as many batches fit.
+std::size_t memory_for(std::size_t capacity) {
+  return std::max(capacity, 2 * kBatchCapacity) / kUsualPage * std::max(page_size(), kUsualPage);
+}
 
 // All code, and the images that have owners.
 struct Registry {
@@ -75,11 +81,7 @@ std::size_t ImageCode::bytes_of_owned(const Rom& rom, std::size_t hash) {
 bool ImageCode::is_of(const Rom& rom, std::size_t hash) const { return hash_ == hash && rom_ == rom; }
 
 ImageCode::ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity, bool shared)
-    : rom_(rom),
-      hash_(hash_of(rom)),
-      wiring_(wiring),
-      memory_(std::max(capacity, 2 * kBatchCapacity)),
-      shared_(shared) {
+    : rom_(rom), hash_(hash_of(rom)), wiring_(wiring), memory_(memory_for(capacity)), shared_(shared) {
   count(sizeof *this + rom_.size());
 }
 
@@ -133,7 +135,7 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
     full_ = true;
     return nullptr;
   }
-  count(memory_.seal(assembler.getSize()));
+  count(memory_.seal(assembler.size()));
   for (const Block& block : blocks) {
     const auto offset = static_cast<std::uint16_t>(block.pc - view.code.first);
     view.known[offset] = true;

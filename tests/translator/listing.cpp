@@ -51,7 +51,7 @@ void show(const char* image, std::uint16_t pc, const char* path) {
     list(block, window);
     translator::BlockEmitter(as, block).emit();
     std::ofstream(path, std::ios::binary)
-        .write(reinterpret_cast<const char*>(memory.data()), static_cast<std::streamsize>(as.getSize()));
+        .write(reinterpret_cast<const char*>(memory.data()), static_cast<std::streamsize>(as.size()));
   }
 }
 

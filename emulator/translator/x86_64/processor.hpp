@@ -34,6 +34,7 @@ class Assembler : public Xbyak::CodeGenerator {
   const void* exit_stub;
   std::unordered_map<std::uint16_t, Label> blocks;  // of this batch, by address
 
+  std::size_t size() const { return getSize(); }
   const void* address_of(std::uint16_t block) { return blocks[block].getAddress(); }
 
   using CodeGenerator::byte;

@@ -1,0 +1,38 @@
+// The way into translated code and out of it.
+#include "emulator/translator/host.hpp"
+
+namespace racebeam::translator {
+
+using namespace aarch64;
+
+Stubs emit_stubs(void* memory, std::size_t size, const Layout& layout) {
+  constexpr int kFrame = 96;
+  Encoder as(memory, size);
+  const void* enter = as.here();
+  as.stp_pre(x(29), x(30), sp, -kFrame);
+  for (unsigned i = 0; i < 5; ++i) as.stp(x(19 + 2 * i), x(20 + 2 * i), sp, static_cast<int>(16 + 16 * i));
+  as.mov(kBoard, x(1));
+  as.mov(kLog, x(2));
+  as.ldrb(kA, kBoard, layout.a);
+  as.ldrb(kX, kBoard, layout.x);
+  as.ldrb(kY, kBoard, layout.y);
+  as.ldr(kCycle, kBoard, layout.cycle);
+  as.ldr(kNz, kBoard, layout.nz);
+  as.ldr(kCarry, kBoard, layout.carry);
+  as.ldr(kLimit, kBoard, layout.limit);
+  as.ldr(kRom, kBoard, layout.code);
+  as.br(x(0));
+  const void* leave = as.here();
+  as.strb(kA, kBoard, layout.a);
+  as.strb(kX, kBoard, layout.x);
+  as.strb(kY, kBoard, layout.y);
+  as.str(kCycle, kBoard, layout.cycle);
+  as.str(kNz, kBoard, layout.nz);
+  as.str(kCarry, kBoard, layout.carry);
+  for (unsigned i = 0; i < 5; ++i) as.ldp(x(19 + 2 * i), x(20 + 2 * i), sp, static_cast<int>(16 + 16 * i));
+  as.ldp_post(x(29), x(30), sp, kFrame);
+  as.ret();
+  return {enter, leave, as.size()};
+}
+
+}  // namespace racebeam::translator
