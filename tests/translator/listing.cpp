@@ -1,5 +1,5 @@
 // translator_listing IMAGE ADDRESS FILE: prints the 6507 instructions of the block at an address of a 2K or
-// 4K image, and writes their x86-64 code to FILE. scripts/check/translated shows both.
+// 4K image, and writes the code of this processor to FILE. scripts/check/translated shows both.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
