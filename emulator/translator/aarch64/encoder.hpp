@@ -22,6 +22,7 @@ constexpr Register w(unsigned number) { return {number, false}; }
 constexpr Register x(unsigned number) { return {number, true}; }
 constexpr Register wzr = w(31), xzr = x(31), sp = x(31);
 
+// NOLINTNEXTLINE(readability-identifier-naming): named as in Arm's language
 enum class Condition : std::uint8_t { eq, ne, hs, lo, mi, pl, vs, vc, hi, ls, ge, lt, gt, le };
 
 // A place in the code. It may be used before it is bound; copies of a label that has been used are the same
