@@ -75,11 +75,13 @@ int Environment::step(Action a, Action b) { return step(Controls{.a = a, .b = b}
 
 int Environment::step(const Controls& controls) {
   const int a = static_cast<int>(controls.a), b = static_cast<int>(controls.b);
-  require(a < kConsoleActions, "the action of player A has a number above 25; it must be one of enum Action");
-  require(b < kActions, "the action of player B has a number above 17; it must be one of a joystick");
+  racebeam::Environment& machine = impl_->machine;
+  require(machine.takes({.a = a}),
+          "player A has no such action; it must be one of a joystick, of the console, or of A's controller");
+  require(machine.takes({.b = kActions + b}),
+          "player B has no such action; it must be one of a joystick, or of B's controller");
   require(std::isfinite(controls.strength_a) && std::isfinite(controls.strength_b),
           "the strength of a paddle is not a finite number");
-  racebeam::Environment& machine = impl_->machine;
   if (controls.frames <= 0) return machine.act(a, kActions + b, controls.strength_a, controls.strength_b);
   return machine.act_for(controls.frames, a, kActions + b, controls.strength_a, controls.strength_b);
 }

@@ -1,4 +1,5 @@
-// The actions of a player: 18 of a joystick and its button, and 8 of the switches of the console.
+// The actions of a player: 18 of a joystick and its button, 8 of the switches of the console, and those of
+// other controllers, which a game file names.
 // All of it is values and constant tables, which any number of threads may use at the same time.
 //
 //     const racebeam::Action action = racebeam::Action::kUpFire;
@@ -42,8 +43,28 @@ enum class Action : std::uint8_t {
   kRightA,
   kRightB,
   kColor,
-  kBlackAndWhite
+  kBlackAndWhite,
+  kKey1,  // the keys of a keyboard
+  kKey2,
+  kKey3,
+  kKey4,
+  kKey5,
+  kKey6,
+  kKey7,
+  kKey8,
+  kKey9,
+  kKeyStar,
+  kKey0,
+  kKeyHash
 };
+
+// More buttons than that of a joystick, which are pressed with it.
+enum class Buttons : std::uint8_t { kC = 64, kTrigger = 96, kBooster = 128, kTriggerAndBooster = 160 };
+
+// An action of a joystick, and more buttons: a Genesis pad's C, or those of a booster grip.
+constexpr Action with(Action joystick, Buttons more) noexcept {
+  return static_cast<Action>(static_cast<unsigned>(joystick) + static_cast<unsigned>(more));
+}
 
 inline constexpr int kActions = 18;         // of a joystick
 inline constexpr int kConsoleActions = 26;  // with those of the console
@@ -51,7 +72,8 @@ inline constexpr int kConsoleActions = 26;  // with those of the console
 RACEBEAM_API std::string_view name_of(Action action) noexcept;                    // "UPFIRE"
 RACEBEAM_API std::optional<Action> action_named(std::string_view name) noexcept;  // nothing: an unknown name
 
-// The actions of both players in one step. Those of the console are player A's.
+// The actions of both players in one step. Those of the console are player A's. Those of other controllers
+// need a game whose file has the controller, such as left = "keyboard".
 struct Controls {
   Action a = Action::kNoop, b = Action::kNoop;
   float strength_a = 1, strength_b = 0;  // how far a paddle is turned: 1 is its usual step

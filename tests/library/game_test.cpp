@@ -15,11 +15,14 @@ using racebeam::Image;
 TEST_CASE("Actions have the names and numbers of ALE") {
   CHECK(racebeam::name_of(Action::kNoop) == "NOOP");
   CHECK(racebeam::name_of(Action::kDownLeftFire) == "DOWNLEFTFIRE");
-  for (int number = 0; number < racebeam::kConsoleActions; ++number) {
+  for (int number = 0; number <= static_cast<int>(Action::kKeyHash); ++number) {
     const auto action = static_cast<Action>(number);
     CHECK(racebeam::action_named(racebeam::name_of(action)) == action);
   }
   CHECK(racebeam::name_of(Action::kBlackAndWhite) == "BW");
+  CHECK(racebeam::name_of(Action::kKey7) == "KEY7");
+  CHECK(racebeam::name_of(with(Action::kUpFire, racebeam::Buttons::kTriggerAndBooster)) ==
+        "UPFIRE+TRIGGER+BOOSTER");
   CHECK_FALSE(racebeam::action_named("fire"));
 }
 
@@ -66,6 +69,22 @@ TEST_CASE("A game file of the user gives an image its rewards") {
   racebeam::Environment environment(beamfall::image(), game);
   CHECK(environment.step(Action::kNoop) == 7);
   CHECK(environment.game().name() == "my_game");
+}
+
+TEST_CASE("A game file that names controllers gives the players their actions") {
+  const racebeam::Scratch scratch;
+  const auto path = scratch.write("keys.toml",
+                                  "title = 'Keys'\n[[image]]\nleft = 'keyboard'\nright = 'genesis'\n"
+                                  "[rule]\nstep = \"\"\"\nscore = 0\nterminal = 0\n\"\"\"\n");
+  racebeam::Environment environment(beamfall::image(), Game::load(path));
+  const Action with_c = with(Action::kLeft, racebeam::Buttons::kC);
+  CHECK_NOTHROW(environment.step(Action::kKey7, with_c));
+  CHECK_NOTHROW(environment.step(Action::kReset));
+  CHECK_THROWS_WITH(environment.step(with_c), Catch::Contains("player A has no such action"));
+  CHECK_THROWS_WITH(environment.step(Action::kKey1, Action::kKey2),
+                    Catch::Contains("player B has no such action"));
+  auto joysticks = beamfall::environment();
+  CHECK_THROWS_WITH(joysticks.step(Action::kKey7), Catch::Contains("player A has no such action"));
 }
 
 TEST_CASE("The games that the library knows are listed") {
