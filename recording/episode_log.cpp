@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -21,16 +23,19 @@ constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMost64 = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
 
-void append_hash(std::string& out, std::uint64_t hash) {
-  for (int byte = 0; byte < 8; ++byte)
-    out += static_cast<char>(static_cast<std::uint8_t>(hash >> (8 * byte)));
+// The lowest byte first.
+template <class Number>
+void append_bytes(std::string& out, Number number) {
+  for (unsigned byte = 0; byte < sizeof number; ++byte)
+    out += static_cast<char>(static_cast<std::uint8_t>(number >> (8 * byte)));
 }
 
-std::uint64_t hash_at(std::string_view bytes) {
-  std::uint64_t hash = 0;
-  for (std::size_t byte = 0; byte < 8; ++byte)
-    hash |= std::uint64_t{static_cast<std::uint8_t>(bytes[byte])} << (8 * byte);
-  return hash;
+template <class Number>
+Number number_at(std::string_view bytes) {
+  Number number = 0;
+  for (unsigned byte = 0; byte < sizeof number; ++byte)
+    number |= static_cast<Number>(Number{static_cast<std::uint8_t>(bytes[byte])} << (8 * byte));
+  return number;
 }
 
 // Takes the text of a log apart. Throws InvalidInput.
@@ -107,15 +112,22 @@ class LogReader {
 
   void read_bytes(EpisodeLog& log) {
     const auto decisions = static_cast<std::size_t>(log.end.decisions);
-    const std::size_t hashes = hashes_of(decisions);
-    if (left_.size() != 8 * hashes + decisions) fail("a hash or an action");
-    for (std::size_t i = 0; i < hashes; ++i) log.hashes.push_back(hash_at(left_.substr(8 * i)));
-    for (const char byte : left_.substr(8 * hashes)) {
+    const std::size_t hashes = hashes_of(decisions), least = 8 * hashes + decisions;
+    if (left_.size() != least && left_.size() != least + 4 * decisions)
+      fail("a hash, an action or a strength");
+    for (std::size_t i = 0; i < hashes; ++i)
+      log.hashes.push_back(number_at<std::uint64_t>(left_.substr(8 * i)));
+    for (const char byte : left_.substr(8 * hashes, decisions)) {
       const auto action = static_cast<std::uint8_t>(byte);
       if (!is_action(action))
         throw InvalidInput("it has action " + std::to_string(action) +
                            "; accepted: 0 to 37, and those with more buttons");
       log.actions.push_back(action);
+    }
+    for (std::size_t at = least; at < left_.size(); at += 4) {
+      const auto strength = std::bit_cast<float>(number_at<std::uint32_t>(left_.substr(at)));
+      if (!std::isfinite(strength)) throw InvalidInput("it has a strength that is not a finite number");
+      log.strengths.push_back(strength);
     }
   }
 
@@ -145,8 +157,9 @@ std::string bytes_of(const EpisodeLog& log, const std::function<void()>& pause) 
   append_pair(out, "end", name_of(log.end.over));
   append_pair(out, "lives", log.end.lives);
   out += "\n\n";
-  for (const std::uint64_t hash : log.hashes) append_hash(out, hash);
+  for (const std::uint64_t hash : log.hashes) append_bytes(out, hash);
   out.append(log.actions.begin(), log.actions.end());
+  for (const float strength : log.strengths) append_bytes(out, std::bit_cast<std::uint32_t>(strength));
   return seal(kKind, out, pause);
 }
 

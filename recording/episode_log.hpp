@@ -12,6 +12,7 @@
 namespace racebeam {
 
 constexpr int kMostDecisions = 2'000'000;  // of an episode that has a log, which has at most two MiB
+constexpr int kMostTurns = 400'000;        // if the log has strengths
 constexpr int kDecisionsPerStretch = 256;  // after each, a log has the state's hash
 
 enum class EpisodeOver { kTerminated, kTruncated };
@@ -41,6 +42,9 @@ struct EpisodeLog {
   EpisodeEnd end;
   std::vector<std::uint64_t> hashes;  // of the state after each stretch; the last is of the end
   std::vector<std::uint8_t> actions;
+  std::vector<float> strengths;  // of the paddle, for each action; empty if all are 1
+
+  float strength(std::size_t decision) const { return strengths.empty() ? 1 : strengths[decision]; }
 };
 
 // Hashes that an episode of so many decisions has.

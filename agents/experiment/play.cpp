@@ -17,9 +17,9 @@ class Player {
  public:
   Player(Environment& machine, LifeLoss life_loss) : machine_(machine), life_loss_(life_loss) {}
 
-  double act(int action) {
+  double act(int action, float strength = 1) {
     const int before = machine_.frame_number();
-    const int reward = machine_.act(action);
+    const int reward = machine_.act({.a = action, .strength_a = strength});
     account_.add(machine_, frames_between(before, machine_.frame_number()));
     return reward;
   }
@@ -106,12 +106,13 @@ Replay Replayer::play(const EpisodeLog& log, const Cartridge& cartridge) {
   const std::vector<int> actions =
       actions_of(settings.action_set, *cartridge.game, properties_of(stage->machine()));
   Player player(stage->machine(), settings.life_loss);
-  for (const int action : log.actions) {
+  for (std::size_t i = 0; i < log.actions.size(); ++i) {
+    const int action = log.actions[i];
     if (player.over()) break;
     if (std::ranges::find(actions, action) == actions.end())
       throw InvalidInput("its log has the action " + std::string(action_name(action)) +
                          ", which is not in the set " + std::string(name_of(settings.action_set)));
-    player.act(action);
+    player.act(action, log.strength(i));
   }
   Replay result;
   result.end = player.finish();

@@ -97,9 +97,9 @@ std::int64_t film(const EpisodeLog& log, const RenderOptions& options, const fs:
     film.add(machine);
   });
   std::int64_t score = 0;
-  for (const int action : log.actions) {
+  for (std::size_t i = 0; i < log.actions.size(); ++i) {
     if (machine.game_over()) break;
-    machine.act(action);
+    machine.act({.a = log.actions[i], .strength_a = log.strength(i)});
     score += machine.raw_rewards().a;
   }
   machine.watch({});

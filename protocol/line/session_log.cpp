@@ -19,7 +19,8 @@ std::string words_without_seed(const PlaySettings& settings, const Environment& 
 
 std::size_t size_of(const EpisodeLog& log) {
   constexpr std::size_t kText = 1024;
-  return kText + log.actions.capacity() + sizeof(std::uint64_t) * log.hashes.capacity();
+  return kText + log.actions.capacity() + sizeof(float) * log.strengths.capacity() +
+         sizeof(std::uint64_t) * log.hashes.capacity();
 }
 
 }  // namespace
@@ -55,6 +56,7 @@ void SessionLog::spoil(std::string why) {
   if (!is_playing_) return;
   is_playing_ = false;
   std::vector<std::uint8_t>().swap(actions_);
+  std::vector<float>().swap(strengths_);
   why_not_ = std::move(why);
   ++counts_.unlogged;
 }
@@ -77,7 +79,8 @@ std::optional<Recording::Cut> SessionLog::new_cut() {
 }
 
 std::size_t SessionLog::footprint() const {
-  return sizeof *this + actions_.capacity() + (last_ ? size_of(*last_) : 0);
+  return sizeof *this + actions_.capacity() + sizeof(float) * strengths_.capacity() +
+         (last_ ? size_of(*last_) : 0);
 }
 
 std::uint32_t SessionLog::seed_of_phrase_now() const {
@@ -96,6 +99,7 @@ void SessionLog::began() {
   is_playing_ = true;
   account_ = {};
   actions_.clear();
+  strengths_.clear();
   const Environment& machine = slot_.environment();
   const std::uint32_t seed = machine.settings().random_seed;
   if (!order_.phrase.empty() && seed != seed_of_phrase_now())
@@ -114,10 +118,13 @@ void SessionLog::leave() {
 void SessionLog::played(const Act& act, int frames) {
   if (!is_playing_) return;
   if (act.b != Act{}.b) return spoil("player B acted in it; a log has the actions of player A");
-  if (act.strength_a != Act{}.strength_a)
-    return spoil("a paddle was turned with a strength; a log has only actions");
-  if (account_.decisions() >= kMostDecisions)
-    return spoil("it has more than " + std::to_string(kMostDecisions) + " acts");
+  const bool turns = act.strength_a != Act{}.strength_a || !strengths_.empty();
+  if (const int most = turns ? kMostTurns : kMostDecisions; account_.decisions() >= most)
+    return spoil("it has more than " + std::to_string(most) + (turns ? " acts with strengths" : " acts"));
+  if (turns) {
+    strengths_.resize(actions_.size(), Act{}.strength_a);
+    strengths_.push_back(act.strength_a);
+  }
   actions_.push_back(static_cast<std::uint8_t>(act.a));
   account_.add(slot_.environment(), frames);
   if (slot_.environment().game_over()) finish_episode();
@@ -135,6 +142,7 @@ void SessionLog::finish_episode() {
   log.end = account_.finish(machine, settings.life_loss);
   log.hashes = account_.take_hashes();
   log.actions = std::exchange(actions_, {});
+  log.strengths = std::exchange(strengths_, {});
   if (writer_) write(log);
   if (!is_playing_) return;  // it could not be written
   is_playing_ = false;

@@ -83,6 +83,7 @@ class SessionLog final : public SlotWatcher {
   bool is_playing_ = false;
   EpisodeAccount account_;
   std::vector<std::uint8_t> actions_;
+  std::vector<float> strengths_;  // empty as long as all are 1
 
   std::optional<EpisodeLog> last_;
   std::string why_not_ = "no episode has ended yet";  // why last_ is not that of the last episode

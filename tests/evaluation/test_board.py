@@ -7,6 +7,7 @@ import re
 import resource
 import shutil
 import signal
+import struct
 import zlib
 
 import package
@@ -16,7 +17,8 @@ package.require()
 
 from made_results import evaluate
 from made_submissions import ABOUT, log, log_path, row_of, seal, submission, write_rows
-from racebeam_evaluation import main  # noqa: E402, F401
+from racebeam_evaluation import errors, main  # noqa: E402, F401
+from racebeam_evaluation.board.episode_log import read_log
 from racebeam_evaluation.board.submission import seed_of_phrase
 
 OWN_GAMES = package.SOURCE / "docs/results/own-games"
@@ -207,6 +209,20 @@ class TestBadInput(Folder):
         self.check_refusal("line 2: log_digest is ")
         self.log.write_bytes(log(self.rows[0], actions=bytes([18] * 300)))
         self.check_refusal("says decisions=300, which does not fit its actions; expected actions from 0 to 17")
+
+    def test_strengths_of_paddles(self):
+        actions = bytes([3] * 300)
+        path = self.folder / "1.episode"
+        path.write_bytes(log(self.rows[0], actions=actions + struct.pack("<300f", *[0.5] * 299, 1)))
+        read = read_log(path)
+        assert (read.actions, read.strengths) == (actions, (0.5,) * 299 + (1.0,))
+        assert read.columns["state_hash"] == self.rows[0]["state_hash"]
+        packed = read.link("x").removeprefix("replay=").split("&")[0]
+        acts = json.loads(zlib.decompress(base64.urlsafe_b64decode(packed + "==")))["acts"]
+        assert acts == ["3@0.5*299", "3"]
+        path.write_bytes(log(self.rows[0], actions=actions + b"1234"))
+        with pytest.raises(errors.BadInput, match="does not fit its actions"):
+            read_log(path)
 
     def test_other_settings_than_those_of_the_preset(self):
         settings = "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import importlib.metadata
+import itertools
 import os
 import struct
 import zlib
@@ -131,12 +132,13 @@ class Origin(NamedTuple):
     agent_seed: int = 0
 
 
-def play(start: Start, actions: Sequence[int]) -> Episode:
+def play(start: Start, actions: Sequence[int], strengths: Sequence[float] | None = None) -> Episode:
     """Plays actions from the start to the end of the episode.
 
     Args:
         start: How the episode begins.
         actions: Numbers of `Action`, 0 to 17, and of `ConsoleAction`, 18 to 25.
+        strengths: For each action, how far a paddle is turned; 1 if None.
 
     Returns:
         How the episode ended.
@@ -149,10 +151,10 @@ def play(start: Start, actions: Sequence[int]) -> Episode:
     ale = start.power_on()
     score, played, first = 0, 0, ale.getFrameNumber()
     hashes = []
-    for action in actions:
+    for action, strength in zip(actions, itertools.repeat(1.0) if strengths is None else strengths):
         if ale.game_over():
             break
-        score += int(ale.step(action, 1.0, 1, _core.View.NONE)[1])
+        score += int(ale.step(action, strength, 1, _core.View.NONE)[1])
         played += 1
         if played % DECISIONS_PER_HASH == 0:
             hashes.append(_core.state_hash(ale))
@@ -169,7 +171,9 @@ def _is_terminated(ale: ALEInterface, start: Start) -> bool:
     return ale.game_over() and not 0 < start.max_episode_frames <= ale.getEpisodeFrameNumber()
 
 
-def log_of(start: Start, actions: Sequence[int], episode: Episode, origin: Origin) -> tuple[bytes, dict[str, str]]:
+def log_of(
+    start: Start, actions: Sequence[int], episode: Episode, origin: Origin, strengths: Sequence[float] | None = None
+) -> tuple[bytes, dict[str, str]]:
     """Makes the log of an episode, and its row of results.csv.
 
     Args:
@@ -177,6 +181,7 @@ def log_of(start: Start, actions: Sequence[int], episode: Episode, origin: Origi
         actions: What was played.
         episode: How it ended.
         origin: Who played.
+        strengths: For each action, how far a paddle was turned; 1 if None.
 
     Returns:
         The bytes of the log, and the row's columns by name.
@@ -199,7 +204,9 @@ def log_of(start: Start, actions: Sequence[int], episode: Episode, origin: Origi
     md5, _ = _core.identify(start.image)
     text = f"load {start.game} {_words(start.settings)}\nimage {md5}\nfrom {_words(source)}\nended {_words(result)}\n\n"
     hashes = struct.pack(f"<{len(episode.hashes)}Q", *episode.hashes)
-    log = _seal(text.encode() + hashes + bytes(actions[: episode.decisions]))
+    played = list(strengths or ())[: episode.decisions]
+    turns = struct.pack(f"<{len(played)}f", *played) if any(strength != 1 for strength in played) else b""
+    log = _seal(text.encode() + hashes + bytes(actions[: episode.decisions]) + turns)
     row = source | result | {"game": start.game, "image_md5": md5, "environment_seed": str(start.seed)}
     digest = hashlib.sha256(log).hexdigest()
     return log, row | {"state_hash": f"{episode.hashes[-1]:016x}", "log_digest": digest}

@@ -19,6 +19,7 @@ _HEAD = struct.Struct("<8sIQI")  # magic, version, size of the contents, checksu
 _LINES = ("load", "image", "from", "ended")
 _DECISIONS_PER_HASH = 256
 _HASH_BYTES = 8
+_STRENGTH_BYTES = 4
 _ACTIONS = 18
 
 
@@ -31,11 +32,13 @@ class EpisodeLog:
     settings: dict[str, str]  # of `load`
     columns: dict[str, str]  # of the row of results.csv that belongs to it
     actions: bytes
+    strengths: tuple[float, ...]  # of the paddle, for each action; empty if all are 1
 
     def link(self, title: str) -> str:
         """The part after # of an address of the viewer that replays the episode."""
-        acts = [(key, len(list(run))) for key, run in itertools.groupby(self.actions)]
-        words = [str(act) if times == 1 else f"{act}*{times}" for act, times in acts]
+        strengths = self.strengths or itertools.repeat(1.0)
+        acts = [(key, len(list(run))) for key, run in itertools.groupby(zip(self.actions, strengths))]
+        words = [_word(*act) + (f"*{times}" if times > 1 else "") for act, times in acts]
         text = json.dumps({"title": title, "game": self.game, "settings": self.settings, "acts": words})
         packed = base64.urlsafe_b64encode(zlib.compress(text.encode(), 9)).decode().rstrip("=")
         return f"replay={packed}&frame=0"
@@ -55,15 +58,15 @@ def read_log(path: pathlib.Path) -> EpisodeLog:
     if [line[0] for line in lines] != list(_LINES) or len(lines[0]) < 2 or len(lines[1]) != 2:
         raise BadInput(f"{path} is not an episode log: its text has other lines; expected {', '.join(_LINES)}")
     values = _pairs(lines[2]) | _pairs(lines[3])
-    actions = _actions(path, values.get("decisions", ""), rest)
+    hashes, actions, strengths = _parts(path, values.get("decisions", ""), rest)
     columns = values | {
         "game": lines[0][1],
         "image_md5": lines[1][1],
         "environment_seed": _pairs(lines[0]).get("seed", ""),
-        "state_hash": rest[: len(rest) - len(actions)][-_HASH_BYTES:][::-1].hex(),
+        "state_hash": hashes[-_HASH_BYTES:][::-1].hex(),
         "log_digest": hashlib.sha256(content).hexdigest(),
     }
-    return EpisodeLog(lines[0][1], lines[1][1], _pairs(lines[0]), columns, actions)
+    return EpisodeLog(lines[0][1], lines[1][1], _pairs(lines[0]), columns, actions, strengths)
 
 
 def _opened(path: pathlib.Path, content: bytes) -> bytes:
@@ -92,12 +95,19 @@ def _pairs(words: list[str]) -> dict[str, str]:
     return dict(word.split("=", 1) for word in words if "=" in word)
 
 
-def _actions(path: pathlib.Path, decisions: str, rest: bytes) -> bytes:
+def _word(action: int, strength: float) -> str:
+    """The word of the line protocol's `act`."""
+    return str(action) if strength == 1 else f"{action}@{strength:.9g}"
+
+
+def _parts(path: pathlib.Path, decisions: str, rest: bytes) -> tuple[bytes, bytes, tuple[float, ...]]:
+    """The hashes, the actions and the strengths."""
     count = int(decisions) if decisions.isascii() and decisions.isdecimal() and len(decisions) < 10 else -1
     hashes = _HASH_BYTES * (count // _DECISIONS_PER_HASH + 1)
-    actions = rest[hashes:]
-    if count < 0 or len(rest) != hashes + count or (actions and max(actions) >= _ACTIONS):
+    actions, strengths = rest[hashes : hashes + count], rest[hashes + count :]
+    fits = count >= 0 and len(actions) == count and len(strengths) in (0, _STRENGTH_BYTES * count)
+    if not fits or (actions and max(actions) >= _ACTIONS):
         raise BadInput(
             f"{path} says decisions={decisions}, which does not fit its actions; expected actions from 0 to 17"
         )
-    return actions
+    return rest[:hashes], actions, struct.unpack(f"<{len(strengths) // _STRENGTH_BYTES}f", strengths)

@@ -189,7 +189,7 @@ void stop_log(Context& context, Reply& reply) {
 
 void hand_over(Context& context, Reply& reply) {
   const EpisodeLog& log = context.media.log->last();
-  context.memory.check(4 * (log.actions.size() + 8 * log.hashes.size()), "a log");
+  context.memory.check(4 * (log.actions.size() + 4 * log.strengths.size() + 8 * log.hashes.size()), "a log");
   const std::string bytes = bytes_of(log, [&context] { context.pacer.breathe(); });
   context.check_reply(text_size(Encoding::kBase64, bytes.size()), "a log");
   std::string row = line_of(row_of(log, sha256_of(bytes)));

@@ -1,6 +1,7 @@
 #include "recording/episode_log.hpp"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "recording/sealed_file.hpp"
 #include "system/input_file.hpp"
@@ -40,6 +41,16 @@ TEST_CASE("A log is read as it was written") {
   CHECK(bytes_of(read) == bytes_of(log));
 }
 
+TEST_CASE("Strengths are read as they were written, and must be finite") {
+  EpisodeLog log = random_log(short_episodes());
+  log.strengths.assign(log.actions.size(), 0.5F);
+  log.strengths.back() = -1e30F;
+  CHECK(log_of("1.episode", bytes_of(log)).strengths == log.strengths);
+  CHECK(log_of("1.episode", bytes_of(log)).actions == log.actions);
+  log.strengths.front() = std::numeric_limits<float>::infinity();
+  CHECK(refusal_of(bytes_of(log)) == "episode log 1.episode: it has a strength that is not a finite number");
+}
+
 TEST_CASE("Every byte of a log counts") {
   const std::string bytes = bytes_of(random_log(short_episodes(500)));
   for (std::size_t at = 0; at < bytes.size(); ++at) {
@@ -67,7 +78,8 @@ TEST_CASE("Sealed contents that are not an episode are refused with a sentence")
   wrong.back() = 38;
   CHECK(refusal_of(seal(kSame, wrong)) ==
         "episode log 1.episode: it has action 38; accepted: 0 to 37, and those with more buttons");
-  CHECK(refusal_of(seal(kSame, good + '\0')).find("a hash or an action is missing") != std::string::npos);
+  CHECK(refusal_of(seal(kSame, good + '\0')).find("a hash, an action or a strength is missing") !=
+        std::string::npos);
   for (std::size_t size = 0; size < good.size(); ++size)
     REQUIRE(refusal_of(seal(kSame, good.substr(0, size))) != "");
 }

@@ -120,6 +120,13 @@ TEST_CASE("Every setting of play that a log can repeat is confirmed") {
   }
 }
 
+TEST_CASE("A log with strengths of a paddle is confirmed") {
+  Server server;
+  check_confirmed(server, kLoadSticky + "\nlog mine\nreset\nact FIRE*9 RIGHT@0.3*1000 LEFT@-7*1000", 1);
+  const ResultsFolder folder = server.folder();
+  CHECK(log_of("1", contents(folder.log("beamfall-agent-1", "1"))).strength(9) == 0.3F);
+}
+
 TEST_CASE("One of the machines of open leaves a log that is confirmed") {
   for (const std::string options :
        {"\nopen 3", "\nopen 3 autoreset=same-step", "\nopen 3 autoreset=disabled",

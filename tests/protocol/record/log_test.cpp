@@ -82,7 +82,6 @@ TEST_CASE("An episode that something else than acts of player A changed has no l
       {"set difficulty=0", "set changed it"},
       {"restore before", "a state was restored in it"},
       {"act NOOP/FIRE", "player B acted in it"},
-      {"act FIRE@0.5", "a paddle was turned with a strength"},
       {"act NOOP\nreset", "it was left before its end"},
   };
   int unlogged = 0;
@@ -110,6 +109,24 @@ TEST_CASE("Actions of the console are logged") {
   const EpisodeLog log = log_of("last", std::string(bytes.begin(), bytes.end()));
   CHECK(log.actions == std::vector<std::uint8_t>{19, 18, 18, 20, 25, 0, 0, 0});
   CHECK_THAT(log.settings, Contains(" action_set=console"));
+}
+
+TEST_CASE("Strengths of paddles are logged, and a log without them is as short as before") {
+  Desk desk;
+  desk.ask("load beamfall seed=7 sticky=0 max_episode_frames=8");
+  desk.ask("log inline");
+  const auto logged = [&](const char* acts) {
+    desk.ask("reset");
+    desk.ask(acts);
+    const auto bytes = *bytes_of_base64(value(desk.ask("log last"), "data"));
+    return log_of("last", std::string(bytes.begin(), bytes.end()));
+  };
+  const EpisodeLog turned = logged("act FIRE RIGHT@0.25 LEFT@-1e9*2 FIRE*4");
+  CHECK(turned.strengths == std::vector<float>{1, 0.25F, -1e9F, -1e9F, 1, 1, 1, 1});
+  CHECK(turned.strength(1) == 0.25F);
+  const EpisodeLog plain = logged("act FIRE*8");
+  CHECK(plain.strengths.empty());
+  CHECK(plain.strength(1) == 1);
 }
 
 TEST_CASE("branch and look do not change an episode's log") {

@@ -31,7 +31,11 @@ def play_games(env, games, seed=None):
         env.reset(seed=seed)
         over = False
         while not over:
-            *_, terminated, truncated, _ = env.step(int(random.integers(env.action_space.n)))
+            if env.unwrapped.continuous:
+                action = random.uniform([0, -np.pi, 0], [1, np.pi, 1]).astype(np.float32)
+            else:
+                action = int(random.integers(env.action_space.n))
+            *_, terminated, truncated, _ = env.step(action)
             over = terminated or truncated
         remaining -= env.unwrapped.ale.game_over()
     return env
@@ -78,6 +82,7 @@ class TestSubmissions:
                 {"preset": "machado2018"},
                 {"preset": "paper2013"},
                 {"life_loss": "end"},
+                {"continuous": True, "max_num_frames_per_episode": 901},
                 {"life_loss": "restart", "difficulty": 0, "frameskip": 2},
                 {"full_action_space": "console", "max_num_frames_per_episode": 1001},
                 {"full_action_space": True, "repeat_action_probability": 0.1, "max_num_frames_per_episode": 301},
@@ -177,7 +182,6 @@ class TestSubmissions:
             with pytest.raises(InvalidInput, match="agent is"):
                 self.record(agent=agent)
         for arguments in (
-            {"continuous": True},
             {"frameskip": (2, 5)},
             {"noop_max": 30},
             {"reward_range": (-1, 1)},

@@ -35,7 +35,10 @@ class TestLogs:
         random = np.random.default_rng(3)
         envs.reset()
         for _ in range(steps):
-            actions = random.integers(envs.single_action_space.n, size=envs.num_envs)
+            if envs.continuous:
+                actions = random.uniform([0, -np.pi, 0], [1, np.pi, 1], (envs.num_envs, 3)).astype(np.float32)
+            else:
+                actions = random.integers(envs.single_action_space.n, size=envs.num_envs)
             _, _, terminated, truncated, _ = envs.step(actions)
             if envs.autoreset_mode.name == "DISABLED" and (terminated | truncated).any():
                 envs.reset(options={"reset_mask": terminated | truncated})
@@ -57,6 +60,7 @@ class TestLogs:
                     {},
                     {"repeat_action_probability": 0.25, "frameskip": 5, "full_action_space": True},
                     {"full_action_space": "console"},
+                    {"continuous": True, "continuous_action_threshold": 0.3, "repeat_action_probability": 0.25},
                     {"life_loss": "restart"},
                     {"life_loss": "reported"},
                     {"autoreset_mode": "Disabled", "difficulty": 1, "rules": "fixed"},
@@ -123,7 +127,6 @@ class TestLogs:
         for arguments in (
             {"noop_max": 30},
             {"use_fire_reset": True},
-            {"continuous": True},
             {"autoreset_mode": "SameStep"},
             {"start": "baselines"},
             {"life_loss": "end"},

@@ -23,6 +23,7 @@ const HEADER = 24; // bytes before the contents
 const LARGEST = 2 * 1024 * 1024; // bytes, of the file and of its contents
 export const HASH_EVERY = 256; // decisions
 const HASH_SIZE = 8;
+const STRENGTH_SIZE = 4;
 const OLD_WORDS: Readonly<Record<string, string>> = { life_loss_ends: "0", autoreset: "0" }; // of logs, with the values that are usual
 
 const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, byte) => {
@@ -109,6 +110,15 @@ export function hexOf(bytes: Uint8Array): string {
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
+/** The words of `act`. Without strengths, all are 1. */
+function words(actions: Uint8Array, strengths: Uint8Array): string[] {
+  const view = new DataView(strengths.buffer, strengths.byteOffset, strengths.length);
+  return Array.from(actions, (action, number) => {
+    const strength = strengths.length === 0 ? 1 : view.getFloat32(STRENGTH_SIZE * number, true);
+    return strength === 1 ? String(action) : `${action}@${strength}`;
+  });
+}
+
 /** The end of the lines of text: the place after the empty line. */
 function endOfText(contents: Uint8Array): number {
   for (let at = 1; at < contents.length; ++at) {
@@ -132,7 +142,11 @@ export async function readLog(file: Uint8Array, name: string): Promise<Episode> 
   const lastAction = (settings.action_set === "console" ? ACTIONS.length : JOYSTICK_ACTIONS) - 1;
   const { score, frames, decisions, end = "", lives } = pairs(ended);
   const hashes = contents.subarray(start, start + HASH_SIZE * (Math.floor(Number(decisions) / HASH_EVERY) + 1));
-  const actions = contents.subarray(start + hashes.length);
+  const actions = contents.subarray(start + hashes.length, start + hashes.length + Number(decisions));
+  const strengths = contents.subarray(start + hashes.length + actions.length);
+  if (![0, STRENGTH_SIZE * actions.length].includes(strengths.length)) {
+    throw new Error(`the log has ${strengths.length} bytes of strengths; accepted: 0, or ${STRENGTH_SIZE} for each action`);
+  }
   if (actions.length !== Number(decisions) || actions.some((action) => action > lastAction)) {
     throw new Error(`the log has ${actions.length} actions; its text says ${decisions}, from 0 to ${lastAction}`);
   }
@@ -140,7 +154,7 @@ export async function readLog(file: Uint8Array, name: string): Promise<Episode> 
     title: pairs(from).unit ? `${pairs(from).unit}, episode ${pairs(from).episode}` : name,
     game: load[1],
     settings,
-    acts: Array.from(actions, String),
+    acts: words(actions, strengths),
     ended: { score: Number(score), frames: Number(frames), decisions: Number(decisions), end, lives: Number(lives) },
     hashes: digits(hashes),
     ...(image[1] ? { md5: image[1] } : {}),

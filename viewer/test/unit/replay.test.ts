@@ -64,6 +64,14 @@ test("a log has the console's switches where its settings say so", async () => {
   await assert.rejects(readLog(sealed(contents(text, 1, [18, 19, 26])), ""), /from 0 to 25$/);
 });
 
+test("a log with strengths has them in its acts", async () => {
+  const strengths = new Uint8Array(Float32Array.of(1, 0.25, -2).buffer);
+  const { acts, hashes } = await readLog(sealed(contents(TEXT, 1, [1, 0, 17, ...strengths])), "");
+  assert.deepEqual(acts, ["1", "0@0.25", "17@-2"]);
+  assert.equal(hashes?.length, 1);
+  await assert.rejects(readLog(sealed(contents(TEXT, 1, [1, 0, 17, 9])), ""), /1 bytes of strengths; accepted: 0, or 4/);
+});
+
 test("every log that was cut or altered is refused", async () => {
   const whole = sealed(contents());
   for (let size = 0; size < whole.length; ++size) {

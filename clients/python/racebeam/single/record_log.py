@@ -87,6 +87,7 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         self._seeds = np.random.default_rng()
         self._start: Start | None = None  # of the episode that is played
         self._actions: list[int] = []
+        self._strengths: list[float] = []
         self.logged = self.unlogged = 0
         self._submission = Submission(
             folder,
@@ -140,7 +141,9 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         """
         result = self.env.step(action)
         if self._start is not None:
-            self._actions.append(self._base._parse_action(action)[0])
+            number, strength, *_ = self._base._parse_action(action)
+            self._actions.append(number)
+            self._strengths.append(strength)
             if self._base.ale.game_over():
                 self._finish(self._start)
         return result
@@ -160,15 +163,17 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
     def _leave(self) -> None:
         if self._start is not None and self._actions:
             self._skip("it was left before its end")
-        self._start, self._actions = None, []
+        self._start, self._actions, self._strengths = None, [], []
 
     def _finish(self, start: Start) -> None:
-        actions, self._start, self._actions = self._actions, None, []
+        actions, strengths = self._actions, self._strengths
+        self._start, self._actions, self._strengths = None, [], []
         try:
-            episode = play(start, actions)
+            episode = play(start, actions, strengths)
             if not episode.is_over or episode.hashes[-1] != self._base.ale.state_hash():
                 return self._skip("the same actions lead to another state; a state was restored in it, or RAM was set")
-            self._submission.add(start, actions, episode, self._origin._replace(episode=self.logged + 1))
+            origin = self._origin._replace(episode=self.logged + 1)
+            self._submission.add(start, actions, episode, origin, strengths)
             self.logged += 1
         except (InvalidInput, OSError) as error:
             self._skip(str(error))
@@ -184,7 +189,6 @@ def _checked(env: gymnasium.Env[Any, Any]) -> AtariEnv:
         raise InvalidInput(f"env is of class {type(env).__name__}; RecordLog takes an AtariEnv, or wrappers around one")
     low, high = base._reward_range or (-np.inf, np.inf)
     for wrong, sentence in (
-        (base.continuous, "continuous is True; a log has indices of actions"),
         (base._two_player, "two_player is True; a log has the actions of player A"),
         (not isinstance(base._frameskip, int), f"frameskip is {base._frameskip!r}; a log takes a number"),
         (base._noop_max != 0, f"noop_max is {base._noop_max}; a log takes 0, and the no-ops as actions"),
@@ -206,7 +210,7 @@ def _template_of(base: AtariEnv) -> Start:
         frames,
         base.ale.getFloat("repeat_action_probability"),
         base.ale.getInt("max_num_frames_per_episode"),
-        words.get(len(base._action_set), "console"),
+        "full" if base.continuous else words.get(len(base._action_set), "console"),
         base.ale.getString("rules"),
         "restart" if base._life_loss.word == "restart" else "ignored",
         base._game_mode,

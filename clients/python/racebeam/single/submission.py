@@ -75,7 +75,7 @@ class Submission:
         _write(self._folder / "agent.toml", text)
         _write(self._folder / "results.csv", COLUMNS + "\n")
 
-    def add(self, start: Start, actions: list[int], episode: Episode, origin: Origin) -> None:
+    def add(self, start: Start, actions: list[int], episode: Episode, origin: Origin, strengths: list[float]) -> None:
         """Writes the log of an episode and its row, or neither.
 
         Args:
@@ -83,11 +83,12 @@ class Submission:
             actions: Its actions.
             episode: Its result.
             origin: Its player and number.
+            strengths: How far each action turned a paddle.
 
         Raises:
             OSError: If the log or the row cannot be written.
         """
-        log, row = log_of(start, actions, episode, origin)
+        log, row = log_of(start, actions, episode, origin, strengths)
         unit = self._folder / "logs" / row["unit"]
         unit.mkdir(parents=True, exist_ok=True)
         path = unit / f"{row['episode']}.episode"

@@ -13,8 +13,9 @@ from ..episode_log import MOST_SEED, Origin, Start, play
 from ..errors import InvalidInput
 from ..single.submission import Submission
 from ..vector_options import SEEDS, VectorOptions
+from ..wire.action_words import joystick_actions
 from .autoreset import AutoresetMode
-from .machines import Actions, Seeds
+from .machines import Actions, Joysticks, Seeds
 from .making import Rom
 from .results import Bools, Results
 
@@ -100,11 +101,11 @@ class VectorLogs:
                 self._skip(env, "it was left before its end")
             self._begin(env, int(seeds[env]))
 
-    def record_step(self, actions: Actions, results: Results) -> None:
+    def record_step(self, actions: Actions | Joysticks, results: Results) -> None:
         """Records a step, and writes the logs of games that are over.
 
         Args:
-            actions: An index into the action set for each environment.
+            actions: An index into the action set for each environment, or its joystick.
             results: What the step returned.
         """
         played = ~self._is_over
@@ -113,23 +114,32 @@ class VectorLogs:
             ends |= results.terminated
         stays = self._options.autoreset_mode is AutoresetMode.DISABLED
         self._is_over = ends | (~played & stays)
+        numbers, strengths = self._acts(actions)
         for env in np.flatnonzero(played).tolist():
             game = self._games[env]
-            game.actions.append(self._numbers[env][actions[env]])
+            game.actions.append(numbers[env])
+            game.strengths.append(strengths[env])
             game.score += int(results.raw_rewards[env])
             if ends[env]:
                 self._finish(env, results)
+
+    def _acts(self, actions: Actions | Joysticks) -> tuple[list[int], list[float]]:
+        """Returns the number of each environment's action, and its strength."""
+        if self._options.continuous:
+            acts = joystick_actions(actions.astype(np.float32), self._options.continuous_action_threshold)
+            return acts[0].tolist(), acts[1].tolist()
+        return [self._numbers[env][action] for env, action in enumerate(actions)], [1.0] * len(self._games)
 
     def _finish(self, env: int, results: Results) -> None:
         game, self._games[env] = self._games[env], _Game()
         start = self._starts[env]._replace(seed=int(self._seeds[env]))
         try:
-            episode = play(start, game.actions)
+            episode = play(start, game.actions, game.strengths)
             seen = (game.score, results.episode_frames[env], results.lives[env], len(game.actions))
             if not episode.is_over or seen != (episode.score, episode.frames, episode.lives, episode.decisions):
                 self._skip(env, "the same actions lead to another end; a state was restored in it")
             else:
-                self._submission.add(start, game.actions, episode, self._origins[env])
+                self._submission.add(start, game.actions, episode, self._origins[env], game.strengths)
                 self._origins[env] = self._origins[env]._replace(episode=self._origins[env].episode + 1)
                 self.logged += 1
         except (InvalidInput, OSError) as error:
@@ -152,10 +162,11 @@ class VectorLogs:
 
 
 class _Game:
-    """The actions and the score of a game since power-on."""
+    """The actions, their strengths and the score of a game since power-on."""
 
     def __init__(self) -> None:
         self.actions: list[int] = []
+        self.strengths: list[float] = []
         self.score = 0
 
 
@@ -172,7 +183,6 @@ def _wrong(arguments: Any) -> WrongType:
 def _check(options: VectorOptions, games: Sequence[str | None]) -> None:
     for wrong, sentence in (
         (None in games, "game is None; a log takes the name of a game"),
-        (options.continuous, "continuous is True; a log has indices of actions"),
         (options.autoreset_mode is AutoresetMode.SAME_STEP, "autoreset_mode is SameStep; a log takes the others"),
         (not options.is_sync, f"batch_size is {options.batch_size}; a log takes {options.num_envs}, num_envs"),
         (options.noop_max > 1, f"noop_max is {options.noop_max}; a log takes 0, and the no-ops as actions"),
@@ -198,7 +208,7 @@ def _start_of(options: VectorOptions, game: str, rom: Rom | None) -> Start:
         options.frameskip,
         options.repeat_action_probability,
         options.max_num_frames_per_episode,
-        "full" if options.action_set == "legal" else options.action_set,
+        "full" if options.continuous or options.action_set == "legal" else options.action_set,
         options.rules,
         "restart" if options.life_loss == "restart" else "ignored",
         options.mode,

@@ -13,8 +13,8 @@ from ..vector.machines import Joysticks
 STICK = np.array([[[9, 5, 8], [4, 0, 3], [7, 2, 6]], [[17, 13, 16], [12, 1, 11], [15, 10, 14]]])
 
 
-def joystick_words(joysticks: Joysticks, threshold: float) -> list[str]:
-    """Converts continuous actions to the words of `step`, ACTION@STRENGTH.
+def joystick_actions(joysticks: Joysticks, threshold: float) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.float32]]:
+    """Converts continuous actions to actions and the strengths of paddles.
 
     Compares in float32, as the emulator does.
 
@@ -23,14 +23,27 @@ def joystick_words(joysticks: Joysticks, threshold: float) -> list[str]:
         threshold: Deflection from which a direction or the button counts as pressed.
 
     Returns:
-        A word for each machine.
+        The numbers of the actions, and the strengths.
     """
     radius, angle, fire = joysticks.T
     limit = np.float32(threshold)
     parts = [(radius * part(angle.astype(np.float64)).astype(np.float32)) for part in (np.cos, np.sin)]
     column, row = (1 + (part > limit).astype(int) - (part < -limit) for part in parts)
-    actions = STICK[(fire > limit).astype(int), row, column]
-    return [f"{action}@{strength:.9g}" for action, strength in zip(actions, radius, strict=True)]
+    return STICK[(fire > limit).astype(int), row, column], radius
+
+
+def joystick_words(joysticks: Joysticks, threshold: float) -> list[str]:
+    """Converts continuous actions to the words of `step`, ACTION@STRENGTH.
+
+    Args:
+        joysticks: As `joystick_actions` takes them.
+        threshold: As `joystick_actions` takes it.
+
+    Returns:
+        A word for each machine.
+    """
+    actions, strengths = joystick_actions(joysticks, threshold)
+    return with_strengths(actions.tolist(), strengths)
 
 
 def with_strengths(words: Sequence[object], strengths: npt.NDArray[np.float32]) -> list[str]:
