@@ -253,15 +253,14 @@ void select(CartridgeSlot& slot, std::uint16_t address) {
 // The program's choices are in instructions of the driver: CMP R2, with an opcode of the 6507, and SUB R2,
 // with the number of the first stream.
 void find_choices(const CartridgeSlot& slot, Chip& chip) {
-  const std::span driver = std::span(slot.rom).first(kDriver);
+  const auto begin = slot.rom.begin(), end = begin + kDriver;
   const auto has = [&](std::uint8_t opcode) {
     const std::uint8_t compares[] = {opcode, 0x00, 0x52, 0x13};
-    return !std::ranges::search(driver, compares).empty();
+    return std::search(begin, end, std::begin(compares), std::end(compares)) != end;
   };
   constexpr std::uint8_t kSubtracts[] = {0x20, 0x42, 0xE2};
-  const auto found = std::ranges::search(driver, kSubtracts).begin();
-  const bool has_number = found != driver.begin() && found != driver.end();
-  const std::uint8_t number = has_number ? *(found - 1) : std::uint8_t{0};
+  const auto found = std::search(begin, end, std::begin(kSubtracts), std::end(kSubtracts));
+  const std::uint8_t number = found != begin && found != end ? found[-1] : std::uint8_t{0};
   chip.first_stream = number <= kMostFirstStream ? number : std::uint8_t{0};
   chip.loads = static_cast<std::uint8_t>((has(kLoadX) ? kLoadsX : 0) | (has(kLoadY) ? kLoadsY : 0));
 }

@@ -1,6 +1,6 @@
-// EFF: EF with AtariAge's circuit for saving, an EEPROM of 2048 bytes of the type 24xx16. Accesses set its two
-// lines: $1FF0 and $1FF1 the clock, $1FF2 and $1FF3 the data. $1FF4 reads the data line in bit 0. The EEPROM
-// keeps its bytes through a reset (docs/spec/cartridges.md, 11).
+// EFF: EF with AtariAge's circuit for saving, an EEPROM of 2048 bytes of the type 24xx16. Accesses set its
+// two lines: $1FF0 and $1FF1 the clock, $1FF2 and $1FF3 the data. $1FF4 reads the data line in bit 0. The
+// EEPROM keeps its bytes through a reset (docs/spec/cartridges.md, 11).
 #pragma once
 
 #include <algorithm>
