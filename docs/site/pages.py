@@ -1,6 +1,7 @@
 """Lays out what mkdocs reads: the documents of the tree, the files that they link to, and pages made from tables.
 
-Usage: pages.py FOLDER, which is emptied first.
+Usage: pages.py FOLDER [PAGE]. FOLDER is emptied first. PAGE is a folder with the page of viewer/ without a server. It
+becomes part of the site, and the first page links to it.
 """
 
 import ast
@@ -33,6 +34,11 @@ TABLES = {
     "fields": ("Fields of replies", ("| field | content | encoding |", "| encoding | form |")),
     "errors": ("Errors", ("| code | meaning |",)),
 }
+TRY = """<p><a class="md-button md-button--primary" href="try/index.html">Try it in the browser</a></p>
+
+It plays Beamfall, Updraft, and images from your disk. Nothing is sent anywhere.
+
+"""
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
 
 
@@ -114,7 +120,13 @@ def for_the_site(path, text, linked):
     return "".join([*blocks, LINK.sub(link, pending)])
 
 
-def lay_out(into):
+def with_link_to_try(text):
+    """The first page, with the link before its second paragraph."""
+    title, first, rest = text.split("\n\n", 2)
+    return f"{title}\n\n{first}\n\n{TRY}{rest}"
+
+
+def lay_out(into, page=None):
     """Writes all pages and files into an empty folder."""
     linked = set()
     for path in documents():
@@ -128,6 +140,9 @@ def lay_out(into):
     for module, title in MODULES.items():
         write(into / f"reference/python/{module}.md", python_page(module, title))
     shutil.copytree(ROOT / "build/api/html", into / "reference/cpp")
+    if page:
+        shutil.copytree(page, into / "try")
+        write(into / "README.md", with_link_to_try((into / "README.md").read_text()))
     write(
         into / "reference/cpp.md",
         "# Classes for C++\n\n- [Classes](cpp/annotated.html)\n- [Their members](cpp/functions.html)\n"
@@ -141,6 +156,6 @@ def write(path, text):
 
 
 if __name__ == "__main__":
-    folder = pathlib.Path(sys.argv[1])
+    folder, *page = map(pathlib.Path, sys.argv[1:])
     shutil.rmtree(folder, ignore_errors=True)
-    lay_out(folder)
+    lay_out(folder, *page)

@@ -23,7 +23,6 @@ LEFT_OUT = {
     "scripts/run-tests": "scripts/test runs it",
     "scripts/setup": "it installs",
     "scripts/check/signature": "it prints a digest, which a person compares",
-    "scripts/site": "a test of ctest",
     "scripts/version": "tests/cli/test_version.py runs it",
     "scripts/wheel": "a test of ctest",
     "scripts/check/api": "a test of ctest",
