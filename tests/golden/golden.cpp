@@ -72,13 +72,31 @@ struct SignatureOptions {
   bool signature = false, lines = false, images = false, states = false;
   CpuKind cpu = CpuKind::kAuto;
   int at_once = 1;
+  int frames = 0;                // of each game with an image, and nothing else; 0: the usual works
+  std::vector<int> slice{0, 1};  // K, N: of these, each whose number leaves K when it is divided by N
 };
 
+// A part of all games with an image.
+std::vector<Work> slice_of_images(const SignatureOptions& options) {
+  if (options.slice[0] >= options.slice[1]) throw std::runtime_error("--slice K N: K must be less than N");
+  std::vector<Work> works;
+  int number = 0;
+  for (const Work& work : works_of_images(options.frames))
+    if (number++ % options.slice[1] == options.slice[0]) works.push_back(work);
+  if (works.empty()) throw std::runtime_error("no images; RACEBEAM_ROMS names their folder");
+  return works;
+}
+
 std::vector<Work> works_of_signature(const std::vector<std::string>& games, const SignatureOptions& options) {
-  std::vector<Work> all = works_of_programs();
+  std::vector<Work> all;
   const auto add = [&all](std::vector<Work> works) { all.insert(all.end(), works.begin(), works.end()); };
-  for (const std::string& game : games) add(works_of(game));
-  if (options.images) add(works_of_images());
+  if (options.frames > 0) {
+    add(slice_of_images(options));
+  } else {
+    add(works_of_programs());
+    for (const std::string& game : games) add(works_of(game));
+    if (options.images) add(works_of_images());
+  }
   for (Work& work : all) work.settings.cpu = options.cpu;
   return all;
 }
@@ -162,6 +180,15 @@ int run(int argc, char** argv) {
       ->excludes(save);
   with_signature(app.add_flag("--lines", options.lines, "Also print the lines that the digest is made from"));
   with_signature(app.add_flag("--images", options.images, "Include all games with a cartridge image"));
+  CLI::Option* const frames =
+      app.add_option("--frames", options.frames,
+                     "Play only games with a cartridge image, and so many frames of each")
+          ->check(CLI::Range(1, 1000000));
+  with_signature(frames);
+  app.add_option("--slice", options.slice, "K N: of these, each N-th from number K on")
+      ->expected(2)
+      ->check(CLI::NonNegativeNumber)
+      ->needs(frames);
   with_signature(app.add_flag("--states", options.states, "Include the bytes of each final state"));
   with_signature(app.add_option("--cpu", options.cpu, "How instructions are executed")
                      ->transform(CLI::CheckedTransformer(cpus)));

@@ -88,7 +88,7 @@ std::vector<Work> works_of_programs() {
   return works;
 }
 
-std::vector<Work> works_of_images() {
+std::vector<Work> works_of_images(int frames) {
   std::vector<Work> works;
   for (const CatalogueEntry& entry : catalogue()) {
     const auto game = find_game(entry.name);
@@ -96,9 +96,12 @@ std::vector<Work> works_of_images() {
     if (!image) continue;
     Settings first = settings(0.25F, 4), last = settings(0.25F, 1);
     last.color_averaging = true;
-    works.push_back({game->name, image, game, first, game->default_mode, 0, kImageActs, kImageActs});
-    works.push_back({game->name + ", last mode and difficulty", image, game, last, game->modes.back(),
-                     game->difficulties.back(), kImageActs, kImageActs});
+    const auto add = [&](const std::string& name, const Settings& settings, int mode, int difficulty) {
+      const int acts = frames > 0 ? frames / settings.frame_skip : kImageActs;
+      works.push_back({name, image, game, settings, mode, difficulty, acts, acts});
+    };
+    add(game->name, first, game->default_mode, 0);
+    add(game->name + ", last mode and difficulty", last, game->modes.back(), game->difficulties.back());
   }
   return works;
 }

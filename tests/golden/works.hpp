@@ -14,7 +14,8 @@ std::vector<Work> works_of(const std::string& game);
 // that tests the CPU (tests/emulator/cpu/functional.asm).
 std::vector<Work> works_of_programs();
 
-// Every game with an image (tests/support/roms.hpp) except our own, in its first mode and its last.
-std::vector<Work> works_of_images();
+// Every game with an image (tests/support/roms.hpp) except our own, in its first mode and its last. frames:
+// of each of the two; 0: as many as 150 acts have.
+std::vector<Work> works_of_images(int frames = 0);
 
 }  // namespace racebeam::test
