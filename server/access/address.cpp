@@ -51,9 +51,12 @@ std::optional<TcpAddress> parse_tcp(std::string_view text) {
   if (colon == std::string_view::npos) return std::nullopt;
   const auto port = parse_port(text.substr(colon + 1));
   std::string host(text.substr(0, colon));
-  if (host == "localhost") host = "127.0.0.1";
-  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-  if (!port || !(is_ip_address(host) || is_host_name(host))) return std::nullopt;
+  const bool in_brackets = host.starts_with('[') && host.ends_with(']');  // an IP address
+  if (in_brackets)
+    host = host.substr(1, host.size() - 2);
+  else if (host == "localhost")
+    host = "127.0.0.1";
+  if (!port || !(is_ip_address(host) || (!in_brackets && is_host_name(host)))) return std::nullopt;
   return TcpAddress{host, *port};
 }
 

@@ -53,6 +53,7 @@ TEST_CASE("An invalid endpoint is refused with the valid forms") {
                                  "tcp://-a:1",
                                  "tcp://a.:1",
                                  "tcp://[a]b:1",
+                                 "tcp://[localhost]:1",
                                  "unix:",
                                  "unix://",
                                  "pipes:",
