@@ -17,7 +17,7 @@ class Page(html.parser.HTMLParser):
 
     def handle_starttag(self, tag, attributes):
         for name, value in attributes:
-            if name in ("id", "name") and value:
+            if name in ("id", "name", "data-view") and value:  # data-view: a view that a script shows
                 self.anchors.add(value)
             elif name in ("href", "src") and value:
                 self.targets.append(value)
