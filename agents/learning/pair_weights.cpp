@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kSettlesAfter = 32;  // decisions without a change
 constexpr std::int64_t kSettleEvery = 48;   // decisions
-constexpr std::size_t kRowsAhead = 12;     // rows of weights that are on their way from memory
+constexpr std::size_t kRowsAhead = 12;      // rows of weights that are on their way from memory
 
 constexpr std::uint64_t history_of(std::size_t decisions) {
   return decisions == 0 ? 0 : ~std::uint64_t{0} >> (64 - decisions);

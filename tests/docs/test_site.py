@@ -37,8 +37,8 @@ class TestPages:
 
     def test_the_first_page_leads_to_the_page_to_play_on(self):
         title, first, link, rest = pages.with_link_to_try("# A\n\nb\nc\n\nd\n\ne\n").split("\n\n", 3)
-        self.assertEqual((title, first, rest.split("\n\n", 1)[1]), ("# A", "b\nc", "d\n\ne\n"))
-        self.assertIn('href="try/index.html"', link)
+        assert (title, first, rest.split("\n\n", 1)[1]) == ("# A", "b\nc", "d\n\ne\n")
+        assert 'href="try/index.html"' in link
 
     def test_the_menu_has_each_document(self):
         menu = (ROOT / "docs/site/mkdocs.yml").read_text().partition("\nnav:\n")[2]
