@@ -9,6 +9,8 @@
 namespace racebeam {
 namespace {
 
+// The names of opcodes.inc.
+// NOLINTBEGIN(readability-identifier-naming)
 // clang-format off
 enum class Mode : std::uint8_t {
   implied, accumulator, relative, immediate, zero_page, zero_page_x, zero_page_y, absolute, absolute_x, absolute_y,
@@ -16,6 +18,7 @@ enum class Mode : std::uint8_t {
 };
 // clang-format on
 enum class Kind : std::uint8_t { Read, Write, Modify, Immediate, Accumulator, Implied, Jump, Branch };
+// NOLINTEND(readability-identifier-naming)
 
 struct Shape {
   Mode mode;
