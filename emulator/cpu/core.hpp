@@ -69,7 +69,7 @@ struct Core {
   }
 
   RACEBEAM_INLINE static const std::uint8_t* byte_at(std::uintptr_t where) {
-    return reinterpret_cast<const std::uint8_t*>(where);
+    return reinterpret_cast<const std::uint8_t*>(where);  // NOLINT(performance-no-int-to-ptr): of place()
   }
   RACEBEAM_INLINE static std::uintptr_t place(const std::uint8_t* byte) {
     return reinterpret_cast<std::uintptr_t>(byte);

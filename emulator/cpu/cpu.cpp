@@ -107,10 +107,12 @@ elsewhere:
   if (!cpu.locate()) goto done;
   goto* kHandlers[*Core::byte_at(cpu.at)];
 
+// NOLINTBEGIN(bugprone-macro-parentheses): operation::name is a function
 #define OP(code, name, mode_name, access, cycles)                     \
   op_##code : cpu.begin(0x##code, cycles);                            \
   access<mode::mode_name<is_read(#access[0])>, operation::name>(cpu); \
   NEXT(code);
+// NOLINTEND(bugprone-macro-parentheses)
 #include "emulator/base/opcodes.inc"
 #undef OP
 #undef NEXT
