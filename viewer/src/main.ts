@@ -50,7 +50,8 @@ function show(view: View): void {
 if (WITHOUT_SERVER) {
   const { OwnImages } = await import("./play/own_images.js");
   new OwnImages((md5) => play.add(md5));
-  byId("watch", HTMLElement).hidden = true; // other clients share nothing with this page
+  // Other clients share nothing with this page.
+  for (const link of document.querySelectorAll<HTMLElement>("[data-view=watch]")) link.hidden = true;
 }
 addEventListener("hashchange", navigate);
 navigate();
