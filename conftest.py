@@ -1,4 +1,4 @@
-"""What all tests in Python share: where they find the program and each other's modules, and what skips them.
+"""All tests in Python share this. It finds the program and the modules of tests, and skips what cannot run.
 
 HACKING.md, "Add a test", says how pytest is started.
 """
@@ -75,7 +75,7 @@ def _counts(config):
 
 @pytest.hookimpl(trylast=True)
 def pytest_sessionfinish(session):
-    """Ends with a status of its own if every test was skipped."""
+    """Sets the exit status to 77, which ctest reads as skipped, if every test was skipped."""
     passed, failed, skipped = _counts(session.config)
     if skipped and not passed and not failed:
         session.exitstatus = SKIPPED

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
+#include <functional>
 #include <stdexcept>
 
 #include "agents/learning/action_sums.hpp"

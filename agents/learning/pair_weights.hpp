@@ -38,7 +38,7 @@ class PairWeights {
   void look(Ram ram);     // the next one
   void take(int action);  // in the present state
   void move(float step);  // each weight along its trace; traces then decay
-  void end();             // of the episode: there are no traces, and nothing is deferred
+  void end();             // ends the episode: all deferred moves enter the table
 
   std::size_t active() const {
     return pairs(steady_.size() + varying_.size());

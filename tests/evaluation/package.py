@@ -1,4 +1,4 @@
-"""What the tests of the package of evaluation/ need of it."""
+"""Helpers for the tests of the evaluation package."""
 
 import pathlib
 import sys

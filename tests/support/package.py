@@ -1,4 +1,4 @@
-"""What the tests of the Python package need of it. Who imports this has new memory filled with zeros, as the reference
+"""Helpers for the tests of the Python package. Importing this fills new memory with zeros, as the reference
 requires."""
 
 import importlib.util

@@ -144,7 +144,7 @@ class TestAllowance:
                 with open(os.path.join(group, name), "w") as file:
                     file.write(text)
                 return os.path.join(group, "cgroup.procs")
-        pytest.skip(f"there can be no control group for {controller} here")
+        pytest.skip(f"this system does not let a control group for {controller} be made")
 
     def join(self, processes):
         with open(processes, "w") as file:
