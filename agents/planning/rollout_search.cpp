@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "agents/planning/count_nodes.hpp"
+
 namespace racebeam {
 
 int RolloutSearch::choose(const Model::State& root) {
@@ -134,19 +136,7 @@ int RolloutSearch::best_action() {
   return best[random_.below(best.size())];
 }
 
-std::size_t RolloutSearch::nodes() const {
-  std::size_t count = 0;
-  std::vector<const Node*> open;
-  if (root_) open.push_back(root_.get());
-  while (!open.empty()) {
-    const Node* const node = open.back();
-    open.pop_back();
-    ++count;
-    for (const auto& child : node->children)
-      if (child) open.push_back(child.get());
-  }
-  return count;
-}
+std::size_t RolloutSearch::nodes() const { return count_nodes(root_.get()); }
 
 double RolloutSearch::value(int action) const {
   if (!root_ || root_->children.empty()) return 0;

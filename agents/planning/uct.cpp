@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "agents/planning/count_nodes.hpp"
+
 namespace racebeam {
 
 Uct::Uct(Model& model, const UctSettings& settings, std::uint64_t seed)
@@ -135,17 +137,6 @@ void Uct::read(StateReader& in) {
   in.get(scaled_);
 }
 
-std::size_t Uct::nodes() const {
-  std::size_t count = 0;
-  std::vector<const Node*> open;
-  if (root_) open.push_back(root_.get());
-  while (!open.empty()) {
-    const Node* const node = open.back();
-    open.pop_back();
-    ++count;
-    for (const auto& child : node->children) open.push_back(child.get());
-  }
-  return count;
-}
+std::size_t Uct::nodes() const { return count_nodes(root_.get()); }
 
 }  // namespace racebeam
