@@ -4,15 +4,18 @@ together, 84x84x4, with the threads that each takes by itself.
 All play chunks of random actions in turns; racebeam and ale_py have to show the same. Wall-clock time counts. "async"
 receives a third of the environments at a time. A ratio is the median of the chunks' ratios: racebeam to the better of
 ale_py and both of EnvPool's. Then racebeam in this process, and on a server over a Unix socket and over TCP; ratios are
-to in process. At the end: what only Python takes of a step, with 64 environments that do nothing. Needs `scripts/wheel
---venv`; `build/python/venv/bin/pip install envpool` adds EnvPool.
+to in process. Then all beside a learner, a process that multiplies matrices on one processor all the time. At the end:
+what only Python takes of a step, with 64 environments that do nothing. Needs `scripts/wheel --venv`;
+`build/python/venv/bin/pip install envpool` adds EnvPool.
 """
 
 import argparse
 import contextlib
+import os
 import pathlib
 import statistics
 import subprocess
+import sys
 import tempfile
 import time
 import zlib
@@ -28,6 +31,9 @@ parser.add_argument(
     "--steps", type=int, default=1600, help="steps per chunk, of all environments together (default 1600)"
 )
 parser.add_argument("--chunks", type=int, default=7, help="chunks per game (default 7)")
+parser.add_argument(
+    "--only", choices=("alone", "servers", "learner"), help="one of the comparisons (default: all of them)"
+)
 options = parser.parse_args()
 
 import numpy as np  # noqa: E402
@@ -170,6 +176,95 @@ def measure_servers(game, count):
     return [options.steps // count * count / statistics.median(seconds) for seconds in times]
 
 
+LEARNER = """
+import numpy
+weights = numpy.ones((256, 256), numpy.float32)
+while True:
+    weights = numpy.tanh(weights @ weights)
+"""
+
+
+@contextlib.contextmanager
+def learner():
+    """A process that keeps one processor busy."""
+    variables = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    process = subprocess.Popen([sys.executable, "-c", LEARNER], env={**os.environ, **variables})
+    try:
+        yield
+    finally:
+        process.kill()
+        process.wait()
+
+
+def step_times(envs, count, steps):
+    """The seconds of each step."""
+    times = []
+    for actions in random.integers(envs.single_action_space.n, size=(steps, count), dtype=np.int32):
+        begin = time.perf_counter()
+        envs.step(actions)
+        times.append(time.perf_counter() - begin)
+    return times
+
+
+def measure_beside_learner(game, count):
+    """Microseconds of a step, as a median and a 99th percentile, alone and beside a learner."""
+    everyone = {
+        "ale_py": Reference(game, count),
+        "racebeam": AtariVectorEnv(game, count),
+        "one thread": AtariVectorEnv(game, count, num_threads=1),
+        "bound": AtariVectorEnv(game, count, thread_affinity_offset=0),
+    }
+    if envpool is not None:
+        everyone["EnvPool"] = pool(game, count, count)
+    rows = {}
+    for name, envs in everyone.items():
+        envs.reset() if name == "EnvPool" else envs.reset(seed=1)
+    for company in (contextlib.nullcontext, learner):
+        times = {name: [] for name in everyone}
+        with company():
+            for _ in range(options.chunks):
+                for name, envs in everyone.items():
+                    times[name] += step_times(envs, count, options.steps // count)
+        for name, each in times.items():
+            rows.setdefault(name, []).extend(np.percentile(each, (50, 99)) * 1e6)
+    for envs in everyone.values():
+        envs.close()
+    return rows
+
+
+def compare_alone(count):
+    ratios = []
+    for game in options.games.split(","):
+        speeds, ratio = measure(game, count)
+        if not ratios:
+            print(f"{f'{count} environments':<18}" + "".join(f"{name:>16}" for name in speeds) + f"{'ratio':>8}")
+        ratios.append(ratio)
+        print(f"{game:<18}" + "".join(f"{speed:16.0f}" for speed in speeds.values()) + f"{ratio:8.2f}", flush=True)
+    print(f"{'mean':<18}{statistics.mean(ratios):{16 * len(speeds) + 8}.2f}   least {min(ratios):.2f}")
+
+
+def compare_servers(count):
+    print(f"{f'{count} environments':<18}{'in process':>16}{'Unix':>16}{'TCP':>16}{'Unix':>8}{'TCP':>8}")
+    ratios = []
+    for game in options.games.split(","):
+        speeds = measure_servers(game, count)
+        ratios.append([speed / speeds[0] for speed in speeds[1:]])
+        print(
+            f"{game:<18}"
+            + "".join(f"{speed:16.0f}" for speed in speeds)
+            + "".join(f"{ratio:8.2f}" for ratio in ratios[-1]),
+            flush=True,
+        )
+    print(f"{'mean':<66}" + "".join(f"{statistics.mean(column):8.2f}" for column in zip(*ratios)))
+
+
+def compare_beside_learner(count):
+    print(f"{f'{count} environments':<30}{'us of a step':>14}{'p99':>8}{'beside a learner':>18}{'p99':>8}")
+    for game in options.games.split(","):
+        for name, (alone, late, beside, late_beside) in measure_beside_learner(game, count).items():
+            print(f"{game:<18}{name:<12}{alone:14.0f}{late:8.0f}{beside:18.0f}{late_beside:8.0f}", flush=True)
+
+
 class IdleMachines:
     """Machines whose steps do nothing."""
 
@@ -197,27 +292,10 @@ def python_alone():
     return statistics.median(times) * 1e6
 
 
+COMPARISONS = {"alone": compare_alone, "servers": compare_servers, "learner": compare_beside_learner}
+
 ALEInterface.setLoggerMode(LoggerMode.Error)
-for count in map(int, options.envs.split(",")):
-    ratios = []
-    for game in options.games.split(","):
-        speeds, ratio = measure(game, count)
-        if not ratios:
-            print(f"{f'{count} environments':<18}" + "".join(f"{name:>16}" for name in speeds) + f"{'ratio':>8}")
-        ratios.append(ratio)
-        print(f"{game:<18}" + "".join(f"{speed:16.0f}" for speed in speeds.values()) + f"{ratio:8.2f}", flush=True)
-    print(f"{'mean':<18}{statistics.mean(ratios):{16 * len(speeds) + 8}.2f}   least {min(ratios):.2f}")
-for count in map(int, options.envs.split(",")):
-    print(f"{f'{count} environments':<18}{'in process':>16}{'Unix':>16}{'TCP':>16}{'Unix':>8}{'TCP':>8}")
-    ratios = []
-    for game in options.games.split(","):
-        speeds = measure_servers(game, count)
-        ratios.append([speed / speeds[0] for speed in speeds[1:]])
-        print(
-            f"{game:<18}"
-            + "".join(f"{speed:16.0f}" for speed in speeds)
-            + "".join(f"{ratio:8.2f}" for ratio in ratios[-1]),
-            flush=True,
-        )
-    print(f"{'mean':<66}" + "".join(f"{statistics.mean(column):8.2f}" for column in zip(*ratios)))
+for compare in [COMPARISONS[options.only]] if options.only else COMPARISONS.values():
+    for count in map(int, options.envs.split(",")):
+        compare(count)
 print(f"only Python takes {python_alone():.1f} us of a step")
