@@ -143,13 +143,13 @@ void finish_call(CartridgeSlot& slot) {
   chip.stopped = arm::run(memory, registers, chip.clock.instructions) != arm::Ending::kReturned;
 }
 
-// Copies bytes of the banks, or one byte, to the display data.
+// Copies bytes of the image, or one byte, to the display data.
 void copy(CartridgeSlot& slot, bool fills) {
   Chip& chip = chip_of(slot);
   const auto& given = chip.parameter;
   const unsigned from = given[0] + given[1] * 256U, to = chip.fetcher[given[2] & 7].pointer;
   for (unsigned i = 0; i < given[3]; ++i)
-    displayed(slot, to + i) = fills ? given[0] : banks(slot)[(from + i) % (kBanks * kBankSize)];
+    displayed(slot, to + i) = fills ? given[0] : banks(slot)[(from + i) % kLeastImage];
   chip.parameters = 0;
 }
 

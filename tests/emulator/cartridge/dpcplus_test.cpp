@@ -94,6 +94,22 @@ TEST_CASE("DPC+: an image is found by its text, and has 29696 to 32768 bytes") {
                           std::to_string(size) + " bytes");
 }
 
+TEST_CASE("DPC+: function 1 copies from banks, display data and frequencies of the image") {
+  const Rom rom = image();
+  const auto at = [&](std::size_t offset) { return unsigned{rom[3072 + offset]}; };
+  Bench bench(rom, asking_for_dpcplus());
+  for (unsigned i = 0; i < 8; ++i) bench.write_at(0, 0x1078, 0xEE);  // in RAM, the display data differ now
+  for (const unsigned from : {0x1080U, 0x5FFEU, 0x6000U, 0x64A4U, 0x6FFEU, 0x73FEU}) {
+    INFO("from offset " << from);
+    bench.write_at(0, 0x1052, 0x40);  // fetcher 2 at $0240
+    bench.write_at(0, 0x106A, 0x02);
+    for (const unsigned parameter : {from & 0xFF, from >> 8, 2U, 4U})
+      bench.write_at(0, 0x1059, static_cast<std::uint8_t>(parameter));
+    bench.write_at(0, 0x105A, 1);
+    for (unsigned i = 0; i < 4; ++i) CHECK(display(bench, 0x240 + i) == at((from + i) % 29696));
+  }
+}
+
 TEST_CASE("DPC+: fast fetch exchanges the operands of LDA # that name a register") {
   const Bytes code = {0xA9, 0x00, 0x8D, 0x58, 0x10,  // LDA #0; STA $1058: on
                       0xA9, 0x20, 0x8D, 0x50, 0x10,  // LDA #$20: the flag of fetcher 0, which is 0 here

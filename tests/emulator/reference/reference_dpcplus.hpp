@@ -143,7 +143,7 @@ struct ModelDpcPlus : Copyable<ModelDpcPlus> {
   void call(unsigned function) {
     if (function == 1 || function == 2) {
       for (unsigned i = 0; i < parameter[3]; ++i) {
-        const unsigned from = (parameter[0] + 256 * parameter[1] + i) % 24576;
+        const unsigned from = (parameter[0] + 256 * parameter[1] + i) % 29696;
         display[(pointer[parameter[2] % 8] + i) % 4096] = function == 1 ? image[base + from] : parameter[0];
       }
     }
