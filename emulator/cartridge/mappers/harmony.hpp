@@ -13,8 +13,9 @@
 namespace racebeam::harmony {
 
 // The ARM's time. An endless call ends when all is used up. A frame that does not end gives no more of it.
-constexpr std::uint32_t kInstructionsPerCycle = 16, kMostInstructions = 1U << 19;
 constexpr std::int32_t kCyclesOfFrame = 32768;
+constexpr std::uint32_t kInstructionsPerCycle = 35,
+                        kMostInstructions = kInstructionsPerCycle * kCyclesOfFrame;
 
 // 3579575 / 3 / 20000 cycles are a sample, or 143183 / 2400.
 constexpr unsigned kSampleParts = 143183, kPartsPerCycle = 2400;
