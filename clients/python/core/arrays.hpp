@@ -23,6 +23,7 @@ class FreshBytes {
   FreshBytes() = default;
   explicit FreshBytes(std::size_t size) : memory_(new std::uint8_t[size]), size_(size) {}
 
+  std::size_t size() const { return size_; }
   std::span<std::uint8_t> span() { return {memory_.get(), size_}; }
 
   Bytes array(std::initializer_list<std::size_t> shape) && {

@@ -93,6 +93,14 @@ void copy_audio(AleInterface& self, std::span<std::uint8_t> out) {
   std::ranges::copy(self.environment().audio(), out.begin());
 }
 
+FreshBytes all_audio(AleInterface& self) {
+  const Turn turn(self.lock());
+  const auto samples = self.environment().all_audio();
+  FreshBytes bytes(samples.size());
+  std::ranges::copy(samples, bytes.span().begin());
+  return bytes;
+}
+
 void bind_bytes(nb::class_<AleInterface>& interface) {
   const auto bind = [&interface]<View view>(const char* name, const char* what) {
     interface.def(name, fresh<view>, what)
@@ -126,11 +134,9 @@ void bind_bytes(nb::class_<AleInterface>& interface) {
       .def(
           "getAllAudio",
           [](AleInterface& self) {
-            const Turn turn(self.lock());
-            const auto samples = self.environment().all_audio();
-            FreshBytes bytes(samples.size());
-            std::ranges::copy(samples, bytes.span().begin());
-            return std::move(bytes).array({samples.size()});
+            FreshBytes bytes = all_audio(self);
+            const std::size_t size = bytes.size();
+            return std::move(bytes).array({size});
           },
           "Returns 512 samples for each frame of the last step(), if all_audio was True when the image was "
           "loaded.");
