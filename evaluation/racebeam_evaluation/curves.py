@@ -32,7 +32,7 @@ def learning_curves(curves: pd.DataFrame) -> pd.DataFrame:
     ends in it."""
     episodes = with_trained(curves)
     longest = episodes.groupby("game")["trained"].transform("max")
-    stretch = np.ceil(episodes["trained"] / longest * _BINS).clip(lower=1).astype(int)
+    stretch = np.ceil(episodes["trained"] * _BINS / longest).clip(lower=1).astype(int)
     keys = ["game", "agent", "stretch"]
     of_trials = episodes.assign(stretch=stretch).groupby([*keys, "trial"])["score"].mean()
     rows = of_trials.groupby(keys).agg(["mean", "sem", "count"]).reset_index()

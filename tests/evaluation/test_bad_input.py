@@ -9,6 +9,9 @@ import pytest
 package.require()
 
 from made_results import CURVES, RESULTS, curve, evaluate, result, results_of, write
+from racebeam_evaluation import BadInput
+from racebeam_evaluation.csv_file import Kind, content_of, digest, read
+from racebeam_evaluation.main import _parser
 
 GOOD = {("basic", "pong"): [[1], [2]], ("bass", "pong"): [[3], [5]]}
 
@@ -66,6 +69,24 @@ class TestBadInput:
         for value in ("1.5", "-1", "one", "1e300", "2147483648"):
             self.lines(result("pong", "basic", value, 0, 1))
             self.check_refusal(f"results.csv, line 2: trial is '{value}'; expected a whole number from 0 to 2147483647")
+
+    def test_numbers_at_their_limits(self):
+        path = self.lines("a,2147483647,1e15,", "b,0,-1e15,1e15", header="name,whole,decimal,optional") / "results.csv"
+        kinds = {"name": Kind.NAME, "whole": Kind.WHOLE, "decimal": Kind.DECIMAL, "optional": Kind.OPTIONAL}
+        frame, source = read(path, kinds)
+        assert frame["whole"].to_list() == [2147483647, 0]
+        assert frame["decimal"].to_list() == [1e15, -1e15]
+        assert frame["optional"].isna().to_list() == [True, False]
+        assert source == digest(path)
+
+    def test_a_file_at_its_limit(self):
+        path = self.root / "file"
+        path.write_bytes(bytes(100))
+        assert content_of(path, 100, "a file") == bytes(100)
+        with pytest.raises(BadInput, match="file has 100 bytes; expected a file of at most 99"):
+            content_of(path, 99, "a file")
+        with pytest.raises(BadInput, match="/dev/zero has more than 99 bytes; expected a file of at most 99"):
+            content_of(pathlib.Path("/dev/zero"), 99, "a file")
 
     def test_a_line_of_another_length(self):
         self.lines(result("pong", "basic", 0, 0, 1), "1,2,3")
@@ -168,6 +189,12 @@ class TestBadInput:
         self.check_refusal("expected RESULTS, or --paper", folder, "--paper", status=2)
         self.check_refusal("'-1' is not accepted; expected 0 to 4294967295", folder, "--seed=-1", status=2)
         self.check_refusal("'0' is not accepted; expected 1 to 1000000", folder, "--repetitions", "0", status=2)
+        options = _parser().parse_args(["--into", "a", "--seed", "4294967295", "--repetitions", "1000000"])
+        assert (options.seed, options.repetitions) == (4294967295, 1000000)
+        options = _parser().parse_args(["--into", "a", "--seed", "0", "--repetitions", "1"])
+        assert (options.seed, options.repetitions) == (0, 1)
+        for option, value in (("--seed", "4294967296"), ("--repetitions", "1000001")):
+            self.check_refusal(f"'{value}' is not accepted", folder, option, value, status=2)
 
 
 class TestPlans:

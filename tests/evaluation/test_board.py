@@ -16,10 +16,10 @@ import pytest
 package.require()
 
 from made_results import evaluate
-from made_submissions import ABOUT, log, log_path, row_of, seal, submission, write_rows
+from made_submissions import ABOUT, SETTINGS, log, log_path, row_of, seal, submission, write_rows
 from racebeam_evaluation import errors, main  # noqa: E402, F401
 from racebeam_evaluation.board.episode_log import read_log
-from racebeam_evaluation.board.submission import seed_of_phrase
+from racebeam_evaluation.board.submission import read_submission, seed_of_phrase
 
 OWN_GAMES = package.SOURCE / "docs/results/own-games"
 
@@ -91,6 +91,30 @@ class TestBoard(Folder):
         index = self.page()
         assert index.count("<h2>Preset") == 2
         assert "<th>mine 1.0</th><th>yours 1.0</th>" not in index
+
+    def test_agents_without_a_human_score_are_last_and_have_no_number(self):
+        submission(self.root / "a", "first", {"beamfall": [[5]]})
+        submission(self.root / "b", "second", {"pong": [[-20]], "beamfall": [[6]]})
+        submission(self.root / "c", "third", {"pong": [[20.25]]})
+        assert self.board(self.root / "a", self.root / "b", self.root / "c").returncode == 0
+        index = self.page()
+        places = [index.index(f"{name} 1.0") for name in ("third", "second", "first")]
+        assert places == sorted(places)
+        number = '<td class="number">{}</td>'
+        assert "".join(map(number.format, ("4,000,000", 0, *["n/a"] * 3))) in index
+        # One trial has no interval: (-20 + 20.7) / 35.3.
+        assert "".join(map(number.format, ("4,000,000", 1, *["0.020"] * 3))) in index
+        assert "<th>game</th><th" in index
+        assert '<td class="number"><a href="agent3.html#pong">20.2</a></td>' in index
+
+    def test_200_letters_of_the_words_are_on_the_first_page(self):
+        folder, _ = submission(self.root / "a")
+        (folder / "agent.toml").write_text(
+            ABOUT.format(agent="mine", preset="paper2013").replace("Ours <b>& theirs</b>", "x" * 4000)
+        )
+        assert self.board(folder).returncode == 0
+        assert f">{'x' * 200}<" in self.page()
+        assert f">{'x' * 4000}<" in self.page("agent1.html")
 
     def test_curves_are_shown(self):
         folder, _ = submission(self.root / "a")
@@ -190,6 +214,55 @@ class TestBadInput(Folder):
         self.check_refusal("1.episode has 1073741824 bytes; expected an episode log of at most 2097152")
         assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 100_000  # KiB
 
+    def contents(self, settings=SETTINGS):
+        """What the seal of the first log protects."""
+        return zlib.decompress(log(self.rows[0], settings)[24:])
+
+    def test_the_size_of_the_contents_is_exact(self):
+        for size in (len(self.contents()) - 1, len(self.contents()) + 1):
+            self.log.write_bytes(seal(self.contents(), size=size))
+            self.check_refusal(f"1.episode is damaged: its contents do not have {size} bytes")
+        head = struct.pack("<8sIQ", b"RBEPISOD", 1, 0)
+        self.log.write_bytes(head + struct.pack("<I", zlib.crc32(head)))  # nothing follows
+        self.check_refusal("1.episode is damaged: its contents do not have 0 bytes")
+
+    def test_contents_of_two_mebibytes_are_read_and_one_more_byte_is_not(self):
+        room = 2**21 - len(self.contents(SETTINGS + " "))
+        self.log.write_bytes(seal(self.contents(f"{SETTINGS} {'x' * room}")))
+        assert read_log(self.log).actions == bytes([3] * 300)
+        self.log.write_bytes(seal(self.contents(f"{SETTINGS} {'x' * (room + 1)}")))
+        self.check_refusal("1.episode has contents of 2097153 bytes; expected at most 2097152")
+
+    def test_a_hash_for_each_256_decisions(self):
+        path = self.folder / "1.episode"
+        for decisions in (0, 1, 255, 256, 257, 511, 512):
+            row = {**self.rows[0], "decisions": str(decisions), "state_hash": "0123456789abcdef"}
+            path.write_bytes(log(row, actions=bytes([17] * decisions)))
+            read = read_log(path)
+            assert (read.actions, read.strengths) == (bytes([17] * decisions), ())
+            assert (read.columns["state_hash"], read.columns["decisions"]) == ("0123456789abcdef", str(decisions))
+
+    def test_a_number_of_decisions_that_does_not_fit(self):
+        whole = self.contents()
+        for number in (b"", b"-1", b"x", b"299", b"301", b"9" * 5000, "\u0663\u0660\u0660".encode()):
+            self.log.write_bytes(seal(whole.replace(b"decisions=300", b"decisions=" + number)))
+            self.check_refusal(f"1.episode says decisions={number.decode()}, which does not fit its actions")
+
+    def test_a_log_of_other_lines(self):
+        whole = self.contents()
+        load, image = whole.split(b"\n")[:2]
+        for before, after in (
+            (load, b"load"),
+            (load, b"loads" + load[4:]),
+            (image, b"image"),
+            (image, image + b" more"),
+            (image + b"\n", b""),
+        ):
+            self.log.write_bytes(seal(whole.replace(before, after)))
+            self.check_refusal("its text has other lines; expected load, image, from, ended")
+        self.log.write_bytes(seal(whole.replace(b"\n\n", b"\n")))
+        self.check_refusal("its text does not end; expected a whole log")
+
     def test_contents_that_grow_without_end(self):
         self.log.write_bytes(seal(bytes(2**25), size=1000))
         self.check_refusal("1.episode is damaged: its contents do not have 1000 bytes")
@@ -247,12 +320,23 @@ class TestBadInput(Folder):
         self.log.parent.rename(self.root / "unit")
         self.log.parent.symlink_to(self.root / "unit")
         self.check_refusal("is a link; expected a folder")
+        self.log.parent.unlink()
+        (self.root / "unit").rename(self.log.parent)
+        (self.folder / "logs").rename(self.root / "logs")
+        (self.folder / "logs").symlink_to(self.root / "logs")
+        self.check_refusal("a/logs is a link; expected a folder")
 
     def test_seeds_of_a_phrase(self):
         path = self.folder / "agent.toml"
         path.write_text(path.read_text() + 'phrase = "a phrase"\n')
         self.check_refusal("line 2: environment_seed is '7'; the phrase gives '")
         assert seed_of_phrase("a phrase", {"game": "beamfall", "trial": "1", "episode": "2"}) == 221384134
+        for row in self.rows:
+            row["environment_seed"] = str(seed_of_phrase("a phrase", row))
+            log_path(self.folder, row).write_bytes(log(row))
+            row["log_digest"] = hashlib.sha256(log(row)).hexdigest()
+        write_rows(self.folder, self.rows)
+        assert len(read_submission(self.folder).episodes) == len(self.rows)
 
     def test_agent_toml(self):
         path = self.folder / "agent.toml"
@@ -265,6 +349,9 @@ class TestBadInput(Folder):
             (good.replace('"mine"', '"../mine"'), "agent is '../mine'; expected letters, digits"),
             (good.replace("paper2013", "paper2014"), "preset is 'paper2014'; expected paper2013, machado2018"),
             (good.replace("https://example.org/agent", "javascript:alert(1)"), "expected https://... or http://..."),
+            (good.replace("4000000", "true"), "training_frames is 'True'; expected a whole number from 0"),
+            (good.replace("4000000", str(10**15)), f"training_frames is '{10**15}'; expected a whole number from 0"),
+            (good.replace("Ours <b>& theirs</b>", "x" * 4001), "words has 4001 letters; expected at most 4000"),
             (good.replace("4000000", "-1"), "training_frames is '-1'; expected a whole number from 0"),
             (good + 'role = "teacher"\n', "role is 'teacher'; expected learner, planner, baseline"),
             (good.replace("Ours", "Ours" * 2000), "words has "),
@@ -273,9 +360,26 @@ class TestBadInput(Folder):
             path.write_text(text)
             self.check_refusal(sentence)
 
+    def test_agent_toml_at_its_limits(self):
+        path = self.folder / "agent.toml"
+        good = path.read_text()
+        for frames in (0, 10**15 - 1):
+            text = good.replace("4000000", str(frames)).replace("Ours <b>& theirs</b>", "x" * 4000)
+            path.write_text(text + "#" * (2**16 - len(text.encode())))
+            about = read_submission(self.folder).about
+            assert (about.training_frames, len(about.words)) == (frames, 4000)
+            assert (about.role, about.link, about.phrase) == ("learner", "https://example.org/agent", "")
+
     def test_an_agent_that_agent_toml_does_not_name(self):
         (self.folder / "agent.toml").write_text(ABOUT.format(agent="other", preset="paper2013"))
         self.check_refusal("results.csv has the agent 'mine'; expected 'other', as agent.toml has")
+
+    def test_a_trial_that_diverged_has_no_log(self):
+        lost = {**self.rows[0], "trial": "9", "unit": "lost", "score": "", "end": "diverged"}
+        write_rows(self.folder, [*self.rows, lost])
+        assert [each.row for each in read_submission(self.folder).episodes] == self.rows
+        write_rows(self.folder, [lost])
+        self.check_refusal("results.csv: every trial diverged; expected a score of one trial or more")
 
     def test_usage(self):
         for arguments, sentence in (

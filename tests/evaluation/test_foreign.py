@@ -73,6 +73,38 @@ class TestFiles(Folder):
         row = (self.root / "report/tables/machado2018.csv").read_text().splitlines()[2]
         assert row == "pong,dqn,1,10,n/a,1,50,n/a,1,n/a,n/a,0,n/a,n/a,0"
 
+    def test_an_iteration_that_comes_again_begins_a_trial(self):
+        entries = [{"Iteration": i, "Value": i + 10, "Agent": agent} for i, agent in ((0, "A"), (0, "A"), (1, "B"))]
+        found = load(self.file("pong.json", entries))
+        assert found.trials.values.tolist() == [["pong", "a", 0, 10], ["pong", "a", 1, 10], ["pong", "b", 0, 11]]
+
+    def test_results_of_others_have_one_episode_and_no_image(self):
+        for name, content in (("DrQ.json", {"Pong": [1]}), ("a.csv", ZOO)):
+            rows = load(self.file(name, content)).episodes
+            assert set(rows["episode"]) == {0}
+            assert set(rows["image_md5"]) == {""}
+
+    def test_an_agent_is_named_without_signs(self):
+        for name, agent in (("Rainbow (v2)", "rainbow_v2"), ("??", "agent")):
+            assert load(self.file(f"{name}.json", {"Pong": [1]})).trials["agent"].to_list() == [agent]
+
+    def test_frames_of_an_iteration_are_those_since_the_one_before(self):
+        rows = ["0,pong,7,250,1,1", "1,pong,7,1000,2,1"]
+        found = load(self.file("a.csv", "\n".join([ZOO.splitlines()[0], *reversed(rows), ""])))
+        assert found.curves[["episode", "score", "frames", "decisions"]].values.tolist() == [
+            [0, 1, 250, 62],
+            [1, 2, 750, 187],
+        ]
+        assert found.trials["score"].to_list() == [2]
+
+    def test_the_entry_that_is_wrong_is_numbered_and_cut(self):
+        entries = [{"Iteration": 0, "Value": 1, "Agent": "a"}, {"Agent": "b" * 200}]
+        for wrong in ({"Agent": "b" * 200}, {"Iteration": -1, "Value": 1, "Agent": "a"}):
+            entries[1] = wrong
+            with pytest.raises(BadInput) as raised:
+                load(self.file("pong.json", entries))
+            assert f"entry 2 is {json.dumps(wrong)[:100]}; expected a list" in str(raised.value)
+
     def test_mistakes_are_reported(self):
         for name, content, sentence in (
             ("pong.txt", "", "is neither a folder, nor a file .csv of DQN Zoo, nor .json of Dopamine or rliable"),

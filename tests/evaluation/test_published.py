@@ -5,9 +5,10 @@ import pytest
 
 package.require()
 
-from made_results import evaluate, report, results_of, tables, write
+from made_results import evaluate, report, result, results_of, tables, write
 from racebeam_evaluation.games import DATA
 from racebeam_evaluation.plan import preset_of
+from racebeam_evaluation.published import beside
 from racebeam_evaluation.published.beside import interval
 from racebeam_evaluation.published.paper import published_scores
 from racebeam_evaluation.published.protocols import cause, not_comparable, published_protocols
@@ -93,6 +94,25 @@ class TestPublished:
         assert found["freeway", "const"]["agrees"].startswith("no: 30 starts after 0 to 29 no-ops give 19 to")
         assert found["skiing", "const"]["agrees"].startswith("not comparable: the reward was near 0 then")
         assert ("asterix", "mine") not in found
+
+    def test_one_sample_agrees_only_with_the_same_score(self):
+        for score, agrees in (("862.3", "yes"), ("862.4", "unknown: one sample has no interval")):
+            folder = self.results()
+            lines = [line for line in (folder / "results.csv").read_text().splitlines() if ",basic," not in line]
+            write(folder, [*lines[1:], result("asterix", "basic", 0, 0, score)])
+            assert self.rows(tables(folder)["beside-published.csv"])["asterix", "basic"]["agrees"] == agrees
+
+    def test_the_bounds_of_an_interval_lie_in_it(self, monkeypatch):
+        for bounds, agrees in (
+            ((862.3, 900), "yes"),
+            ((1, 862.3), "yes"),
+            ((862.4, 900), "no: the cause is not known"),
+            ((1, 862.2), "no: the cause is not known"),
+        ):
+            monkeypatch.setattr(beside, "interval", lambda _, bounds=bounds: bounds)
+            row = self.rows(tables(self.results())["beside-published.csv"])["asterix", "basic"]
+            assert row["agrees"] == agrees
+            assert (float(row["low"]), float(row["high"])) == bounds
 
     def test_other_settings_are_left_out_unless_they_may_be_mixed(self):
         for edit, agent, names in (

@@ -8,7 +8,8 @@ package.require()
 import numpy as np
 import pandas as pd
 from racebeam_evaluation import against_random, aggregate, bootstrap, curves, efficiency, paired
-from racebeam_evaluation.normalise import Ranges, all_ranges
+from racebeam_evaluation.games import CATALOGUE
+from racebeam_evaluation.normalise import Ranges, all_ranges, human_and_random
 from racebeam_evaluation.reports import machado2018
 from racebeam_evaluation.results import Results
 from racebeam_evaluation.scores import Group, scores_of
@@ -74,6 +75,21 @@ class TestScores:
         baselines = scores_of(results_of({(agent, "boxing"): [[1]] for agent in ("random", "const_upfire")}))
         assert [group.agents for group in baselines.groups] == [("random", "const")]
 
+    def test_a_sample_is_of_the_policy_that_is_best_and_empty_without_scores(self):
+        results = {("const_0", "boxing"): [[4, 5]], ("const_17", "boxing"): [[9], [11]], ("uct", "boxing"): [[1, 3]]}
+        scores = scores_of(results_of(results | {("basic", "pong"): [[1, 3]]}))
+        assert scores.sample("const", "boxing").tolist() == [9, 11]
+        assert scores.sample("uct", "boxing").tolist() == [1, 3]  # the episodes
+        assert scores.sample("basic", "pong").tolist() == [2]  # the mean of the trial
+        assert len(scores.sample("basic", "boxing")) == len(scores.trial_scores("basic", "boxing")) == 0
+
+    def test_agents_are_learners_then_planners_and_known_ones_are_first(self):
+        names = ("iw1", "another", "ram", "uct", "basic", "mine")
+        results = results_of({(agent, "boxing"): [[1]] for agent in names})
+        roles = {"mine": "planner"}
+        scores = scores_of(Results(results.episodes, None, (), (), roles=roles))
+        assert list(scores.means) == ["basic", "ram", "another", "uct", "iw1", "mine"]
+
     def test_games_are_in_the_papers_order(self):
         scores = scores_of(results_of({("basic", game): [[1]] for game in ("beamfall", "alien", "freeway")}))
         assert list(scores.means.index) == ["freeway", "alien", "beamfall"]
@@ -104,6 +120,28 @@ class TestNormalisation:
         assert self.of_basic("baseline")["boxing"] == 18 / 36  # from random's -2 to perturb_17's 34
         assert self.ranges["baseline"].without(["boxing", "pong"]) == ["pong"]  # one reference is not a range
         assert self.ranges["baseline"].notes == ("Baseline scores: 1 game has 1 of the 37 references.",)
+
+    def test_every_game_with_some_references_but_not_all_is_counted_in_a_note(self):
+        def notes(references):
+            scores = {(f"const_{number}", game): [[number]] for game, count in references for number in range(count)}
+            ranges = all_ranges(scores_of(results_of(scores | {("basic", "pong"): [[1]]})), Group("made", ("basic",)))
+            return next((each.notes for each in ranges if each.name == "baseline"), None)
+
+        assert notes([("boxing", 2), ("freeway", 36), ("alien", 36), ("asterix", 37)]) == (
+            "Baseline scores: 1 game has 2 of the 37 references.",
+            "Baseline scores: 2 games have 36 of the 37 references.",
+        )
+        assert notes([("boxing", 37)]) == ()
+
+    def test_a_normalisation_without_any_range_is_left_out(self):
+        scores = scores_of(results_of({("basic", "beamfall"): [[1]], ("bass", "beamfall"): [[2]]}))
+        assert [each.name for each in all_ranges(scores, Group("made", ("basic", "bass")))] == ["inter-algorithm"]
+        assert [each.name for each in human_and_random(scores)] == ["human"]
+        with_random = scores_of(results_of({("basic", "pong"): [[1]], ("random", "pong"): [[-20]]}))
+        assert [each.name for each in human_and_random(with_random)] == ["human", "random"]
+
+    def test_only_the_scores_between_the_agents_are_bounded(self):
+        assert [each.name for each in self.ranges.values() if each.bounded] == ["inter-algorithm"]
 
     def test_inter_algorithm(self):
         assert self.of_basic("inter-algorithm")[["freeway", "boxing"]].to_list() == [0, 1]
@@ -136,6 +174,75 @@ class TestDistribution:
         shares = [dict(zip(each["score"], each["share of games"])) for _, each in rows.groupby("set")]
         assert {0.2: 1, 0.8: 0.5} in shares
 
+    def test_equal_scores_are_one_row_of_the_distribution(self):
+        games = ("pong", "boxing", "freeway")
+        scores = scores_of(results_of({("basic", game): [[score]] for game, score in zip(games, (5, 5, 10))}))
+        ranges = Ranges("made", pd.Series(0.0, index=games), pd.Series(10.0, index=games))
+        rows = aggregate.distribution_rows(scores, ranges, Group("learning", ("basic",)))
+        of_all = rows[rows["set"] == "training + testing"]
+        assert of_all[["score", "share of games"]].to_numpy().tolist() == [[0.5, 1], [1, 1 / 3]]
+        assert rows.index.to_list() == list(range(len(rows)))
+
+    def test_a_score_of_1_is_not_above_1(self):
+        scores = {("basic", "pong"): [[10]], ("basic", "boxing"): [[10.5]], ("basic", "alien"): [[9]]}
+        ranges = Ranges("made", pd.Series(0.0, index=GAMES), pd.Series(10.0, index=GAMES))
+        rows = aggregate.aggregate_rows(scores_of(results_of(scores)), ranges, Group("learning", ("basic",)), FEW)
+        assert rows["above 1"].to_list() == [1]
+        assert rows[["games", "n/a"]].to_numpy().tolist() == [[3, 0]]
+
+    def test_games_without_a_range_are_counted_and_a_set_without_one_has_no_row(self):
+        scores = scores_of(results_of({("basic", game): [[1], [2]] for game in ("pong", "boxing", "freeway")}))
+        ranges = Ranges("made", pd.Series({"pong": 0.0}), pd.Series({"pong": 2.0}))
+        rows = aggregate.aggregate_rows(scores, ranges, Group("learning", ("basic",)), FEW)
+        assert rows[["set", "games", "n/a"]].to_numpy().tolist() == [
+            ["testing", 1, 1],
+            ["training + testing", 1, 2],
+        ]
+
+
+GAMES = ("pong", "boxing", "alien")
+
+
+class TestProfiles:
+    SCORES = {("basic", game): [[score] for score in trials] for game, trials in zip(GAMES, ([1, 9], [2, 8], [3, 30]))}
+
+    def rows(self, bounded=False):
+        ranges = Ranges("made", pd.Series(0.0, index=GAMES), pd.Series(10.0, index=GAMES), bounded=bounded)
+        scores = scores_of(results_of(self.SCORES | {("bass", game): [[0], [0]] for game in GAMES}))
+        return aggregate.profile_rows(scores, ranges, Group("learning", ("basic", "bass")), FEW)
+
+    def test_thresholds_go_to_2_and_to_1_where_no_score_is_higher(self):
+        for bounded, last in ((False, 2), (True, 1)):
+            rows = self.rows(bounded)
+            np.testing.assert_allclose(rows["threshold"], [*np.arange(41) * last / 40] * 2)
+            assert rows.index.to_list() == list(range(82))
+
+    def test_the_share_of_trials_above_each_threshold_lies_in_its_interval(self):
+        rows = self.rows()
+        assert rows["agent"].to_list() == ["basic"] * 41 + ["bass"] * 41
+        basic = rows[rows["agent"] == "basic"].set_index(rows["threshold"][:41].round(9))
+        assert basic["share of trials"][[0, 0.5, 1, 2]].to_list() == [1, 0.5, 1 / 6, 1 / 6]
+        assert basic.loc[0.25, ["low", "high"]].to_list() != [0.25, 0.25]
+        assert (basic["low"] <= basic["share of trials"]).all() and (basic["share of trials"] <= basic["high"]).all()
+        assert set(rows["set"]) == {"testing"} and set(rows["normalisation"]) == {"made"}
+
+
+class TestImprovement:
+    def rows(self, agents):
+        scores = {(agent, "pong"): [[score] for score in trials] for agent, trials in agents.items()}
+        return aggregate.improvement_rows(scores_of(results_of(scores)), Group("learning", tuple(agents)), FEW)
+
+    def test_each_ordered_pair_with_two_trials_of_both_has_a_row(self):
+        rows = self.rows({"basic": [1, 3], "bass": [2, 4], "ram": [9]})
+        assert rows[["first", "second"]].to_numpy().tolist() == [["basic", "bass"], ["bass", "basic"]]
+        assert rows["probability"].to_list() == [0.25, 0.75]
+        assert rows.loc[0, ["probability low", "probability high"]].to_list() == [0, 1]
+        assert set(rows["games"]) == {1}
+
+    def test_agents_without_a_common_game_are_left_out(self):
+        scores = scores_of(results_of({("basic", "pong"): [[1], [2]], ("bass", "boxing"): [[1], [2]]}))
+        assert aggregate.improvement_rows(scores, Group("learning", ("basic", "bass")), FEW).empty
+
 
 class TestPaired:
     def verdicts(self, first, second):
@@ -166,6 +273,13 @@ class TestPaired:
         assert self.verdicts(first, second) == []
         assert paired.SIGNIFICANCE == 0.01
 
+    def test_a_value_at_the_level_is_not_significant(self, monkeypatch):
+        first, second = [1, 2, 3, 4], [4, 5, 5.5, 7]
+        p = paired.welch(np.array(first), np.array(second))
+        for level, expected in ((p, []), (np.nextafter(p, 1), ["worse"])):
+            monkeypatch.setattr(paired, "SIGNIFICANCE", level)
+            assert self.verdicts(first, second) == expected
+
     def test_what_cannot_be_tested_is_noted(self):
         assert self.verdicts([1], [2, 3]) == ["few"]
         assert self.verdicts([1, 1], [2, 2, 2]) == ["constant"]
@@ -174,6 +288,11 @@ class TestPaired:
         scores = {("basic", "pong"): [[1], [2]], ("bass", "pong"): [[1], [3]], ("bass", "boxing"): [[9], [8]]}
         (pair,) = paired.pairs(scores_of(results_of(scores)), Group("learning", ("basic", "bass")))
         assert (pair.games, pair.lacking) == (["pong"], ["boxing"])
+
+    def test_a_game_that_neither_has_is_lacking_in_neither(self):
+        scores = {("basic", "pong"): [[1], [2]], ("bass", "pong"): [[1], [2]], ("ram", "alien"): [[9], [8]]}
+        (pair,) = paired.pairs(scores_of(results_of(scores)), Group("learning", ("basic", "bass")))
+        assert (pair.games, pair.lacking, pair.higher, pair.lower) == (["pong"], [], [], [])
 
     def test_the_table_says_where_nothing_was_tested(self):
         scores = scores_of(
@@ -267,6 +386,14 @@ class TestBootstrap:
         assert rows.loc[0, ["median low", "median high"]].to_list() == [4 / 16, 12 / 16]
         assert rows.loc[0, ["optimality gap low", "optimality gap high"]].to_list() == [4 / 16, 12 / 16]
 
+    def test_an_interval_has_95_percent_in_2000_repetitions_unless_told(self):
+        assert bootstrap.Bootstrap() == bootstrap.Bootstrap(seed=1, repetitions=2000, confidence=0.95)
+
+    def test_an_interval_without_confidence_is_the_middle(self):
+        uneven = bootstrap.padded([self.first[:, 0], self.second[:, 1]])
+        estimate = bootstrap.Bootstrap(repetitions=301, confidence=0).estimate(bootstrap.aggregates, uneven)
+        assert estimate.low.tolist() == estimate.high.tolist()
+
     def test_the_bootstrap_is_stratified_by_game(self):
         constant_in_each_game = np.array([[1.0, 2, 4]] * 5)
         estimate = FEW.estimate(bootstrap.aggregates, constant_in_each_game)
@@ -331,6 +458,20 @@ class TestAgainstRandom:
         row = self.row("uct", {("uct", "boxing"): [[1], [2], [1]]})
         assert (row["above"], row["significantly below"], row["low"], row["high"]) == (0, 1, 0, 0)
 
+    def test_the_mean_of_random_play_is_not_above_it(self):
+        row = self.row("uct", {("uct", "boxing"): [[5], [5]], ("uct", "pong"): [[9]]})
+        assert (row["games"], row["above"], row["low"], row["high"]) == (2, 1, 1, 1)
+        assert row["not tested"] == 2  # one sample, and two that do not vary
+
+    def test_the_interval_is_that_of_coins(self):
+        # Each of 15 games is above random play in 3/4 of the repetitions: the better of two draws is above 0.
+        games = list(CATALOGUE)[:15]
+        scores = {(agent, game): [[score] for score in (-1, 1)] for agent in ("uct",) for game in games}
+        found = scores_of(results_of(scores | {("random", game): [[-0.5]] for game in games}))
+        for confidence, bounds in ((0.95, (8, 14)), (0, (11, 11))):
+            row = against_random.rows(found, ("uct",), bootstrap.Bootstrap(1, 4000, confidence)).iloc[0]
+            assert (row["above"], row["low"], row["high"]) == (15, *bounds)
+
 
 class TestEfficiency:
     RANGES = Ranges("made", pd.Series({"pong": 0.0, "boxing": 0}), pd.Series({"pong": 10.0, "boxing": 10}))
@@ -361,6 +502,28 @@ class TestEfficiency:
         assert frames["trained for"].to_list() == [10_000_000, 50_000_000, 100_000_000]
         assert frames["IQM"].iloc[2] == pytest.approx((49.5 + 0.5) / 10, rel=0, abs=0.5e-7)
 
+    def test_an_episode_that_ends_beyond_a_point_has_reached_it(self):
+        # Four episodes of 10 million frames: the fifth would have ended at 50 million.
+        rows = self.rows(10_000_000, 4)
+        assert rows[rows["axis"] == "frames"]["trained for"].to_list() == [10_000_000, 50_000_000]
+        assert rows[rows["axis"] == "decisions"]["trained for"].to_list() == [800_000 * part for part in range(3, 11)]
+        assert self.rows(10_000_000, 20)["trained for"].to_list()[:4] == [
+            10_000_000,
+            50_000_000,
+            100_000_000,
+            200_000_000,
+        ]
+
+    def test_training_that_reaches_one_point_only_has_ten_parts(self):
+        rows = self.rows(1_000_000, 20)
+        assert rows["trained for"].to_list()[:10] == [2_000_000 * part for part in range(1, 11)]
+
+    def test_points_of_the_shortest_training_are_whole_and_not_0(self):
+        rows = self.rows(1, 15)
+        assert rows[rows["axis"] == "frames"]["trained for"].to_list() == [1, 3, 4, 6, 7, 9, 10, 12, 13, 15]
+        rows = self.rows(5, 1)
+        assert rows[rows["axis"] == "frames"]["trained for"].to_list() == [5]  # before it no episode has ended
+
     def test_games_that_not_all_were_trained_in_do_not_count(self):
         trained = curves_of(
             [("pong", "basic", 0, 0, 5, 100), ("pong", "bass", 0, 0, 7, 100), ("boxing", "bass", 0, 0, 9, 100)]
@@ -381,6 +544,31 @@ class TestCurves:
         assert rows["frames"].to_list() == [50, 100]
         assert rows["score"].to_list() == [3, 5]
         assert rows["standard error"].to_list() == [2, 2]
+
+    def test_a_stretch_is_a_fiftieth_of_the_longest_training(self):
+        episodes = [("pong", "basic", 0, number, number, 10) for number in range(1, 101)]
+        episodes += [("pong", "bass", 0, 1, 7, 0), ("alien", "basic", 0, 1, 5, 80)]
+        rows = curves.learning_curves(curves_of(episodes))
+        assert rows["game"].to_list() == ["alien"] + ["pong"] * 51
+        assert rows["agent"].to_list() == ["basic"] * 51 + ["bass"]
+        assert rows["trials"].to_list() == [1] * 52
+        basic = rows[(rows["game"] == "pong") & (rows["agent"] == "basic")]
+        assert basic["frames"].to_list() == [20 * stretch for stretch in range(1, 51)]
+        assert basic["score"].to_list() == [2 * stretch - 0.5 for stretch in range(1, 51)]
+        # An episode without frames is in the first stretch. One trial has no error.
+        assert rows.loc[51, ["frames", "score"]].to_list() == [20, 7]
+        assert rows["standard error"].isna().all()
+
+    def test_a_checkpoint_needs_100_episodes_unless_fewer_are_enough(self):
+        def trial(count, **others):
+            return pd.DataFrame({"trained": range(1, count + 1), "score": range(count)}).assign(**others)
+
+        assert curves.checkpoint(trial(100), 100) == 49.5
+        assert np.isnan(curves.checkpoint(trial(100), 99))
+        assert curves.checkpoint(trial(5), 2, fewest=2) == 0.5
+        assert np.isnan(curves.checkpoint(trial(5), 1, fewest=2))
+        assert curves.checkpoint(trial(5, window=2), 4) == 2.5  # rows that are means of many episodes
+        assert np.isnan(curves.checkpoint(trial(5, window=[2, None, 2, 2, 2]), 4))
 
     def test_checkpoints_take_the_last_100_episodes_that_ended_before(self):
         # Episodes of 10,000 frames: the 1,000th ends at 10 million frames. The score is the number of the episode.
