@@ -62,6 +62,24 @@ def cleanup():
         yield stack.callback
 
 
+@pytest.fixture
+def self_cleanup(request, cleanup):
+    """Gives the class of the test `cleanup` as self.cleanup."""
+    request.instance.cleanup = cleanup
+
+
+@pytest.fixture
+def self_subtests(request, subtests):
+    """Gives the class of the test `subtests` as self.subtests."""
+    request.instance.subtests = subtests
+
+
+@pytest.fixture
+def self_folder(request, tmp_path):
+    """Gives the class of the test the path of an empty folder as self.folder."""
+    request.instance.folder = str(tmp_path)
+
+
 def pytest_make_parametrize_id(val, argname):
     """Long texts are named by their length."""
     return f"{argname}-of-{len(val)}" if isinstance(val, (str, bytes)) and len(val) > 60 else None

@@ -54,15 +54,8 @@ class TestControlCharacters(Case):
             assert re.search(self.SHOWN, errors[0])
 
 
+@pytest.mark.usefixtures("self_subtests", "self_folder")
 class TestImages(Case):
-    @pytest.fixture(autouse=True)
-    def keep_subtests(self, subtests):
-        self.subtests = subtests
-
-    @pytest.fixture(autouse=True)
-    def set_up(self, tmp_path):
-        self.folder = str(tmp_path)
-
     def image(self, data, name="x.bin"):
         path = os.path.join(self.folder, name)
         with open(path, "wb") as file:

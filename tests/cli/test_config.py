@@ -8,11 +8,8 @@ import pytest
 BINARY = os.environ.get("RACEBEAM_BINARY", "build/release/racebeam")
 
 
+@pytest.mark.usefixtures("self_folder")
 class TestConfig:
-    @pytest.fixture(autouse=True)
-    def set_up(self, tmp_path):
-        self.folder = str(tmp_path)
-
     def file(self, text):
         path = os.path.join(self.folder, "settings.toml")
         with open(path, "w") as file:

@@ -102,11 +102,8 @@ class TestGames:
         assert any(row.startswith("beamfall") and "*" in row for row in rows)
 
 
+@pytest.mark.usefixtures("self_folder")
 class TestRoms:
-    @pytest.fixture(autouse=True)
-    def set_up(self, tmp_path):
-        self.folder = str(tmp_path)
-
     def put(self, name, data):
         with open(os.path.join(self.folder, name), "wb") as file:
             file.write(data)

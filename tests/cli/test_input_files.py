@@ -28,11 +28,8 @@ COMMANDS = (
 )
 
 
+@pytest.mark.usefixtures("self_subtests")
 class TestRefused:
-    @pytest.fixture(autouse=True)
-    def keep_subtests(self, subtests):
-        self.subtests = subtests
-
     @pytest.fixture(autouse=True)
     def set_up(self, tmp_path):
         self.folder = str(tmp_path)

@@ -23,15 +23,8 @@ def environment(**more):
     } | more
 
 
+@pytest.mark.usefixtures("self_cleanup", "self_folder")
 class TestPlay:
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
-
-    @pytest.fixture(autouse=True)
-    def set_up(self, tmp_path):
-        self.folder = str(tmp_path)
-
     def start(self, *words, **more):
         process = subprocess.Popen(
             [BINARY, "play", *words],
@@ -106,11 +99,8 @@ class TestPlay:
         assert "needs an address ws://HOST:PORT" in errors[-1]
 
 
+@pytest.mark.usefixtures("self_cleanup")
 class TestWatch:
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
-
     @pytest.fixture(autouse=True)
     def set_up(self, cleanup):
         self.server = Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "ws://127.0.0.1:0", "--grace", "0")

@@ -53,15 +53,8 @@ class Wire:
         return [tuple(palette[3 * value : 3 * value + 3]) for value in bytes.fromhex(screen["screen"])]
 
 
+@pytest.mark.usefixtures("self_cleanup", "self_folder")
 class InTerminal:
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
-
-    @pytest.fixture(autouse=True)
-    def set_up(self, tmp_path):
-        self.folder = str(tmp_path)
-
     def open(self, *words, **properties):
         terminal = Terminal([BINARY, *words], environment=environment(TMPDIR=self.folder, TERM="xterm"), **properties)
         self.cleanup(terminal.close)

@@ -22,11 +22,8 @@ with client.connect() as game:
 """
 
 
+@pytest.mark.usefixtures("self_cleanup")
 class TestWith:
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
-
     @pytest.fixture(autouse=True)
     def set_up(self, tmp_path):
         self.place = tmp_path

@@ -47,11 +47,8 @@ def patiently(start, tries=4):
                 raise
 
 
+@pytest.mark.usefixtures("self_cleanup")
 class Nodes:
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
-
     def nodes(self, count):
         """Starts a cluster. Its first node is this process's, and has no processor for actors and tasks. Returns the
         cluster and its other nodes, which play."""

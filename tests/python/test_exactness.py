@@ -11,6 +11,7 @@ import datetime
 import itertools
 import sys
 
+import differing_runs
 import package
 import pytest
 
@@ -127,13 +128,9 @@ def differences():
 @pytest.mark.slow
 @pytest.mark.needs_roms
 def test_no_run_of_today_differs():
-    found, count = differences()
-    assert count
-    assert found == []
+    differing_runs.check(*differences())
 
 
 if __name__ == "__main__":
     options = parser.parse_args()
-    found, count = differences()
-    print(*(f"FAILED: {line}" for line in found), f"{count} runs: {len(found)} differ", sep="\n")
-    sys.exit(bool(found) or not count)
+    sys.exit(differing_runs.report(*differences()))

@@ -13,11 +13,8 @@ FIFO = ("-game_controller", "fifo", "-random_seed", "1", "-repeat_action_probabi
 PLAY = b"0,0,0,1\n" + b"3,18\n" * 20
 
 
+@pytest.mark.usefixtures("self_folder")
 class TestClassic:
-    @pytest.fixture(autouse=True)
-    def set_up(self, tmp_path):
-        self.folder = str(tmp_path)
-
     def put(self, name, text):
         with open(os.path.join(self.folder, name), "w") as file:
             file.write(text)

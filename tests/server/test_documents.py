@@ -40,11 +40,8 @@ def reply(wire):
     return line + (wire.receive(int(raw[1])) if raw else b"")
 
 
+@pytest.mark.usefixtures("self_subtests")
 class TestDocuments:
-    @pytest.fixture(autouse=True)
-    def keep_subtests(self, subtests):
-        self.subtests = subtests
-
     def test_the_conversations_of_the_classic_protocol_are_real(self, subtests):
         found = conversations("protocol/CLASSIC.md")
         assert found

@@ -86,12 +86,9 @@ def health_wait(server):
     return time.monotonic() - start
 
 
+@pytest.mark.usefixtures("self_cleanup")
 class Case:
     """A server, and connections to it, which are closed at the end of the test."""
-
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
 
     def start(self, server):
         self.server = server
@@ -108,7 +105,7 @@ class TestOneThread(Case):
     """All clients on one thread of the server."""
 
     @pytest.fixture(autouse=True)
-    def set_up(self):
+    def set_up(self, self_cleanup):
         self.start(serve("--threads", "1", "--http", "127.0.0.1:0", "--grace", "0"))
         self.bystander = self.connect()
         ask(self.bystander, b"load beamfall max_episode_frames=0")
@@ -242,6 +239,7 @@ class TestHalfClosed(Case):
         assert found[1] == found[0]
 
 
+@pytest.mark.usefixtures("self_subtests")
 class TestEnd:
     """SIGTERM in the middle of a request that would take an hour, or of a mode that takes long."""
 
@@ -251,10 +249,6 @@ class TestEnd:
         "mode": ([], MODE),
         "open": ([ENDLESS + b" frame_skip=1000 noop_max=1000"], b"open 256"),
     }
-
-    @pytest.fixture(autouse=True)
-    def keep_subtests(self, subtests):
-        self.subtests = subtests
 
     def check_that_it_ends(self, *listen, connect, streams=False):
         for name, (first, request) in self.REQUESTS.items():

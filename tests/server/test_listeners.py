@@ -31,11 +31,8 @@ def play(wire):
     return answers
 
 
+@pytest.mark.usefixtures("self_cleanup")
 class TestAddresses:
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
-
     def folder(self):
         folder = tempfile.TemporaryDirectory()
         self.cleanup(folder.cleanup)

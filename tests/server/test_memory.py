@@ -85,11 +85,8 @@ class Bystander:
 
 
 @pytest.mark.skipif(sanitized() or thread_sanitized(), reason="a sanitizer needs more memory")
+@pytest.mark.usefixtures("self_cleanup")
 class TestMemory:
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
-
     def start(self, *options):
         self.server = serve("--threads", "2", "--http", "127.0.0.1:0", *options)
         self.cleanup(self.server.__exit__)

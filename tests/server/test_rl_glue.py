@@ -87,11 +87,8 @@ def lines_of_fifo(actions):
         yield bytes.fromhex(ram.decode()), bytes.fromhex(screen.decode()), int(over), int(reward)
 
 
+@pytest.mark.usefixtures("self_cleanup")
 class TestRlGlue:
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
-
     def start(self, *options, **more):
         core = Core(self.cleanup, *options, **more)
         assert core.accept() == (3, 0)

@@ -19,11 +19,8 @@ def converse(transport, data, *options, **image):
         return received, session.status(), session.server.log()
 
 
+@pytest.mark.usefixtures("self_subtests")
 class TestSmallCases:
-    @pytest.fixture(autouse=True)
-    def keep_subtests(self, subtests):
-        self.subtests = subtests
-
     def check(self, data, lines, *options, **image):
         expected = "".join(line + "\n" for line in ["160-210", *lines]).encode()
         for transport in TRANSPORTS:
@@ -73,11 +70,8 @@ class TestSmallCases:
         self.check(b"0,0,0,1\r\n3,18\r\n 3 , 18 \r\n", ["0,0:"] * 3 + ["DIE"])
 
 
+@pytest.mark.usefixtures("self_subtests")
 class TestNonsense:
-    @pytest.fixture(autouse=True)
-    def keep_subtests(self, subtests):
-        self.subtests = subtests
-
     def check(self, data, lines, status, complaint):
         expected = "".join(line + "\n" for line in ["160-210", *lines]).encode()
         for transport in TRANSPORTS:

@@ -40,11 +40,8 @@ class TestPipeNames(Refusals):
             assert os.listdir(folder) == ["q_in"]
 
 
+@pytest.mark.usefixtures("self_subtests")
 class TestImages(Refusals):
-    @pytest.fixture(autouse=True)
-    def keep_subtests(self, subtests):
-        self.subtests = subtests
-
     def check_image(self, data, *hints):
         """Every server refuses an image with these bytes, and creates nothing."""
         with tempfile.TemporaryDirectory() as folder:

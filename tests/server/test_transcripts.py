@@ -82,11 +82,8 @@ class TestRecorded:
             assert hashlib.md5(b"".join(recorded(name))).hexdigest() == digest, name
 
 
+@pytest.mark.usefixtures("self_subtests")
 class TestTranscripts:
-    @pytest.fixture(autouse=True)
-    def keep_subtests(self, subtests):
-        self.subtests = subtests
-
     def check(self, manner):
         for transport in TRANSPORTS:
             for name, options in TRANSCRIPTS.items():

@@ -87,11 +87,8 @@ class Probe:
         self.process.wait()
 
 
+@pytest.mark.usefixtures("self_subtests")
 class TestBatch:
-    @pytest.fixture(autouse=True)
-    def keep_subtests(self, subtests):
-        self.subtests = subtests
-
     def same(self, name, ours, theirs, step):
         assert np.array_equal(ours, theirs), f"{name} of step {step}: {ours} instead of {theirs}"
 

@@ -159,11 +159,8 @@ def await_system_call(thread):
         time.sleep(0.001)
 
 
+@pytest.mark.usefixtures("self_cleanup")
 class TestBlocked:
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
-
     def test_a_long_step_past_the_end_of_the_game(self):
         """Each act after the end is a request: more of them than a connection buffers."""
         settings = {"max_num_frames_per_episode": 10, "frameskip": 60000}

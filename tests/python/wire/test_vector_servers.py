@@ -21,12 +21,9 @@ COUNT = 5  # of which the first server plays three
 FIRST, SECOND = np.arange(COUNT) < 3, np.arange(COUNT) >= 3
 
 
+@pytest.mark.usefixtures("self_cleanup")
 class Servers(Compared):
     """Two servers, and environments on them beside the same in this process."""
-
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
 
     @pytest.fixture(autouse=True)
     def set_up(self, cleanup):

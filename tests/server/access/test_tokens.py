@@ -11,11 +11,8 @@ from access_case import OTHER, TOKEN, Folder
 from harness import PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, run
 
 
+@pytest.mark.usefixtures("self_cleanup")
 class TestTokens(Folder):
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
-
     def serve(self, *options):
         tokens = self.write("tokens", f"# for the tests\n\n{TOKEN}\n")
         return Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:s", "--token-file", tokens, *options)

@@ -43,14 +43,11 @@ class TestMemory:
 
 
 @pytest.mark.skipif(sanitized(), reason="the sanitizer's own checks fail without free descriptors")
+@pytest.mark.usefixtures("self_cleanup")
 class TestFiles:
     """A server that may open few files, all of which its clients take."""
 
     FILES = 80
-
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
 
     @pytest.fixture(autouse=True)
     def set_up(self, cleanup):
@@ -109,12 +106,9 @@ class TestThreads:
 
 
 @pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="there is one processor")
+@pytest.mark.usefixtures("self_cleanup")
 class TestAllowance:
     """What the system allows to a process."""
-
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
 
     def log_of(self, join):
         """The log of a server whose process calls `join` first."""

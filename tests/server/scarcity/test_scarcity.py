@@ -63,11 +63,8 @@ class Scarcity:
 
 
 @pytest.mark.skipif(sanitized() or LIBRARY is None, reason="the allocator is another one")
+@pytest.mark.usefixtures("self_cleanup")
 class Scarce:
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
-
     @pytest.fixture(autouse=True)
     def set_up(self, tmp_path):
         self.scarcity = Scarcity(os.path.join(tmp_path, "scarcity"))
@@ -96,11 +93,8 @@ class Scarce:
         return server
 
 
+@pytest.mark.usefixtures("self_subtests")
 class TestMemory(Scarce):
-    @pytest.fixture(autouse=True)
-    def keep_subtests(self, subtests):
-        self.subtests = subtests
-
     def converse(self, port, said):
         """Everything that the server answers. A connection may fail at any time."""
         reply = b""

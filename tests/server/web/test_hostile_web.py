@@ -16,7 +16,7 @@ class TestHostile(Case):
     """What one client does, another does not notice."""
 
     @pytest.fixture(autouse=True)
-    def set_up(self):
+    def set_up(self, self_cleanup):
         self.start("--threads", "1")
         self.bystander = self.connect()
         self.bystander.ask(b"load beamfall max_episode_frames=0")

@@ -17,12 +17,9 @@ def port_of(server, scheme="ws"):
     return int(server.wait_for(scheme + r"://127\.0\.0\.1:(\d+)$").group(1))
 
 
+@pytest.mark.usefixtures("self_cleanup")
 class Case:
     """A server, and connections to it, which are closed at the end of the test."""
-
-    @pytest.fixture(autouse=True)
-    def keep_cleanup(self, cleanup):
-        self.cleanup = cleanup
 
     def start(self, *options, listen="ws://127.0.0.1:0"):
         self.server = Server("serve", "--listen", listen, "--grace", "0", *options)

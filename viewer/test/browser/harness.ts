@@ -69,7 +69,7 @@ export class Tabs {
   readonly #contexts: BrowserContext[] = [];
   readonly #problems: string[] = [];
 
-  /** A new page. What it writes to the console as an error, and requests to other servers, are problems. */
+  /** A new page. Errors on its console and requests to other servers are problems. */
   async open(address: string, options: BrowserContextOptions = {}): Promise<Page> {
     browser ??= chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: OPTIONS });
     const context = await (await browser).newContext({ viewport: { width: 960, height: 640 }, ...options });

@@ -3,7 +3,7 @@
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
 import { until } from "../browser/harness.js";
 
-/** A page in a browser of its own. What it writes to the console as an error, and requests to other servers, are problems. */
+/** A page in its own Firefox. Errors on its console and requests to other servers are problems. */
 export class Firefox {
   readonly page: Page;
   readonly #browser: Browser;
