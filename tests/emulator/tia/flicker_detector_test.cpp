@@ -102,4 +102,61 @@ TEST_CASE("A second set is dropped where it does not save rows, and is found aga
   }
 }
 
+// Frames of which the first rows are drawn, with the same content as ever.
+class Frames {
+ public:
+  void draw(std::size_t rows) {
+    detector.begin_frame();
+    if (!detector.counts()) return;
+    for (std::size_t row = 0; row < rows; ++row) detector.count(records_.at(row));
+  }
+
+  FlickerDetector detector;
+
+ private:
+  std::vector<LineRecord> records_{kRows};
+};
+
+TEST_CASE("Rows of four frames after a try begins and of the last two before the next are counted") {
+  constexpr int kPeriod = tuning::kShortestFlickerPeriod / 2;  // of the first try
+  Frames frames;
+  std::vector<int> counted;
+  for (int frame = 1; frame < kPeriod + 10; ++frame) {
+    frames.draw(0);
+    if (frames.detector.counts()) counted.push_back(frame);
+  }
+  CHECK(counted == std::vector{2, 3, 4, 5, kPeriod - 2, kPeriod - 1, kPeriod + 2, kPeriod + 3, kPeriod + 4,
+                               kPeriod + 5});
+}
+
+TEST_CASE("Flicker is found in the first frame after those that are compared") {
+  Frames frames;
+  for (int frame = 1; frame <= 6; ++frame) {
+    CHECK_FALSE(frames.detector.found());
+    frames.draw(tuning::kFlickeringRows / 2);
+  }
+  CHECK(frames.detector.found());
+}
+
+// Whether a second set is kept in three tries. In each, two frames with it draw so many rows, and two without
+// it 16.
+bool is_kept(std::size_t rows) {
+  Frames frames;
+  while (!frames.detector.found()) frames.draw(8);
+  for (int tries = 0; tries < 3; ++tries) {
+    for (int counted = 0; counted < 6;) {  // two frames with two sets, and four with one
+      frames.draw(counted == 0 ? rows - 8 : 8);
+      if (frames.detector.counts()) ++counted;
+    }
+    frames.draw(8);
+    if (!frames.detector.found()) return false;
+  }
+  return true;
+}
+
+TEST_CASE("A second set is kept for as long as it saves a row, and dropped when it saves none") {
+  CHECK(is_kept(15));
+  CHECK_FALSE(is_kept(16));
+}
+
 }  // namespace
