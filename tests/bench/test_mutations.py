@@ -17,6 +17,7 @@ class TestEdits:
     def test_a_number_is_one_too_large_and_arguments_are_exchanged(self):
         assert edits("  const int most = 15;") == {"  const int most = 16;"}
         assert edits("  return call(a, b.c);") == {"  return call(b.c, a);"}
+        assert edits('  return call("a", b);') == {'  return call(b, "a");'}
         assert edits("  return x0 - 0x1F;") == {"  return x0 + 0x1F;"}
 
     def test_a_statement_is_dropped_but_no_declaration(self):

@@ -102,8 +102,9 @@ def edits_of(line, language=CPP):
     for found in NUMBER.finditer(code):
         yield line[: found.start()] + str(int(found[1]) + 1) + line[found.end(1) :]
     for found in PAIR.finditer(code):
-        if found[1] != found[2]:
-            yield line[: found.start()] + f"{found[2]}, {found[1]}" + line[found.end() :]
+        first, second = (line[slice(*found.span(number))] for number in (1, 2))
+        if first != second:
+            yield f"{line[: found.start()]}{second}, {first}{line[found.end() :]}"
     if language.statement.match(code):
         yield language.nothing.format(line[: len(line) - len(line.lstrip())])
 
