@@ -158,8 +158,7 @@ def play(start: Start, actions: Sequence[int], strengths: Sequence[float] | None
         played += 1
         if played % DECISIONS_PER_HASH == 0:
             hashes.append(_core.state_hash(ale))
-    if len(hashes) < played // DECISIONS_PER_HASH + 1:
-        hashes.append(_core.state_hash(ale))
+    hashes.append(_core.state_hash(ale))
     is_terminated = _is_terminated(ale, start)
     return Episode(score, ale.getFrameNumber() - first, played, ale.game_over(), is_terminated, ale.lives(), hashes)
 

@@ -151,6 +151,46 @@ class TestSubmissions:
                 env.step(2)
         assert (env.logged, env.unlogged, self.rows()) == (0, 2, [])
 
+    def test_a_reset_before_the_first_action_leaves_nothing_behind(self):
+        env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
+        env.reset()
+        env.reset()
+        env.close()
+        assert (env.logged, env.unlogged) == (0, 0)
+
+    def test_a_warning_names_the_line_of_the_caller(self):
+        env = RecordLog(racebeam.AtariEnv("beamfall"), self.folder)
+        for leave in (env.reset, env.close):
+            env.reset()
+            env.step(1)
+            with pytest.warns(UserWarning, match="it was left before its end") as found:
+                leave()
+            assert [warning.filename for warning in found] == [__file__]
+        assert env.unlogged == 2
+
+    def test_any_seed_of_a_game_may_be_drawn(self):
+        env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
+        bounds = {"least": 1, "half": 2**31 - 1, "more": 2**31, "most": 2**32 - 2}
+        for number, name in enumerate(bounds, 1):
+
+            def drawn(low, high, endpoint=False, name=name):
+                return {**bounds, "least": low, "most": high if endpoint else high - 1}[name]
+
+            env._seeds = unittest.mock.Mock(integers=drawn)
+            play_games(env, 1)
+            assert env.logged == number
+        assert [int(row["environment_seed"]) for row in self.rows()] == list(bounds.values())
+        assert self.verify()[0] == 0
+
+    def test_numbers_at_their_limits_are_logged(self):
+        for trial, agent_seed in ((1, 0), (2**31 - 1, 2**32 - 1)):
+            self.folder = pathlib.Path(self.scratch.name, str(trial))
+            env = racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40)
+            play_games(RecordLog(env, self.folder, trial=trial, agent_seed=agent_seed), 1)
+            (row,) = self.rows()
+            assert (row["trial"], row["agent_seed"], row["episode"]) == (str(trial), str(agent_seed), "1")
+            assert self.verify()[0] == 0
+
     def test_a_full_disk_is_reported_and_the_game_goes_on(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
         limits = resource.getrlimit(resource.RLIMIT_FSIZE)

@@ -92,6 +92,50 @@ class TestLogs:
         assert len(seeds) > 1
         assert self.verify()[0] == 0
 
+    def test_1_follows_the_largest_seed(self):
+        self.play(self.make("beamfall", 1, seed=2**32 - 2, max_num_frames_per_episode=40), 25)
+        assert [row["environment_seed"] for row in self.rows()] == [str(2**32 - 2), "1"]
+        assert self.verify()[0] == 0
+
+    def test_a_reset_with_a_mask_leaves_the_other_games(self):
+        envs = self.make(autoreset_mode="Disabled", max_num_frames_per_episode=40)
+        envs.reset(seed=[11, 12, 13])
+        for _ in range(3):
+            envs.step([1, 1, 1])
+        mask = np.array([False, True, False])
+        with pytest.warns(UserWarning, match="a game of environment 1, beamfall, has no log") as found:
+            envs.reset(options={"reset_mask": mask})
+        assert [warning.filename for warning in found] == [__file__]
+        for _ in range(12):  # those that are over stay so
+            envs.step([1, 1, 1])
+        assert (envs._logs.logged, envs._logs.unlogged) == (3, 1)
+        rows = {row["trial"]: row for row in self.rows()}
+        assert [rows[trial]["environment_seed"] for trial in "345"] == ["11", "15", "13"]
+        assert {row["episode"] for row in self.rows()} == {"1"}
+        assert self.verify()[0] == 0
+
+    def test_an_agent_is_the_first_trial_with_seed_0_unless_named(self):
+        for number, (about, words) in enumerate(
+            (
+                ({}, ("agent", "1", "0")),
+                ({"agent": "a", "trial": 2**31 - 1, "agent_seed": 2**32 - 1}, ("a", "2147483647", "4294967295")),
+            )
+        ):
+            self.folder = pathlib.Path(self.scratch.name, str(number))
+            log = {"folder": self.folder, **about}
+            self.play(AtariVectorEnv("beamfall", 1, log=log, **PLAIN | {"max_num_frames_per_episode": 40}), 12)
+            row = self.rows()[0]
+            assert (row["agent"], row["trial"], row["agent_seed"]) == words
+        for about in ({"trial": 0}, {"trial": 2**31}, {"agent_seed": -1}, {"agent_seed": 2**32}):
+            with pytest.raises(ValueError, match=f"{next(iter(about))} is "):
+                self.make(about=about)
+
+    def test_one_no_op_at_most_is_a_power_on(self):
+        self.play(self.make("beamfall", 1, noop_max=1, max_num_frames_per_episode=40), 12)
+        assert len(self.rows()) == 1
+        with pytest.raises(InvalidInput, match="noop_max is 2; a log takes 0"):
+            self.make("beamfall", 1, noop_max=2)
+
     def test_what_was_changed_is_refused(self):
         self.play(self.make(), 400)
         first, *others = self.rows()
@@ -112,9 +156,10 @@ class TestLogs:
         for _ in range(20):
             envs.step([1])
         envs.restore(0, state)
-        with pytest.warns(UserWarning, match="has no log: the same actions lead to another end"):
+        with pytest.warns(UserWarning, match="has no log: the same actions lead to another end") as found:
             for _ in range(160):
                 envs.step([2])
+        assert {warning.filename for warning in found} == {__file__}
 
     def test_a_game_that_was_left_has_no_log(self):
         envs = self.make()

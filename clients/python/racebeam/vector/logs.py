@@ -97,8 +97,7 @@ class VectorLogs:
         chosen = np.ones(len(self._games), np.bool_) if mask is None else mask
         self._is_over[chosen] = False
         for env in np.flatnonzero(chosen).tolist():
-            if self._games[env].actions:
-                self._skip(env, "it was left before its end")
+            self._leave(env)
             self._begin(env, int(seeds[env]))
 
     def record_step(self, actions: Actions | Joysticks, results: Results) -> None:
@@ -148,6 +147,10 @@ class VectorLogs:
             seed = self._next_seed(env)
             self._machines.end_episodes(np.array([env], np.int32), np.array([seed], np.int64))
             self._begin(env, seed)
+
+    def _leave(self, env: int) -> None:
+        if self._games[env].actions:
+            self._skip(env, "it was left before its end")
 
     def _begin(self, env: int, seed: int) -> None:
         self._seeds[env], self._games[env] = seed, _Game()
