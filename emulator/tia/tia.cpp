@@ -228,13 +228,22 @@ bool Tia::take_lines(Collisions latches) {
   while (beam_.line_can_end()) {
     if (beam_.at_line_start() && recorded_ == nullptr) {
       if (reached_ > tia_.cursor) return false;
-      if (recall_lines(origin, latches)) return true;
+      if (may_recur(origin) && recall_lines(origin, latches)) return true;
       if (!beam_.line_can_end()) return false;
     }
     if (!draw_line(origin)) return false;
     origin += kLineOfWrites;
   }
   return false;
+}
+
+// Whether the record of the cursor's row may be of a line that begins like this one. For most lines that do
+// not recur, it is not, and that is soon found.
+RACEBEAM_INLINE bool Tia::may_recur(std::uint32_t origin) {
+  if (!beam_.has_record()) return false;
+  const LineRecord& record = beam_.record();
+  if (record.count != 0 && played_ != log_->next && *played_ - origin != record.event[0]) return false;
+  return record.is_summarized() || record.looks_like(RegisterVectors(tia_));
 }
 
 // Whether the `latches` have the same values at the end of the writes as at the beginning of their
@@ -250,7 +259,6 @@ bool Tia::keeps_latches(const LineRecord& record, std::uint32_t origin, Collisio
 // last drawn. Returns true if it stops at a line whose writes are not complete, but equal so far, and leave
 // these latches as they are.
 bool Tia::recall_lines(std::uint32_t& origin, Collisions latches) {
-  if (recorded_ != nullptr || !beam_.has_record()) return false;
   RegisterVectors registers(tia_);
   std::int32_t cursor = tia_.cursor;
   const LineNumber* lines = beam_.row_lines();

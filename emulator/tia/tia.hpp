@@ -63,6 +63,7 @@ class Tia {
   bool at_line() const;
   std::uint32_t line_origin() const;
   bool take_lines(Collisions latches);
+  bool may_recur(std::uint32_t origin);
   bool keeps_latches(const LineRecord& record, std::uint32_t origin, Collisions latches) const;
   bool recall_lines(std::uint32_t& origin, Collisions latches);
   void play_recalled(const std::uint32_t* next, LineRecord& record);

@@ -55,6 +55,17 @@ constexpr auto make_pair_of_latch() {
 }
 constexpr auto kPairOfLatch = make_pair_of_latch();
 
+// Those of the pairs that meet.
+template <class Meets>
+RACEBEAM_INLINE Collisions pairs_among(Collisions pairs, const Meets& meets) {
+  Collisions found = 0;
+  for (unsigned rest = pairs; rest != 0; rest &= rest - 1) {
+    const Pair& pair = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(rest))];
+    if (meets(pair)) found |= pair.latch;
+  }
+  return found;
+}
+
 // The bytes that a mask is made from, by Object.
 constexpr std::array<ByteSet, kObjects> kShapeBytes = {
     RACEBEAM_TIA_BYTE_SET((p0.grp, p0.old_grp, p0.refp, p0.vdel, p0.nusiz, p0.position, p0.skip)),
@@ -89,7 +100,7 @@ void Line::refresh(const TiaState& tia, std::uint8_t objects) {
   const Collisions changed = kPairsOf[objects & kAllObjects];
   overlaps = static_cast<Collisions>(overlaps & ~changed);
   const auto possible = static_cast<Collisions>(kPossibleMeetings[covered] & changed);
-  overlaps |= meetings(*this, 0, kLinePixels, possible);
+  overlaps |= pairs_among(possible, [this](const Pair& p) { return mask[p.a].meets(mask[p.b]); });
 }
 
 constinit const std::array<Collisions, 64> kPossibleMeetings = make_possible();
@@ -104,15 +115,9 @@ std::uint8_t objects_of(Collisions pairs) {
 }
 
 Collisions meetings(const Line& line, int first, int last, Collisions pairs) {
-  unsigned rest = pairs;
-  if (rest == 0) return 0;
+  if (pairs == 0) return 0;
   const PixelMask clip = PixelMask::range(first, last);
-  Collisions found = 0;
-  for (; rest != 0; rest &= rest - 1) {
-    const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(rest))];
-    if ((line.mask[p.a] & clip).meets(line.mask[p.b])) found |= p.latch;
-  }
-  return found;
+  return pairs_among(pairs, [&](const Pair& p) { return (line.mask[p.a] & clip).meets(line.mask[p.b]); });
 }
 
 }  // namespace racebeam
