@@ -108,6 +108,7 @@ class Beam {
   bool has_record() const { return row() < lines_.rows(); }
   int rows_to_end_of_records() const { return static_cast<int>(lines_.rows() - row()); }
   LineRecord& record() { return lines_.row(row()); }
+  LineRecord& open_record() { return lines_.open(row(), tia_.registers()); }
   void forget_lines() { lines_.drop(); }
 
   // The lines that the cursor's row and those after it show.

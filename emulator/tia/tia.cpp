@@ -43,6 +43,18 @@ RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::ui
   return same ? Likeness::kIsSame : Likeness::kLooks;
 }
 
+// How many rows after `record`, whose line has just been recalled, show that line again. write: the next one,
+// counted from that line.
+RACEBEAM_INLINE int repeated_rows(LineRecord* record, const LineRecord* last, const LineNumber* lines,
+                                  std::uint32_t write) {
+  int rows = 0;
+  LineRecord* next = record + 1;
+  for (; next != last && next->repeats && *++lines == next->number; ++next, ++rows)
+    if (LineWrite(write -= kLineOfWrites).is_of_line()) return rows;
+  if (next != last && !next->repeats) next->repeats = next->is_repetition_of(next[-1]);
+  return rows;
+}
+
 // Whether the writes from `entry` to `end` are those of the record up to the cycle of the word at `end`.
 bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::uint32_t origin,
                      const LineRecord& record) {
@@ -287,6 +299,10 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions latches) {
     }
     played_ = next;
     tia_.collisions |= record->meetings;
+    if (likeness != Likeness::kIsSame || record->count != 0) continue;
+    const int repetitions = repeated_rows(record, last, lines, *played_ - origin);
+    record += repetitions, lines += repetitions, cursor += repetitions * kLineClocks;
+    origin += static_cast<std::uint32_t>(repetitions) * kLineOfWrites;
   }
   if (record == first) return enough;
   beam_.lose_track();
@@ -308,8 +324,7 @@ void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
 // in the second case.
 bool Tia::draw_line(std::uint32_t origin) {
   if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr) {
-    recorded_ = &beam_.record();
-    recorded_->open(tia_.registers());
+    recorded_ = &beam_.open_record();
     beam_.look_afresh();
   }
   const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;

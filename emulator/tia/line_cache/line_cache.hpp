@@ -22,6 +22,14 @@ class LineCache {
   std::size_t rows() const { return set_->size(); }
   LineRecord& row(std::size_t row) { return (*set_)[row]; }
 
+  // Begins the record of a line that is drawn. The row after it no longer repeats a known line.
+  LineRecord& open(std::size_t row, const TiaRegisters& registers) {
+    if (row + 1 < rows()) (*set_)[row + 1].repeats = false;
+    LineRecord& record = (*set_)[row];
+    record.open(registers);
+    return record;
+  }
+
   // Numbers the line that has been drawn and recorded. Returns the number.
   LineNumber add(LineRecord& record) {
     if ((next_number_ & (kNumbers - 1)) == 0) [[unlikely]]

@@ -65,6 +65,7 @@ void LineRecord::open(const TiaRegisters& registers) {
   mask = nullptr;
   view = {};
   count = 0;
+  repeats = false;
 }
 
 const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t origin) {
@@ -136,6 +137,14 @@ void LineRecord::summarize(bool pal) {
   clear_but(start, mask->counts);
   clear_but(end, mask->sets);
   start.spare[0] = foreseen ? 0 : kNever;
+}
+
+bool LineRecord::is_repetition_of(const LineRecord& before) const {
+  if (mask != before.mask || (count | before.count) != 0 || meetings != before.meetings) return false;
+  const RegisterVectors begin(start);
+  RegisterVectors end_counts(end);
+  end_counts &= RegisterVectors(mask->counts);
+  return (begin.bytes_other_than(RegisterVectors(before.start)) | begin.bytes_other_than(end_counts)) == 0;
 }
 
 }  // namespace racebeam

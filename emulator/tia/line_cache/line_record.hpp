@@ -68,6 +68,7 @@ struct alignas(64) LineRecord {
   std::int8_t hmove_cycle;  // of the last HMOVE, if the line kMoves
   std::array<std::uint8_t, 2>
       hashes{};  // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp)
+  bool repeats = false;  // the line is that of the row before, and ends as it starts: see is_repetition_of()
   alignas(16) std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
 
   // Derived from what each state brings, so that nothing more is stored.
@@ -100,6 +101,10 @@ struct alignas(64) LineRecord {
           (registers.part[i] & RegisterVectors::of(mask->counts, i)) ^ RegisterVectors::of(start, i);
     return is_zero(difference);
   }
+
+  // Whether, where the line of the record of the row before exists, this one does too: it is the same line,
+  // without a write, and changes no register that counts. Only if that one is summarized.
+  bool is_repetition_of(const LineRecord& before) const;
 
   // Compares only the bytes that pixels depend on. The registers may end differently.
   RACEBEAM_INLINE bool looks_like(const RegisterVectors& registers) const {
