@@ -26,11 +26,13 @@ Task<> send(ByteStream& stream, const HttpResponse& response, error_code& error)
   co_await http::async_write(stream, serializer, net::redirect_error(use_task, error));
 }
 
+// Does not read a body in chunks: on some ends of one, an assertion of Boost.Beast 1.74 fails.
 Task<> receive(ByteStream& stream, boost::beast::flat_buffer& buffer, Parser& parser, error_code& error) {
   parser.body_limit(kLargestBody);
   parser.header_limit(kLongestHeader);
   co_await http::async_read_header(stream, buffer, parser, net::redirect_error(use_task, error));
-  if (!error && expects_continue(parser.get()))
+  if (error || parser.chunked()) co_return;
+  if (expects_continue(parser.get()))
     co_await send(stream, HttpResponse{status::continue_, parser.get().version()}, error);
   if (!error) co_await http::async_read(stream, buffer, parser, net::redirect_error(use_task, error));
 }
@@ -49,6 +51,11 @@ std::optional<HttpResponse> refusal(const error_code& error) {
   return refuse(status::bad_request, "this is not HTTP: " + error.message());
 }
 
+std::optional<HttpResponse> refusal_of_chunks() {
+  return refuse(status::length_required,
+                "a body in chunks is not accepted; give its length as Content-Length");
+}
+
 }  // namespace
 
 Task<Exchange> exchange(ByteStream& stream, boost::beast::flat_buffer& buffer, const Site& site) {
@@ -56,14 +63,15 @@ Task<Exchange> exchange(ByteStream& stream, boost::beast::flat_buffer& buffer, c
   Exchange done;
   Parser parser;
   co_await receive(stream, buffer, parser, error);
-  auto response = error ? refusal(error) : answer(parser.get(), site);
+  const bool is_read = !error && !parser.chunked();
+  auto response = error ? refusal(error) : is_read ? answer(parser.get(), site) : refusal_of_chunks();
   if (error && !response) co_return done;
   if (!response) {
     // A client speaks first again after the server has accepted.
     if (buffer.size() == 0) done.session = parser.release();
     co_return done;
   }
-  const bool stays = !error && response->keep_alive();
+  const bool stays = is_read && response->keep_alive();
   error = {};
   co_await send(stream, *response, error);
   done.open = stays && !error;
