@@ -67,7 +67,7 @@ struct alignas(64) LineRecord {
   std::uint8_t count;       // of events
   std::int8_t hmove_cycle;  // of the last HMOVE, if the line kMoves
   std::array<std::uint8_t, 2>
-      hashes{};  // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp)
+      hashes{};          // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp)
   bool repeats = false;  // the line is that of the row before, and ends as it starts: see is_repetition_of()
   alignas(16) std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
 

@@ -91,6 +91,55 @@ TEST_CASE("A record is open until its line is drawn, and no line starts with one
   CHECK_FALSE(summarized(moving, 0x50).starts_with(RegisterVectors(moving)));
 }
 
+// The records of two rows: lines of one colour each, without a write, or the second one with one.
+void fill(LineCache& memory, std::uint8_t first, std::uint8_t second, bool writes) {
+  memory.begin_frame();
+  memory.aim(2);
+  for (std::size_t row = 0; row < 2; ++row) {
+    TiaRegisters registers;
+    registers.color[3] = row == 0 ? first : second;
+    LineRecord& record = memory.open(row, registers);
+    const std::uint32_t log[] = {TiaWrite(10, COLUPF, 2).packed(), TiaWrite(200, 0, 0).packed()};
+    record.add(writes && row == 1 ? log : log + 1, 0);
+    record.view.seen |= kLit;
+    record.meetings = record.cleared = 0;
+    memory.add(record);
+    record.end = registers;
+    record.summarize(false);
+  }
+}
+
+TEST_CASE("A row repeats the one before if it has the same line, without a write") {
+  const auto repeats = [](std::uint8_t first, std::uint8_t second, bool writes) {
+    LineCache memory;
+    fill(memory, first, second, writes);
+    return memory.row(1).is_repetition_of(memory.row(0));
+  };
+  CHECK(repeats(0x1E, 0x1E, false));
+  CHECK_FALSE(repeats(0x1E, 0x2E, false));
+  CHECK_FALSE(repeats(0x1E, 0x1E, true));
+}
+
+TEST_CASE("A row repeats no line that changes its own start, or has other collisions") {
+  LineCache memory, other;
+  fill(memory, 0x1E, 0x1E, false);
+  memory.row(0).end.color[3] = memory.row(1).end.color[3] = 0x2E;
+  CHECK_FALSE(memory.row(1).is_repetition_of(memory.row(0)));
+  fill(other, 0x1E, 0x1E, false);
+  other.row(1).meetings = 1;
+  CHECK_FALSE(other.row(1).is_repetition_of(other.row(0)));
+}
+
+TEST_CASE("A row no longer repeats the one before when one of them is drawn again") {
+  LineCache memory;
+  fill(memory, 0x1E, 0x1E, false);
+  for (const std::size_t row : {0U, 1U}) {
+    memory.row(1).repeats = true;
+    memory.open(row, TiaRegisters{});
+    CHECK_FALSE(memory.row(1).repeats);
+  }
+}
+
 TEST_CASE("A row is copied from the other picture if that shows the line, and not else") {
   FrameBuffer picture, other;
   for (FrameBuffer* one : {&picture, &other}) one->make_room(2);
