@@ -55,7 +55,7 @@ constexpr auto make_pair_of_latch() {
 }
 constexpr auto kPairOfLatch = make_pair_of_latch();
 
-// Returns the latches of the pairs whose objects meet.
+// Returns the pairs among these that meet.
 template <class Meets>
 RACEBEAM_INLINE Collisions pairs_among(Collisions pairs, const Meets& meets) {
   Collisions found = 0;
