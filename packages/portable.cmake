@@ -1,5 +1,5 @@
-# How everything is built for other systems than this one. A Python package loads nothing but the C library, the
-# compiler's libgcc_s and zlib, which each Linux has; and no symbol is seen by other modules of the process. With
+# How everything is built for other systems than this one. A Python module loads nothing but the C library and
+# the compiler's libgcc_s, which each Linux has; and no symbol is seen by other modules of the process. With
 # RACEBEAM_STATIC the program loads nothing at all.
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
