@@ -64,6 +64,8 @@ class TestBadInput:
     def test_no_score_of_a_trial_that_did_not_diverge(self):
         self.lines(result("pong", "basic", 0, 0, ""))
         self.check_refusal("results.csv, line 2: score is ''; expected a decimal number, or the end diverged")
+        self.lines(result("pong", "basic", 0, 0, 1), result("pong", "basic", 0, 1, ""))
+        self.check_refusal("results.csv, line 3: score is ''; expected a decimal number, or the end diverged")
 
     def test_a_trial_that_is_not_a_whole_number(self):
         for value in ("1.5", "-1", "one", "1e300", "2147483648"):

@@ -76,6 +76,11 @@ class TestProtocols:
 
     def test_a_folder_without_a_plan_has_an_empty_one(self, tmp_path):
         assert plan_of(tmp_path) == Plan({})
+        (tmp_path / "plan.toml").write_bytes(b"#" * 2**24)
+        assert plan_of(tmp_path) == Plan({})
+        (tmp_path / "plan.toml").write_bytes(b"#" * (2**24 + 1))
+        with pytest.raises(BadInput, match="plan.toml has 16777217 bytes; expected a TOML file of at most 16777216"):
+            plan_of(tmp_path)
         (tmp_path / "plan.toml").write_bytes(b'name = "\xff"')
         with pytest.raises(BadInput, match="plan.toml is not TOML: "):
             plan_of(tmp_path)

@@ -28,7 +28,6 @@ class EpisodeLog:
     """What a log says."""
 
     game: str
-    image_md5: str
     settings: dict[str, str]  # of `load`
     columns: dict[str, str]  # of the row of results.csv that belongs to it
     actions: bytes
@@ -66,7 +65,7 @@ def read_log(path: pathlib.Path) -> EpisodeLog:
         "state_hash": hashes[-_HASH_BYTES:][::-1].hex(),
         "log_digest": hashlib.sha256(content).hexdigest(),
     }
-    return EpisodeLog(lines[0][1], lines[1][1], _pairs(lines[0]), columns, actions, strengths)
+    return EpisodeLog(lines[0][1], _pairs(lines[0]), columns, actions, strengths)
 
 
 def _opened(path: pathlib.Path, content: bytes) -> bytes:

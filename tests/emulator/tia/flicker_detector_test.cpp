@@ -154,7 +154,7 @@ bool is_kept(std::size_t rows) {
   return true;
 }
 
-TEST_CASE("A second set is kept for as long as it saves a row, and dropped afterwards") {
+TEST_CASE("A second set is kept for as long as it saves a row, and then dropped") {
   CHECK(is_kept(15));
   CHECK_FALSE(is_kept(16));
 }
