@@ -114,7 +114,7 @@ class Frames {
   FlickerDetector detector;
 
  private:
-  std::vector<LineRecord> records_{kRows};
+  std::vector<LineRecord> records_ = std::vector<LineRecord>(kRows);
 };
 
 TEST_CASE("Rows of four frames after a try begins and of the last two before the next are counted") {
