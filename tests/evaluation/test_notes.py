@@ -1,5 +1,7 @@
 """Sentences below tables say what is not in them."""
 
+import dataclasses
+
 import package
 
 package.require()
@@ -8,7 +10,7 @@ import pandas as pd
 from racebeam_evaluation import notes, paired
 from racebeam_evaluation.normalise import Ranges
 from racebeam_evaluation.scores import Group, scores_of
-from test_statistics import results_of
+from test_statistics import curves_of, results_of
 
 BOTH = Group("learning", ("basic", "bass"))
 
@@ -41,6 +43,22 @@ class TestNotes:
             "A note of the range.",
         )
 
+    def test_tables_that_are_left_out(self):
+        learners = "The results lack learners: the tables learning-... are left out."
+        planners = "The results lack planners: the tables planning-... are left out."
+        baselines = "There are only baselines: the tables groups, -tests, -means and -improvement are left out."
+        curves = "The results lack training episodes: the learning curves are left out."
+        for agents, has_curves, sentences in (
+            (("basic", "uct"), True, []),
+            (("basic", "uct"), False, [curves]),
+            (("basic", "random"), True, [planners]),
+            (("uct",), True, [learners]),
+            (("random",), False, [learners, planners, baselines, curves]),
+        ):
+            results = results_of({(agent, "pong"): [[1]] for agent in agents})
+            results = dataclasses.replace(results, curves=curves_of([]) if has_curves else None)
+            assert notes.of_left_out(scores_of(results), results) == sentences
+
     def test_games_that_one_of_a_pair_lacks(self):
         trials = {(agent, game): (1, 2) for agent in BOTH.agents for game in ("pong", "alien")}
         assert notes.of_lacking(paired.pairs(scores(trials), BOTH)) == ()
@@ -51,12 +69,11 @@ class TestNotes:
 
     def test_each_agent_with_too_few_trials_is_named_once(self):
         group = Group("learning", ("basic", "bass", "ram"))
-        made = scores(
-            {(agent, game): range(2 + (agent != "bass")) for agent in group.agents for game in ("pong", "alien")}
-            | {("bass", game): (1,) for game in ("pong", "alien")}
-        )
+        trials = {"pong": {"basic": 1, "bass": 1, "ram": 2}, "alien": {"basic": 2, "bass": 1, "ram": 2}}
+        made = scores({(agent, game): range(trials[game][agent]) for game in trials for agent in group.agents})
         assert notes.of_untested(made, group, paired.pairs(made, group)) == [
-            "Not tested: bass on alien, pong has fewer than 2 trials; a test takes 2 or more."
+            "Not tested: basic on pong has fewer than 2 trials; a test takes 2 or more.",
+            "Not tested: bass on alien, pong has fewer than 2 trials; a test takes 2 or more.",
         ]
 
     def test_a_pair_without_variance_is_named(self):

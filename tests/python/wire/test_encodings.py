@@ -15,11 +15,24 @@ import numpy as np
 from racebeam.wire import addresses
 from racebeam.wire.action_words import joystick_actions, joystick_words
 from racebeam.wire.encodings import DECODERS, apply_delta, decode_rewards, decode_runs
-from racebeam.wire.fields import field_encodings, field_shape
+from racebeam.wire.fields import SHAPES, field_encodings, field_shape
 from racebeam.wire.observations import Observations
 
 
 class TestFields:
+    def test_fields_of_a_machine_have_its_shapes(self):
+        assert {name: field_shape(name, 192) for name in SHAPES} == {
+            "ram": (128,),
+            "tia": (53,),
+            "state_hash": (8,),
+            "screen": (192, 160),
+            "rgb": (192, 160, 3),
+            "grey": (192, 160),
+            "palette": (256, 3),
+            "audio": (512,),
+            "audio_all": (-1, 512),
+        }
+
     def test_stacks_have_their_own_shapes(self):
         for field, shape in (
             ("grey84", (84, 84)),
@@ -28,9 +41,6 @@ class TestFields:
             ("grey100x50x4", (4, 50, 100)),
             ("rgb100x50x4", (4, 50, 100, 3)),
             ("rgb84x84x1", (1, 84, 84, 3)),
-            ("screen", (210, 160)),
-            ("rgb", (210, 160, 3)),
-            ("audio_all", (-1, 512)),
         ):
             assert field_shape(field, 210) == shape
 
