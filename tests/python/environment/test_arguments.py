@@ -88,6 +88,10 @@ class TestWords:
         with pytest.raises(WrongType, match=r"unknown option 'x'; help\(f\) lists the options"):
             arguments.check_names(["x"], ("seed", "speed"), "help(f)")
 
+    def test_the_console_has_the_settings_that_are_given(self):
+        assert arguments.console_of(left="paddle", ystart=0, height=None) == {"left": "paddle", "ystart": "0"}
+        assert (arguments.value_or(None, 5), arguments.value_or(0, 5)) == (5, 0)
+
     def test_a_game_has_one_source(self):
         for words in (("pong", None, None, None), (None, "rom", None, None), (None, "rom", "file", None)):
             arguments.check_source(*words)

@@ -116,7 +116,8 @@ class TestResults:
         assert (made.numbers.shape, made.numbers.dtype) == ((6, 4), np.int32)
         assert (made.flags.shape, made.flags.dtype) == ((4, 4), np.bool_)
         assert (made.final_numbers.shape, made.final_numbers.dtype) == ((3, 4), np.int32)
-        assert Results.allocate(None, None, 4, None).final_numbers is None
+        other = Results.allocate(None, None, 5, None)
+        assert (other.numbers.shape, other.flags.shape, other.final_numbers) == ((6, 5), (4, 5), None)
 
     def test_a_selection_shares_the_memory(self):
         made = self.results()
