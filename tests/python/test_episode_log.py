@@ -126,3 +126,5 @@ class TestLogs:
             episode = play(Start("beamfall", 3, 4, life_loss="restart", max_episode_frames=limit), [0] * 5000)
             assert (episode.is_over, episode.is_terminated) == (True, is_terminated)
             assert episode.frames == min(limit, lost.frames)
+        episode = play(Start("beamfall", 3, 1, life_loss="restart", max_episode_frames=1), [0] * 9)
+        assert (episode.frames, episode.is_over, episode.is_terminated) == (1, True, False)

@@ -9,6 +9,7 @@ import pytest
 package.require("numpy", "gymnasium")
 
 import numpy as np
+import racebeam
 from racebeam import InvalidInput, arguments
 from racebeam.arguments import WrongType, WrongValue
 from racebeam.single.actions import EnvWithActions
@@ -173,6 +174,30 @@ class TestJoysticks:
         ):
             joystick = np.array([radius, angle, fire], np.float32)
             assert self.env()._parse_action(joystick) == (action, float(radius), 18, 0.0)
+
+    def test_a_joystick_has_a_radius_an_angle_and_a_button(self):
+        space = racebeam.AtariEnv("beamfall", continuous=True).action_space
+        assert (space.low.tolist(), space.high.tolist()) == (
+            [0, -float(np.float32(np.pi)), 0],
+            [1, float(np.float32(np.pi)), 1],
+        )
+
+    def test_keys_that_are_held_are_an_action(self):
+        env = racebeam.AtariEnv("beamfall", full_action_space=True)
+        keys = {env.get_action_meanings()[index]: held for held, index in env.get_keys_to_action().items()}
+        assert (keys["NOOP"], keys["FIRE"], keys["UP"], keys["DOWN"]) == (("e",), (" ",), ("w",), ("s",))
+        assert (keys["RIGHT"], keys["LEFT"]) == (("d",), ("a",))
+        assert (keys["UPRIGHTFIRE"], keys["DOWNLEFT"]) == (("w", "d", " "), ("s", "a"))
+        assert len(keys) == 18
+
+    def test_an_index_is_one_of_the_actions(self):
+        env = racebeam.AtariEnv("beamfall", full_action_space=True)
+        assert [env._parse_action(index)[0] for index in (0, np.int64(17))] == [0, 17]
+        for index in (-1, 18):
+            with pytest.raises(IndexError, match=f"action {index} is out of range; accepted: 0 to 17"):
+                env._parse_action(index)
+        with pytest.raises(TypeError, match="action 1.0 has the type float; it must be an integer"):
+            env._parse_action(1.0)
 
     def test_other_arrays_are_refused(self):
         for action in (np.zeros(3), np.zeros(2, np.float32), [0.0, 0.0, 0.0]):

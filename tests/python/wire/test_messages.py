@@ -1,6 +1,7 @@
 """Words of requests and replies, streams that end or are slow, and replies that are read in two ways."""
 
 import io
+import pickle
 import socket
 import threading
 
@@ -14,6 +15,7 @@ from racebeam.vector.results import Results
 from racebeam.wire.connection import Connection
 from racebeam.wire.last_reply import LastReply
 from racebeam.wire.messages import (
+    Refused,
     Reply,
     format_request,
     format_word,
@@ -57,6 +59,11 @@ class TestWords:
         for text in ("6", "-1", "", "x", "1.0"):
             with pytest.raises(ValueError, match="bytes follow its reply; the limit is 5"):
                 parse_count(text, 5)
+
+    def test_a_refusal_has_a_code_and_a_sentence(self):
+        refused = pickle.loads(pickle.dumps(Refused("bad-value", "seed is x")))
+        assert (refused.code, refused.sentence, str(refused)) == ("bad-value", "seed is x", "bad-value: seed is x")
+        assert refused.args == ("bad-value", "seed is x")
 
     def test_a_request_is_one_line(self):
         assert [format_word(value) for value in (True, False, 2, "x", 0.5)] == ["1", "0", "2", "x", "0.5"]
@@ -189,7 +196,7 @@ class TestLastReply:
     def filled(self, text=TEXT, data=b"abcd", fill="fill"):
         results = Results.allocate(None, np.zeros((2, 2), np.uint8), 2, np.zeros((2, 2), np.uint8))
         results.numbers[:] = results.final_numbers[:] = -9
-        results.flags[:] = True
+        results.flags[:] = fill != "fill_finals"
         reply = LastReply(Session(), 2, "ram")
         reply.keep(Reply(["step"], text, data))
         getattr(reply, fill)(results)
@@ -211,6 +218,7 @@ class TestLastReply:
         for text, data, whole in (
             (self.TEXT, b"abcd", True),
             (self.TEXT, b"abc", False),
+            (self.TEXT.replace("ram=2 raw", "ram=3 raw"), b"abcd", False),
             (self.TEXT.replace("ram=2 |", "ram=3 |").replace("ram=2 raw", "ram=1 raw"), b"abcd", False),
             (self.TEXT.replace("raw=4", "x=1 raw=4"), b"abcd", False),
             (self.TEXT.replace("reward=1 ", "reward=0.5 "), b"abcd", False),
