@@ -568,6 +568,7 @@ class TestCurves:
         assert curves.checkpoint(trial(5), 2, fewest=2) == 0.5
         assert np.isnan(curves.checkpoint(trial(5), 1, fewest=2))
         assert curves.checkpoint(trial(5, window=2), 4) == 2.5  # rows that are means of many episodes
+        assert curves.checkpoint(trial(1, window=1), 1) == 0
         assert np.isnan(curves.checkpoint(trial(5, window=[2, None, 2, 2, 2]), 4))
 
     def test_checkpoints_take_the_last_100_episodes_that_ended_before(self):

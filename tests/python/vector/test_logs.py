@@ -92,6 +92,15 @@ class TestLogs:
         assert len(seeds) > 1
         assert self.verify()[0] == 0
 
+    def test_games_that_begin_without_a_reset_have_the_seed_of_the_constructor(self):
+        envs = self.make(repeat_action_probability=0.25)
+        random = np.random.default_rng(3)
+        for _ in range(400):
+            envs.step(random.integers(envs.single_action_space.n, size=3))
+        assert (envs._logs.logged, envs._logs.unlogged) == (6, 0)
+        assert [row["environment_seed"] for row in self.rows()] == ["7", "8", "9", "10", "11", "12"]
+        assert self.verify()[0] == 0
+
     def test_1_follows_the_largest_seed(self):
         self.play(self.make("beamfall", 1, seed=2**32 - 2, max_num_frames_per_episode=40), 25)
         assert [row["environment_seed"] for row in self.rows()] == [str(2**32 - 2), "1"]

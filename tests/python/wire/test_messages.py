@@ -105,6 +105,30 @@ class TestConnection:
             made.close_connection()
             assert self.closed == 1
 
+    def test_an_interrupted_session_says_so(self):
+        made = self.connection(b"")
+
+        def interrupt():
+            raise KeyboardInterrupt
+
+        with pytest.raises(KeyboardInterrupt):
+            made._abort_on_interrupt(interrupt)
+        with pytest.raises(ConnectionError, match="it was interrupted between a request and the end of its reply"):
+            made._check()
+        made = self.connection(b"")
+        assert made._abort_on_interrupt(lambda: 5) == 5
+        with pytest.raises(Refused):
+            made._abort_on_interrupt(lambda: (_ for _ in ()).throw(Refused("bad-value", "x")))
+        made._check()
+
+    def test_a_child_process_neither_uses_nor_closes_the_session(self):
+        made = self.connection(b"")
+        made._process += 1
+        with pytest.raises(RuntimeError, match="was opened before the process forked; open a new one"):
+            made._check()
+        made.close_connection()
+        assert self.closed == 0
+
     def test_the_first_reason_stays_and_a_late_answer_is_a_TimeoutError(self):
         made = self.connection(b"")
         assert isinstance(made._fail(TimeoutError()), TimeoutError)

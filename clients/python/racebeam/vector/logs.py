@@ -66,7 +66,7 @@ class VectorLogs:
         except TypeError as error:
             raise _wrong(arguments) from error
         self._numbers = [machines.actions_of(env) for env in range(len(games))]
-        self._seeds = np.arange(len(games), dtype=np.int64) + options.seed - len(games)  # of the present games
+        self._seeds = options.seed + np.arange(len(games), dtype=np.int64)  # of the present games
         self._games = [_Game() for _ in games]
         self._is_over = np.zeros(len(games), np.bool_)  # the episode
         self.logged = self.unlogged = 0
