@@ -1,6 +1,7 @@
 #include "environment/vector/thread_pool.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <system_error>
 
@@ -16,10 +17,15 @@ unsigned number_of_threads(unsigned requested) {
 
 }  // namespace
 
-// The job of one run(): numbers from 0, in one share for each thread. The caller has the first share.
+// The job of one run(): numbers from 0, in one share for each thread. The caller has the first share. The
+// shares are no variable of the thread: with MinGW, the memory of such variables may be released before their
+// destructors run.
 class ThreadPool::Round final : public Job {
  public:
-  Round(const Task& task, std::size_t count, std::size_t threads) : task_(task), shares_(shares(threads)) {
+  Round(const Task& task, std::size_t count, std::size_t threads)
+      : task_(task),
+        many_(threads > few_.size() ? threads : 0),
+        shares_(many_.empty() ? std::span(few_).first(threads) : std::span(many_)) {
     for (std::size_t i = 0; i < threads; ++i) {
       shares_[i].next = count * i / threads;
       shares_[i].end = count * (i + 1) / threads;
@@ -42,13 +48,9 @@ class ThreadPool::Round final : public Job {
   }
 
  private:
-  static std::span<Share> shares(std::size_t threads) {
-    static thread_local std::vector<Share> all;  // reused by the next run()
-    if (all.size() < threads) all = std::vector<Share>(threads);
-    return std::span(all).first(threads);
-  }
-
   const Task& task_;
+  std::array<Share, 16> few_;  // without an allocation
+  std::vector<Share> many_;    // where these are too few
   const std::span<Share> shares_;
 };
 
