@@ -1,5 +1,7 @@
 """Statistics of small samples, by hand or by rliable itself."""
 
+import dataclasses
+
 import package
 import pytest
 
@@ -457,6 +459,13 @@ class TestAgainstRandom:
     def test_worse_than_random(self):
         row = self.row("uct", {("uct", "boxing"): [[1], [2], [1]]})
         assert (row["above"], row["significantly below"], row["low"], row["high"]) == (0, 1, 0, 0)
+
+    def test_without_trials_or_random_play_there_is_nothing_to_compare(self):
+        scores = scores_of(results_of({("basic", "pong"): [[1], [2]], ("random", "pong"): [[0]]}))
+        assert len(against_random.rows(scores, ("basic",), FEW)) == 1
+        assert against_random.rows(dataclasses.replace(scores, trials=None), ("basic",), FEW).empty
+        without = scores_of(results_of({("basic", "pong"): [[1], [2]]}))
+        assert against_random.rows(without, ("basic",), FEW).empty
 
     def test_the_mean_of_random_play_is_not_above_it(self):
         row = self.row("uct", {("uct", "boxing"): [[5], [5]], ("uct", "pong"): [[9]]})

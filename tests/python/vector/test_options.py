@@ -47,6 +47,13 @@ class TestLimits:
         assert VectorOptions(3).with_changes(5).batch_size == 5
         assert VectorOptions(3, batch_size=2).with_changes(5).batch_size == 2
 
+    def test_flags_are_truth_values(self):
+        for name in ("continuous", "reward_clipping", "maxpool", "use_fire_reset", "grayscale"):
+            assert [getattr(VectorOptions(**{name: value}), name) for value in (1, 0)] == [True, False]
+            assert type(getattr(VectorOptions(**{name: 1}), name)) is bool
+            with pytest.raises(WrongType, match=f"^{name} is "):
+                VectorOptions(**{name: np.ones(2)})
+
     def test_an_autoreset_has_a_name_and_a_value(self):
         for word in (AutoresetMode.SAME_STEP, "SAME_STEP", AutoresetMode.SAME_STEP.value):
             assert autoreset_of(word) is AutoresetMode.SAME_STEP
