@@ -61,9 +61,10 @@ class TestWords:
                 parse_count(text, 5)
 
     def test_a_refusal_has_a_code_and_a_sentence(self):
-        refused = pickle.loads(pickle.dumps(Refused("bad-value", "seed is x")))
-        assert (refused.code, refused.sentence, str(refused)) == ("bad-value", "seed is x", "bad-value: seed is x")
-        assert refused.args == ("bad-value", "seed is x")
+        refused = Refused("bad-value", "seed is x")
+        for copy in (refused, pickle.loads(pickle.dumps(refused))):
+            assert (copy.code, copy.sentence, str(copy)) == ("bad-value", "seed is x", "bad-value: seed is x")
+            assert copy.args == ("bad-value", "seed is x")
 
     def test_a_request_is_one_line(self):
         assert [format_word(value) for value in (True, False, 2, "x", 0.5)] == ["1", "0", "2", "x", "0.5"]
