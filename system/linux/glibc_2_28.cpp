@@ -1,5 +1,6 @@
-// Functions of newer C libraries (glibc), made of those of glibc 2.28. A Python module with this source loads on each Linux
-// since 2018, wherever it was built. The library keeps old versions of a function, such as pthread_create@GLIBC_2.2.5.
+// Functions of newer C libraries (glibc), made of those of glibc 2.28. A Python module with this source loads
+// on each Linux since 2018, wherever it was built. The library keeps old versions of a function, such as
+// pthread_create@GLIBC_2.2.5.
 #include <features.h>
 #if defined __GLIBC__ && (defined __x86_64__ || defined __aarch64__)
 #if __GLIBC_PREREQ(2, 34)
@@ -58,8 +59,10 @@ int fstat64(int file, struct stat64* to) noexcept { return static_cast<int>(sysc
 extern char __libc_single_threaded;
 char __libc_single_threaded = 0;
 
-// 2.30: wait until a time of this clock. The wait is by the clock of the day; it goes on if somebody has set that forward.
-int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock, const timespec* until) {
+// 2.30: wait until a time of this clock. The wait is by the clock of the day; it goes on if somebody has set
+// that forward.
+int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock,
+                           const timespec* until) {
   const auto time_of = [](clockid_t which) {
     timespec now{};
     clock_gettime(which, &now);
@@ -72,7 +75,8 @@ int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, cl
     if (rest <= 0) return ETIMEDOUT;
     const std::int64_t fraction = day.tv_nsec + rest;
     const timespec deadline{day.tv_sec + fraction / kSecond, fraction % kSecond};
-    if (const int error = pthread_cond_timedwait(condition, mutex, &deadline); error != ETIMEDOUT) return error;
+    if (const int error = pthread_cond_timedwait(condition, mutex, &deadline); error != ETIMEDOUT)
+      return error;
   }
 }
 }
