@@ -37,6 +37,7 @@ LEFT_OUT = {
 
 # Scripts that load packages without their exact version, and why. None of them makes a package.
 UNPINNED = {
+    "platforms/setup": "its environment for tests",
     "packages/conan/check": "it tests with any Conan 2",
     "scripts/check/gymnasiums": "dm-env; the versions of Gymnasium are its arguments",
     "scripts/check/learners": "it tests with the libraries that users get",
