@@ -1,5 +1,7 @@
 #include "system/regular_file.hpp"
 
+#include <windows.h>
+
 #include <fcntl.h>
 #include <io.h>
 #include <sys/stat.h>
@@ -9,11 +11,36 @@
 namespace racebeam {
 namespace {
 
-// The reason to refuse a file with these properties; empty if none.
-std::string refusal_of(int status, const struct _stat64& found) {
-  if (status != 0) return read_refusal(errno);
+constexpr auto kVerbatim = L"\\\\?\\";  // before a path that may be longer than MAX_PATH
+
+// `path` is UTF-8.
+std::wstring wide(const std::string& path) {
+  const int size = static_cast<int>(path.size());
+  std::wstring letters(path.size(), L'\0');
+  letters.resize(
+      static_cast<std::size_t>(MultiByteToWideChar(CP_UTF8, 0, path.data(), size, letters.data(), size)));
+  return letters;
+}
+
+// The whole path if it is long, since the system takes such a path only in this form.
+std::wstring name_of(const std::string& path) {
+  const std::wstring name = wide(path);
+  if (name.size() < MAX_PATH || name.starts_with(L"\\\\")) return name;
+  std::wstring whole(GetFullPathNameW(name.c_str(), 0, nullptr, nullptr), L'\0');
+  whole.resize(GetFullPathNameW(name.c_str(), static_cast<DWORD>(whole.size()), whole.data(), nullptr));
+  return kVerbatim + whole;
+}
+
+bool is_directory(const std::wstring& name) {
+  const DWORD attributes = GetFileAttributesW(name.c_str());
+  return attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_DIRECTORY) != 0;
+}
+
+// The reason to refuse an open file; empty if none.
+std::string refusal_of(int descriptor) {
+  struct _stat64 found {};
+  if (_fstat64(descriptor, &found) != 0) return read_refusal(errno);
   switch (found.st_mode & _S_IFMT) {
-    case _S_IFDIR: return "this is a directory, not a file";
     case _S_IFIFO: return "this is a pipe, not a file";
     case _S_IFCHR: return "this is a device, not a file";
     default: return {};
@@ -24,16 +51,14 @@ std::string refusal_of(int status, const struct _stat64& found) {
 
 // A directory cannot be opened, so its kind is asked for before.
 OpenedFile open_regular_file(const std::string& path) {
-  struct _stat64 found {};
-  OpenedFile file;
-  file.refusal = refusal_of(_stat64(path.c_str(), &found), found);
-  if (!file.refusal.empty()) return file;
-  file.descriptor = _open(path.c_str(), _O_RDONLY | _O_BINARY | _O_NOINHERIT);
-  if (file.descriptor < 0) return {-1, read_refusal(errno)};
-  file.refusal = refusal_of(_fstat64(file.descriptor, &found), found);
-  if (file.refusal.empty()) return file;
-  _close(file.descriptor);
-  return {-1, file.refusal};
+  const std::wstring name = name_of(path);
+  if (is_directory(name)) return {-1, "this is a directory, not a file"};
+  const int descriptor = _wopen(name.c_str(), _O_RDONLY | _O_BINARY | _O_NOINHERIT);
+  if (descriptor < 0) return {-1, read_refusal(errno)};
+  const std::string refusal = refusal_of(descriptor);
+  if (refusal.empty()) return {descriptor, {}};
+  _close(descriptor);
+  return {-1, refusal};
 }
 
 std::ptrdiff_t read_from(int descriptor, std::span<char> bytes) {

@@ -12,6 +12,15 @@ namespace {
 std::int64_t wall, processor;
 const Clocks kClocks{[] { return wall; }, [] { return processor; }};
 
+// An empty value removes the variable.
+void set_variable(const char* name, const char* value) {
+#if defined(_WIN32)
+  ::_putenv_s(name, value);
+#else
+  *value == '\0' ? ::unsetenv(name) : ::setenv(name, value, 1);
+#endif
+}
+
 std::int64_t measure(std::int64_t passed, std::int64_t used) {
   const Stopwatch watch(kClocks);
   wall += passed;
@@ -44,13 +53,13 @@ TEST_CASE("The host's clocks count nanoseconds, and never go back") {
 
 TEST_CASE("The environment decides whether policies measure") {
   const auto fixed = [](const char* value) {
-    ::setenv("RACEBEAM_POLICY", value, 1);
+    set_variable("RACEBEAM_POLICY", value);
     return racebeam::policies_are_fixed();
   };
   CHECK(fixed("fixed"));
   CHECK_FALSE(fixed("measured"));
   CHECK_THROWS_WITH(fixed("Fixed"), "RACEBEAM_POLICY is 'Fixed'; accepted: fixed and measured");
-  ::unsetenv("RACEBEAM_POLICY");
+  set_variable("RACEBEAM_POLICY", "");
   CHECK_FALSE(racebeam::policies_are_fixed());
 }
 

@@ -1,21 +1,21 @@
 // A temporary folder for a test.
 #pragma once
 
-#include <unistd.h>
-
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
+#include "system/entropy.hpp"
+
 namespace racebeam {
 
 class Scratch {
  public:
-  Scratch() : folder_((std::filesystem::temp_directory_path() / "racebeam-XXXXXX").string()) {
-    if (!mkdtemp(folder_.data())) throw std::runtime_error("cannot make a temporary folder");
+  Scratch() : folder_((std::filesystem::temp_directory_path() / name_of_new()).string()) {
+    if (!std::filesystem::create_directory(folder_))
+      throw std::runtime_error("cannot make a temporary folder");
   }
   ~Scratch() {
     std::error_code ignored;  // a destructor must not throw
@@ -32,6 +32,10 @@ class Scratch {
   }
 
  private:
+  static std::string name_of_new() {
+    return "racebeam-" + std::to_string(random_number()) + "-" + std::to_string(random_number());
+  }
+
   std::string folder_;
 };
 

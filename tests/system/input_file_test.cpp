@@ -1,33 +1,21 @@
 #include "system/input_file.hpp"
 
-#include <sys/socket.h>
-#include <sys/stat.h>
-#include <sys/un.h>
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
-namespace fs = std::filesystem;
+#include "tests/games/scratch.hpp"
+
 using namespace racebeam;
 using Catch::Matchers::Message;
 
 namespace {
 
-class Folder {
- public:
-  Folder() { fs::create_directory(path_); }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string operator/(const char* name) const { return path_ / name; }
-
- private:
-  fs::path path_ = fs::temp_directory_path() / ("input-file-" + std::to_string(::getpid()));
-};
+#if defined(_WIN32)
+constexpr auto kVerbatim = "\\\\?\\";  // before a path that may be long
+#else
+constexpr auto kVerbatim = "";
+#endif
 
 void check_refused(const std::string& path, const std::string& reason) {
   CHECK_THROWS_MATCHES(read_input_file("image", path, 100), InputFileError,
@@ -37,22 +25,22 @@ void check_refused(const std::string& path, const std::string& reason) {
 }  // namespace
 
 TEST_CASE("a file is read whole, up to the limit") {
-  const Folder folder;
-  const std::string path = folder / "file";
+  const Scratch folder;
+  const std::string path = folder.path("file");
   for (const std::size_t size : {0, 1, 99, 100}) {
-    std::ofstream(path) << std::string(size, 'x');
+    std::ofstream(path, std::ios::binary) << std::string(size, 'x');
     CHECK(read_input_file("image", path, 100) == std::string(size, 'x'));
   }
-  std::ofstream(path) << std::string(101, 'x');
+  std::ofstream(path, std::ios::binary) << std::string(101, 'x');
   check_refused(path, "larger than 100 bytes");
 }
 
 TEST_CASE("lines are visited one by one, however long the file is") {
-  const Folder folder;
-  const std::string path = folder / "file";
+  const Scratch folder;
+  const std::string path = folder.path("file");
   const std::string line(1000, 'x');
   {
-    std::ofstream file(path);
+    std::ofstream file(path, std::ios::binary);
     file << "\n";
     for (int number = 0; number < 1000; ++number) file << line << number << '\n';
     file << "end";
@@ -71,27 +59,20 @@ TEST_CASE("lines are visited one by one, however long the file is") {
                        Message("table " + path + ": line 12 has more than 1001 bytes"));
 }
 
-TEST_CASE("a link to a file is followed") {
-  const Folder folder;
-  std::ofstream(folder / "file") << "text";
-  fs::create_symlink("file", folder / "link");
-  CHECK(read_input_file("image", folder / "link", 100) == "text");
+TEST_CASE("a path may have letters beyond ASCII, and be long") {
+  const Scratch scratch;
+  const auto folder = std::filesystem::path(kVerbatim + scratch.path("")).make_preferred();
+  for (const std::u8string& name : {std::u8string(u8"L\u00F6we \U0001F3AE"), std::u8string(200, u8'x')}) {
+    const std::filesystem::path inner = folder / name;
+    std::filesystem::create_directory(inner);
+    std::ofstream(inner / name, std::ios::binary) << "text";
+    const std::string text(name.begin(), name.end());
+    CHECK(read_input_file("image", scratch.path(text + "/" + text), 100) == "text");
+  }
 }
 
-TEST_CASE("anything but a regular file is refused at once") {
-  const Folder folder;
-  check_refused(folder / "nothing", "no such file");
-  check_refused(folder / ".", "this is a directory, not a file");
-  check_refused("/dev/zero", "this is a device, not a file");
-  const std::string pipe = folder / "pipe", name = folder / "socket";
-  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-  check_refused(pipe, "this is a pipe, not a file");
-  fs::create_symlink("pipe", folder / "link");
-  check_refused(folder / "link", "this is a pipe, not a file");
-  sockaddr_un address{AF_UNIX, {}};
-  std::strncpy(address.sun_path, name.c_str(), sizeof address.sun_path - 1);
-  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
-  REQUIRE(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
-  check_refused(name, "this is a socket, not a file");
-  ::close(socket);
+TEST_CASE("anything but a regular file is refused") {
+  const Scratch folder;
+  check_refused(folder.path("nothing"), "no such file");
+  check_refused(folder.path("."), "this is a directory, not a file");
 }
