@@ -29,6 +29,7 @@ class TestLogs:
     def verify(self):
         return subprocess.run([racebeam.program.path(), "verify", self.path], capture_output=True, text=True)
 
+    @pytest.mark.needs_program
     def test_a_log_is_confirmed(self, subtests):
         for settings, end in (
             ({"seed": 3, "frame_skip": 60}, True),
@@ -46,6 +47,7 @@ class TestLogs:
                     rf"^one.episode \(beamfall, test, score {episode.score}\): confirmed; ", done.stdout
                 ), done.stderr
 
+    @pytest.mark.needs_program
     def test_a_log_of_another_score_is_not(self):
         write_log(self.path, "beamfall", [1] * 2000, seed=3, frame_skip=60)
         first = self.path.read_bytes()

@@ -7,6 +7,7 @@ import unittest
 import warnings
 
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -102,16 +103,19 @@ case(VectorEnvironmentTests, "VectorOfAlePy", lambda count: racebeam.ale_py.Atar
 case(VectorEnvironmentTests, "VectorMade", lambda count: gymnasium.make_vec("racebeam/Updraft-v5", count))
 
 
+@pytest.mark.needs_program
 class EnvOnServer(EnvironmentTests, unittest.TestCase):
     def make_env(self):
         return AtariEnv("beamfall", server=start_server(self))
 
 
+@pytest.mark.needs_program
 class VectorOnServer(VectorEnvironmentTests, unittest.TestCase):
     def make_envs(self, count):
         return AtariVectorEnv("beamfall", count, server=start_server(self))
 
 
+@pytest.mark.needs_program
 class VectorOnServers(VectorEnvironmentTests, unittest.TestCase):
     def make_envs(self, count):
         return AtariVectorEnv("beamfall", count, server=[start_server(self), start_server(self)])

@@ -85,6 +85,7 @@ class TestThreads:
         thread.join()
         assert counted[0] > 10
 
+    @pytest.mark.needs_posix
     def test_Ctrl_C_ends_a_long_step(self):
         script = (
             "import racebeam, signal\n"
@@ -133,6 +134,7 @@ class TestThreads:
                 done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=PATIENCE)
                 assert (done.returncode, done.stderr) == (0, "")
 
+    @pytest.mark.needs_posix
     def test_a_child_of_fork_goes_on_with_the_game(self):
         ale = loaded()
         reader, writer = os.pipe()
@@ -145,6 +147,7 @@ class TestThreads:
         os.close(reader)
         os.close(writer)
 
+    @pytest.mark.needs_posix
     def test_a_game_that_another_thread_used_at_the_fork_is_refused(self):
         script = (
             "import os, racebeam, threading, time\n"
@@ -164,6 +167,7 @@ class TestThreads:
         )
         assert done.stdout.strip() == "7", done.stderr
 
+    @pytest.mark.needs_posix
     def test_a_pool_of_processes_takes_games_by_pickling(self, subtests):
         import multiprocessing
 
@@ -173,6 +177,7 @@ class TestThreads:
                 assert pool.apply(operator.methodcaller("act", 1), (ale,)) == ale.act(1)
 
 
+@pytest.mark.needs_posix
 class TestMemory:
     def test_the_memory_of_arrays_is_released(self):
         import resource

@@ -34,8 +34,8 @@ def built(name):
 
 # A shell ignores SIGINT and SIGQUIT for what it runs in the background, and nohup SIGHUP. Programs inherit that;
 # racebeam obeys.
-for _number in (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT):
-    if signal.getsignal(_number) == signal.SIG_IGN:
+for _number in signal.Signals:
+    if _number.name in ("SIGINT", "SIGHUP", "SIGQUIT") and signal.getsignal(_number) == signal.SIG_IGN:
         signal.signal(_number, signal.default_int_handler if _number == signal.SIGINT else signal.SIG_DFL)
 
 

@@ -6,6 +6,16 @@ import importlib.metadata
 import os
 import pathlib
 import shutil
+import sys
+
+NOT_FOUND = (
+    "the program racebeam is neither beside this package nor on the PATH; install a wheel that has it, or the .deb or "
+    ".tar.gz of racebeam, or set RACEBEAM_PROGRAM to the program; connect() needs no program here"
+)
+NOT_FOR_WINDOWS = (
+    "the program racebeam does not run on Windows; start it in WSL 2 or on another machine, and use connect(); "
+    "AtariEnv and AtariVectorEnv need no program"
+)
 
 
 def path() -> str:
@@ -24,10 +34,7 @@ def path() -> str:
     installed = _installed()
     found = str(installed) if installed is not None else shutil.which("racebeam")
     if found is None:
-        raise FileNotFoundError(
-            "the program racebeam is neither beside this package nor on the PATH; install a wheel that has it, or the "
-            ".deb or .tar.gz of racebeam, or set RACEBEAM_PROGRAM to the program; connect() needs no program here"
-        )
+        raise FileNotFoundError(NOT_FOR_WINDOWS if sys.platform == "win32" else NOT_FOUND)
     return found
 
 

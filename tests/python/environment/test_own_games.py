@@ -133,6 +133,7 @@ class TestOwn:
             with pytest.raises(racebeam.InvalidInput):
                 make(game_file=self.folder / "none.toml", rom=DUMP)
 
+    @pytest.mark.needs_program
     def test_a_game_that_only_the_server_knows(self, cleanup):
         ready = self.folder / "ready"
         command = [

@@ -213,6 +213,7 @@ class TestPlaying:
         assert settings(preset="dqn2015") == (4, 0.0, 18, 18000, True, 30, (-1, 1))
         assert settings(preset="machado2018", frameskip=3) == (3, 0.25, 18, 18000, False, 0, None)
 
+    @pytest.mark.needs_program
     def test_presets_are_those_of_the_line_protocol(self):
         with racebeam.launch() as session:
             for name in ("paper2013", "dqn2015", "machado2018", "gym-v5"):

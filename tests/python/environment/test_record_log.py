@@ -1,16 +1,16 @@
 """RecordLog leaves a submission that `racebeam verify` confirms, and that it refuses once somebody has changed it."""
 
 import csv
-import fcntl
 import os
 import pathlib
 import re
-import resource
 import subprocess
+import sys
 import tempfile
 import unittest
 import unittest.mock
 
+import harness
 import package
 import pytest
 
@@ -22,6 +22,12 @@ from racebeam import InvalidInput, RecordLog
 from racebeam.episode_log import Origin, Start, log_of, play
 from racebeam.single import submission
 from racebeam.single.submission import COLUMNS
+
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
+    import resource
 
 
 def play_games(env, games, seed=None):
@@ -39,6 +45,15 @@ def play_games(env, games, seed=None):
             over = terminated or truncated
         remaining -= env.unwrapped.ale.game_over()
     return env
+
+
+def take_lock(file):
+    """Takes the lock of a file as another program does."""
+    if sys.platform == "win32":
+        file.seek(submission.LOCKED_BYTE)
+        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+    else:
+        fcntl.flock(file, fcntl.LOCK_EX)
 
 
 pytestmark = pytest.mark.filterwarnings("always")
@@ -76,6 +91,7 @@ class TestSubmissions:
             table.writeheader()
             table.writerows(rows)
 
+    @pytest.mark.needs_program
     def test_episodes_are_confirmed(self, subtests):
         for number, arguments in enumerate(
             (
@@ -104,12 +120,14 @@ class TestSubmissions:
         assert row["environment_seed"] == str(info["seeds"][1])
         assert row["state_hash"] == f"{env.unwrapped.state_hash:016x}"
 
+    @pytest.mark.needs_program
     def test_seeds_follow_from_a_phrase(self):
         self.record(phrase="a headline of tomorrow")
         assert self.verify()[0] == 0
         with pytest.raises(InvalidInput, match="with a phrase, reset takes none"):
             self.env.reset(seed=1)
 
+    @pytest.mark.needs_program
     def test_what_was_changed_is_refused(self):
         self.record(phrase="a headline of tomorrow")
         rows = self.rows()
@@ -123,6 +141,7 @@ class TestSubmissions:
         assert status == 1
         assert "environment_seed" in output
 
+    @pytest.mark.needs_program
     def test_an_action_that_was_changed_is_refused(self):
         start = Start("beamfall", 7, 4, max_episode_frames=400)
         episode = play(start, [1] * 100)
@@ -168,6 +187,7 @@ class TestSubmissions:
             assert [warning.filename for warning in found] == [__file__]
         assert env.unlogged == 2
 
+    @pytest.mark.needs_program
     def test_any_seed_of_a_game_may_be_drawn(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
         bounds = {"least": 1, "half": 2**31 - 1, "more": 2**31, "most": 2**32 - 2}
@@ -182,6 +202,7 @@ class TestSubmissions:
         assert [int(row["environment_seed"]) for row in self.rows()] == list(bounds.values())
         assert self.verify()[0] == 0
 
+    @pytest.mark.needs_program
     def test_numbers_at_their_limits_are_logged(self):
         for trial, agent_seed in ((1, 0), (2**31 - 1, 2**32 - 1)):
             self.folder = pathlib.Path(self.scratch.name, str(trial))
@@ -191,6 +212,7 @@ class TestSubmissions:
             assert (row["trial"], row["agent_seed"], row["episode"]) == (str(trial), str(agent_seed), "1")
             assert self.verify()[0] == 0
 
+    @pytest.mark.needs_posix
     def test_a_full_disk_is_reported_and_the_game_goes_on(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
         limits = resource.getrlimit(resource.RLIMIT_FSIZE)
@@ -207,12 +229,13 @@ class TestSubmissions:
     def test_a_program_that_keeps_the_lock_of_the_table_costs_an_episode_its_log(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
         with open(self.folder / "results.csv", "rb") as table, unittest.mock.patch.object(submission, "PATIENCE", 0.1):
-            fcntl.flock(table, fcntl.LOCK_EX)
+            take_lock(table)
             with pytest.warns(UserWarning, match="no log: another program has had the lock of .*results.csv"):
                 play_games(env, 1)
         play_games(env, 1)
         assert (env.logged, env.unlogged, len(self.rows())) == (1, 1, 1)
-        assert self.verify()[0] == 0
+        if os.path.exists(harness.BINARY):
+            assert self.verify()[0] == 0
 
     def test_bad_arguments_are_refused_and_leave_nothing(self):
         for words in ({"trial": 0}, {"trial": "x"}, {"trial": 2**31}, {"agent_seed": -1}, {"agent_seed": 2**32}):
@@ -234,4 +257,5 @@ class TestSubmissions:
         self.record(1)
         with pytest.raises(FileExistsError):
             self.record(1)
-        assert self.verify()[0] == 0
+        if os.path.exists(harness.BINARY):
+            assert self.verify()[0] == 0

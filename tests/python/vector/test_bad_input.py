@@ -89,6 +89,7 @@ class TestBadInput:
             with pytest.raises(InvalidInput, match="this process may use"):
                 AtariVectorEnv("beamfall", count)
 
+    @pytest.mark.needs_posix
     def test_memory_that_runs_out(self):
         """The memory is enough for two machines, and not for thousands."""
         script = (

@@ -1,7 +1,7 @@
 """AtariVectorEnv: threads, forks and signals."""
 
+import mmap
 import pathlib
-import resource
 import signal
 import subprocess
 import sys
@@ -39,6 +39,7 @@ class TestThreads:
             thread.join(self.PATIENCE)
         assert (failures, [thread for thread in threads if thread.is_alive()]) == ([], [])
 
+    @pytest.mark.needs_posix
     def test_a_child_after_a_fork_is_refused_and_ends(self):
         script = (
             "import os, racebeam\n"
@@ -58,9 +59,10 @@ class TestThreads:
         )
         assert done.stdout.split() == ["3", "on"], done.stderr
 
+    @pytest.mark.needs_posix
     def test_the_memory_of_results_is_released(self):
         def resident():
-            return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
+            return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * mmap.PAGESIZE
 
         envs = AtariVectorEnv("beamfall", 8, seed=1)
         play(envs, 20)
@@ -70,6 +72,7 @@ class TestThreads:
         assert resident() - before < 20 << 20
 
 
+@pytest.mark.needs_posix
 class TestInterrupts:
     """Ctrl-C ends what takes long, and leaves the environments so that they can go on."""
 

@@ -16,6 +16,8 @@ package.require("numpy")
 import racebeam
 from racebeam.wire import aio
 
+pytestmark = pytest.mark.needs_program
+
 LOAD = ("load", "beamfall")
 SETTINGS = {"seed": 7, "frame_skip": 4}
 FIELDS = ("reward", "ends", "screen:delta", "grey84x4:raw", "ram:raw")

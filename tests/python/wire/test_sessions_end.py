@@ -23,6 +23,8 @@ import racebeam
 from racebeam import AtariEnv, AtariVectorEnv
 from vector_servers import halt, server
 
+pytestmark = pytest.mark.needs_program
+
 PATIENCE = 60  # seconds
 WIRE = str(pathlib.Path(racebeam.__file__).parent / "wire")
 

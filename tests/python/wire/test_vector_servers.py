@@ -17,6 +17,8 @@ import numpy as np
 from racebeam import AtariEnv, AtariVectorEnv, InvalidInput, connect
 from vector_servers import Compared, halt, server
 
+pytestmark = pytest.mark.needs_program
+
 COUNT = 5  # of which the first server plays three
 FIRST, SECOND = np.arange(COUNT) < 3, np.arange(COUNT) >= 3
 

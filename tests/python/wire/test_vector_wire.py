@@ -18,6 +18,8 @@ from racebeam import AtariVectorEnv, InvalidInput
 from racebeam.wire.last_reply import LastReply
 from vector_servers import Compared, server
 
+pytestmark = pytest.mark.needs_program
+
 SETTINGS = (
     {},
     {

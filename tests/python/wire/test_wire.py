@@ -11,6 +11,7 @@ import sys
 import tempfile
 import threading
 import time
+import unittest.mock
 import zlib
 
 import package
@@ -21,6 +22,9 @@ package.require("gymnasium", "numpy")
 import numpy as np
 import racebeam
 import racebeam.program
+import racebeam.wire.addresses
+
+pytestmark = pytest.mark.needs_program
 
 SETTINGS = (
     {},
@@ -227,6 +231,15 @@ class TestSessions:
             ("tcp://host.invalid:1", socket.gaierror),
         ):
             with subtests.test(address=address), pytest.raises(error):
+                racebeam.connect(address)
+
+    def test_Windows_has_fewer_kinds_of_addresses(self, subtests):
+        for address in ("unix:/nowhere", "pipes:/nowhere"):
+            with (
+                subtests.test(address=address),
+                unittest.mock.patch.object(racebeam.wire.addresses, "IS_WINDOWS", True),
+                pytest.raises(ValueError, match=f"the address is '{address}'; on Windows, it takes tcp://HOST:PORT"),
+            ):
                 racebeam.connect(address)
 
     def test_a_token_is_sent(self):

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
 import os
 import pathlib
 import re
+import sys
 import time
 from typing import IO
 
 from ..episode_log import Episode, Origin, Start, log_of
 from ..errors import InvalidInput
+
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 COLUMNS = (
@@ -19,6 +24,7 @@ COLUMNS = (
     "log_digest,version"
 )
 PATIENCE = 5  # seconds, for the lock of the table
+LOCKED_BYTE = 1 << 40  # of Windows: others cannot read what is locked, so it lies beyond the contents
 # The presets of evaluation: frame_skip, sticky, action_set and max_episode_frames. Those with no-ops are missing, since
 # no-ops that an environment plays are not in a log.
 # generated: evaluation presets, from protocol/protocol.toml
@@ -118,11 +124,20 @@ def _lock(file: IO[bytes], path: pathlib.Path) -> None:
     end = time.monotonic() + PATIENCE
     while True:
         try:
-            return fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
+            return _try_lock(file)
+        except (BlockingIOError, PermissionError):
             if time.monotonic() > end:
                 raise TimeoutError(f"another program has had the lock of {path} for {PATIENCE} seconds") from None
         time.sleep(0.01)
+
+
+def _try_lock(file: IO[bytes]) -> None:
+    """Locks a file until it is closed."""
+    if sys.platform == "win32":
+        file.seek(LOCKED_BYTE)
+        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+    else:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def _write(path: pathlib.Path, contents: bytes | str) -> None:

@@ -17,6 +17,8 @@ SECONDS = re.compile(r"[0-9]{1,9}(\.[0-9]+)?")
 ADDRESSES = (
     "it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio or file:PATH, also in RACEBEAM_ADDRESS"
 )
+ON_WINDOWS = "on Windows, it takes tcp://HOST:PORT, tls://HOST:PORT, stdio or file:PATH"
+IS_WINDOWS = os.name == "nt"
 FILES = "file:PATH takes the --ready-file or --announce file of a server"
 
 Opened = TypeVar("Opened")
@@ -48,6 +50,8 @@ def reach(address: str | None, open_address: Callable[[str], Opened]) -> tuple[O
         found = file
         try:
             found, token = _read_file(file)
+            if IS_WINDOWS and found.startswith(("unix:", "pipes:")):
+                raise ValueError(f"the address is {found!r}; {ON_WINDOWS}")
             return open_address(found), found, token
         except OSError as error:
             if time.monotonic() >= until:
