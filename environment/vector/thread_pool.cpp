@@ -17,9 +17,8 @@ unsigned number_of_threads(unsigned requested) {
 
 }  // namespace
 
-// The job of one run(): numbers from 0, in one share for each thread. The caller has the first share. The
-// shares are no variable of the thread: with MinGW, the memory of such variables may be released before their
-// destructors run.
+// The job of one run(): numbers from 0, in one share for each thread. The caller has the first share. The job
+// owns the shares: with MinGW, a thread's variables may be released before their destructors run.
 class ThreadPool::Round final : public Job {
  public:
   Round(const Task& task, std::size_t count, std::size_t threads)
