@@ -63,7 +63,10 @@ class TestPage(Case):
         cases = (
             (b"GET / HTTP/1.1\r\nHost: x\r\nX: " + b"x" * 30000 + b"\r\n\r\n", b"HTTP/1.1 431 "),
             (b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 9999\r\n\r\n" + b"x" * 9999, b"HTTP/1.1 413 "),
-            (b"POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n4\r\nbody\r\n0\r\n\r\n", b"HTTP/1.1 411 "),
+            (
+                b"POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n4\r\nbody\r\n0\r\n\r\n",
+                b"HTTP/1.1 411 ",
+            ),
             (b"GET / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n0\r\nnone\r\n", b"HTTP/1.1 411 "),
             (b"GET / HTTP/1.1\r\nHost\r\n\r\n", b"HTTP/1.1 400 "),
             (b"load beamfall\n\r\n\r\n", b"HTTP/1.1 400 "),
