@@ -138,8 +138,8 @@ class TestBadInput:
             [sys.executable, "-c", blind + script], env=with_path, capture_output=True, text=True, check=True
         )
         assert (
-            "MissingImage no cartridge image of pong was found; racebeam searched RACEBEAM_ROMS, /nowhere (not a "
-            "folder); "
+            "MissingImage no cartridge image of pong was found; racebeam searched RACEBEAM_ROMS, "
+            f"{pathlib.Path('/nowhere')} (not a folder); "
             f"ALE_ROMS_DIR, {HOMEBREW} (no file has an MD5 of the game); an installed ale_py"
         ) in done.stdout
 
