@@ -671,7 +671,8 @@ class SocketStream:
             if not pieces[-1]:
                 break
         self._restore_limit(until)
-        last, self._data = pieces[-1][: end + 1], pieces[-1][end + 1 :]
+        size = end + 1 if end >= 0 else len(pieces[-1])
+        last, self._data = pieces[-1][:size], pieces[-1][size:]
         return b"".join([*pieces[:-1], last])
 
     def read(self, count: int) -> bytearray:
