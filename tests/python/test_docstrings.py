@@ -8,6 +8,7 @@ import pkgutil
 import typing
 
 import package
+import pytest
 
 package.require("numpy", "gymnasium")
 
@@ -31,6 +32,7 @@ def needs_no_example(kind):
 
 
 class TestDocstrings:
+    @pytest.mark.needs_program
     def test_the_examples_run(self, subtests):
         for module in modules():
             finder = doctest.DocTestFinder(exclude_empty=True)

@@ -98,6 +98,7 @@ class TestLogs:
         assert rest == struct.pack("<Q", episode.hashes[0]) + bytes([1] * 10)
         assert (row["environment_seed"], row["state_hash"]) == ("5", f"{episode.hashes[-1]:016x}")
 
+    @pytest.mark.needs_program
     def test_a_mode_and_a_difficulty_are_in_the_log_and_reset_the_game(self):
         for words in ({"mode": 0}, {"difficulty": 0}, {"mode": 0, "difficulty": 1}):
             start = Start("beamfall", 5, 1, max_episode_frames=60, **words)

@@ -98,22 +98,26 @@ class TestImport:
 
 
 class TestFiles:
+    @pytest.mark.needs_posix
     def test_only_the_modules_entry_is_seen_by_others(self):
         symbols = subprocess.run(
             ["nm", "-D", "--defined-only", racebeam._core.__file__], capture_output=True, text=True, check=True
         )
         assert {line.split()[2].split("@")[0] for line in symbols.stdout.splitlines()} == {"PyInit__core"}
 
+    @pytest.mark.needs_posix
     def test_what_is_linked_is_on_every_Linux(self):
         libraries = {"libc.so.6", "libm.so.6", "libgcc_s.so.1", "ld-linux-x86-64.so.2", "libpthread.so.0"}
         assert needed(racebeam._core.__file__) <= libraries
         assert needed(pathlib.Path(sys.executable).parent / "racebeam") == set()
 
+    @pytest.mark.needs_posix
     def test_it_runs_on_the_systems_that_the_document_names(self):
         claim = re.search(r"`manylinux_2_(\d+)_x86_64`", (package.SOURCE / "docs/python/reference.md").read_text())[1]
         versions = output("readelf", "--version-info", racebeam._core.__file__)
         assert max(map(int, re.findall(r"GLIBC_2\.(\d+)", versions))) <= int(claim)
 
+    @pytest.mark.needs_posix
     def test_each_function_of_the_C_library_has_a_version(self):
         symbols = output("nm", "-D", "--undefined-only", racebeam._core.__file__).splitlines()
         names = [line.split()[-1] for line in symbols if line.split()[-2] == "U"]

@@ -190,12 +190,14 @@ class TestAddresses:
         self.path.write_text(text)
         return addresses.reach(f"file:{self.path}{wait}", lambda address: f"opened {address}")
 
+    @pytest.mark.needs_posix
     def test_the_first_address_that_a_client_can_use_is_opened(self):
         text = "# made by racebeam\nws://a:1\nunix:/b\ntcp://c:2\n"
         assert self.reach(text) == ("opened unix:/b", "unix:/b", None)
         announcement = {"racebeam_announce": 1, "addresses": ["wss://a:1", "tls://b:2"], "token": "abc"}
         assert self.reach(json.dumps(announcement)) == ("opened tls://b:2", "tls://b:2", "abc")
 
+    @pytest.mark.needs_posix
     def test_a_file_of_others_is_refused(self):
         for text, sentence in (
             ("", "is empty; file:PATH takes"),
