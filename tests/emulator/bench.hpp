@@ -76,7 +76,7 @@ struct Bench {
   FrameBuffer& picture() { return whole_->pictures[current_]; }
   std::array<FrameBuffer, 2>& pictures() { return whole_->pictures; }
   std::span<const std::uint8_t> row(int number) {
-    return picture().pixels().subspan(static_cast<std::size_t>(number * kLinePixels), kLinePixels);
+    return picture().pixels().subspan(static_cast<std::size_t>(number) * kLinePixels, kLinePixels);
   }
 
   void write(int line, int x, unsigned reg, unsigned value) { write_at(line * kLineCycles + x, reg, value); }
