@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
+#include <optional>
 
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -76,13 +78,23 @@ Loops::~Loops() {
 
 void Loops::start() {
   for (Loop& loop : loops_) {
-    threads_.emplace_back([this, &loop] {
-      const FiberStack
-          first;  // the C library aborts if it cannot note at a later time what a thread's end frees
-      running_.wait(false);
-      loop.run();
-    });
+    threads_.emplace_back([this, &loop] { work(loop); });
+    begun_.acquire();
+    if (failure_) std::rethrow_exception(failure_);
   }
+}
+
+void Loops::work(Loop& loop) {
+  std::optional<FiberStack> first;
+  try {
+    first.emplace();  // the C library aborts if it cannot note at a later time what a thread's end frees
+  } catch (const std::bad_alloc&) {
+    failure_ = std::current_exception();
+  }
+  begun_.release();
+  if (!first) return;
+  running_.wait(false);
+  loop.run();
 }
 
 void Loops::run() { let_go(); }

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <list>
+#include <semaphore>
 #include <thread>
 #include <unordered_set>
 #include <utility>  // Asio 1.74 forgets it
@@ -44,7 +46,8 @@ class Loops {
   Loops(const Loops&) = delete;
   Loops& operator=(const Loops&) = delete;
 
-  // Starts a thread for each loop, which waits for run(). Throws std::system_error if the system gives fewer.
+  // Starts a thread for each loop, which waits for run(). Throws std::system_error if the system gives fewer
+  // threads, and std::bad_alloc if a thread gets no memory.
   void start();
   Loop& first() { return loops_.front(); }
   Loop& idlest();  // with the fewest sessions
@@ -54,9 +57,12 @@ class Loops {
   void stop();
 
  private:
+  void work(Loop& loop);  // of its thread
   void let_go();
 
   std::list<Loop> loops_;
+  std::exception_ptr failure_;  // of a thread that cannot run; read after it has begun
+  std::binary_semaphore begun_{0};
   std::atomic_flag running_;
   std::vector<std::jthread> threads_;
 };

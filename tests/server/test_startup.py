@@ -183,8 +183,8 @@ class TestCommandLine(Refusals):
 
     @pytest.mark.skipif(sanitized(), reason="a sanitizer needs more address space")
     def test_a_thread_that_the_system_does_not_give_has_the_same_status(self, subtests):
-        reason = "the system gives no more memory for a thread, or allows no more threads"
-        for kibibytes in (20000, 26000):  # without room for the stack of a thread
+        reason = "the system gives no more memory"  # for a thread, or for what a thread begins with
+        for kibibytes in (20000, 26000):  # without room for the stack of a thread, or with hardly any
 
             def limit():
                 resource.setrlimit(resource.RLIMIT_AS, (kibibytes << 10, kibibytes << 10))
