@@ -79,7 +79,7 @@ Loops::~Loops() {
 void Loops::start() {
   for (Loop& loop : loops_) {
     threads_.emplace_back([this, &loop] { work(loop); });
-    begun_.acquire();
+    start_result_.acquire();
     if (failure_) std::rethrow_exception(failure_);
   }
 }
@@ -91,7 +91,7 @@ void Loops::work(Loop& loop) {
   } catch (const std::bad_alloc&) {
     failure_ = std::current_exception();
   }
-  begun_.release();
+  start_result_.release();
   if (!first) return;
   running_.wait(false);
   loop.run();

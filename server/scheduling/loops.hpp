@@ -62,7 +62,7 @@ class Loops {
 
   std::list<Loop> loops_;
   std::exception_ptr failure_;  // of a thread that cannot run; read after it has begun
-  std::binary_semaphore begun_{0};
+  std::binary_semaphore start_result_{0};
   std::atomic_flag running_;
   std::vector<std::jthread> threads_;
 };

@@ -215,7 +215,7 @@ class TestBadInput(Folder):
         assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 100_000  # KiB
 
     def contents(self, settings=SETTINGS):
-        """What the seal of the first log protects."""
+        """Returns the bytes of the first log that its seal covers."""
         return zlib.decompress(log(self.rows[0], settings)[24:])
 
     def test_the_size_of_the_contents_is_exact(self):

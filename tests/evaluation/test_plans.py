@@ -1,4 +1,4 @@
-"""What plans say of settings, and how they differ."""
+"""The settings that a plan names, and the differences between two plans."""
 
 import package
 import pytest

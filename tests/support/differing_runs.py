@@ -1,4 +1,4 @@
-"""What a test, and the same file as a program, does with the runs of a comparison that differ."""
+"""Judges the runs of a comparison that differ: check() for a test, report() for a program."""
 
 
 def check(found, count):
