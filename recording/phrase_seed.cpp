@@ -16,7 +16,7 @@ constexpr std::size_t kMostPhraseBytes = 1000;
 
 void check_phrase(std::string_view phrase) {
   const bool is_plain = std::ranges::none_of(phrase, [](char letter) {
-    return (letter >= 0 && letter < ' ') || letter == '\x7f' || letter == '"' || letter == '\\';
+    return static_cast<unsigned char>(letter) < ' ' || letter == '\x7f' || letter == '"' || letter == '\\';
   });
   if (phrase.empty() || phrase.size() > kMostPhraseBytes || !is_plain)
     throw InvalidInput("a phrase has 1 to " + std::to_string(kMostPhraseBytes) +

@@ -72,7 +72,8 @@ Background background_of(const std::string& path, const Cartridge& cartridge,
   const std::string contents = read_sealed(kBackground, path);
   const std::string_view pixels = behind(contents, source_of_background(cartridge, settings), path);
   Background background;
-  if (pixels.size() != background.size() || std::ranges::any_of(pixels, [](char byte) { return byte < 0; }))
+  const auto is_colour = [](unsigned char byte) { return byte < kColours; };
+  if (pixels.size() != background.size() || !std::ranges::all_of(pixels, is_colour))
     throw InvalidInput(path + " does not hold 160 x 210 colours from 0 to 127");
   std::ranges::copy(pixels, background.begin());
   return background;

@@ -52,6 +52,10 @@ TEST_CASE("A background is the same again, as CSV and as a file") {
   other.seed = 2;
   CHECK_THROWS_WITH(background_of(path, beamfall(), other),
                     Catch::Contains("seed=1 ") && Catch::Contains("wanted is"));
+  Background wrong = background;
+  wrong.front() = kColours;
+  write(path, bytes_of(wrong, beamfall(), settings));
+  CHECK_THROWS_WITH(background_of(path, beamfall(), settings), Catch::Contains("colours from 0 to 127"));
 }
 
 TEST_CASE("A background of another size is refused") {
