@@ -2,7 +2,7 @@
 """Writes the man pages of racebeam, and the completions of its command line for bash, zsh and fish, from its help
 texts.
 
-usage: program_text.py PROGRAM FOLDER
+usage: program_text.py FOLDER PROGRAM...    (several words where an emulator runs it)
 """
 
 import os
@@ -33,7 +33,7 @@ FILES = {
 def help_of(program, *words):
     """A help text, in the width of a page, whatever the environment says."""
     plain = {key: value for key, value in os.environ.items() if not key.startswith("RACEBEAM_")}
-    text = subprocess.run([program, *words, "--help"], capture_output=True, text=True, check=True, env=plain).stdout
+    text = subprocess.run([*program, *words, "--help"], capture_output=True, text=True, check=True, env=plain).stdout
     return MACHINE.sub(r"\1", text)
 
 
@@ -136,8 +136,8 @@ def fish(commands, summaries):
 
 
 def main():
-    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
-    version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
+    folder, program = pathlib.Path(sys.argv[1]), sys.argv[2:]
+    version = subprocess.run([*program, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
     about = help_of(program)
     summaries = subcommands(about)
     texts = {name: help_of(program, name) for name in summaries}

@@ -3,7 +3,8 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(texts ${CMAKE_CURRENT_BINARY_DIR}/texts)
 add_custom_command(
   OUTPUT ${texts}/racebeam.1
-  COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/program_text.py $<TARGET_FILE:racebeam> ${texts}
+  COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_SOURCE_DIR}/program_text.py ${texts}
+    ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:racebeam>
   DEPENDS racebeam ${CMAKE_CURRENT_SOURCE_DIR}/program_text.py
   COMMENT "Writing man pages and completions"
   VERBATIM)

@@ -116,7 +116,7 @@ class TestCompletion:
     def set_up_class(cls, tmp_path_factory):
         folder = tmp_path_factory.mktemp("completion")
         cls.folder = folder
-        output(sys.executable, "-B", SOURCE / "packages/program_text.py", BINARY, cls.folder)
+        output(sys.executable, "-B", SOURCE / "packages/program_text.py", cls.folder, BINARY)
 
     def completions(self, *words):
         script = 'source "$1"; shift; COMP_WORDS=(racebeam "$@"); COMP_CWORD=$#; _racebeam; '

@@ -45,8 +45,8 @@ class TestRelease:
         cls.folder = folder
         cls.release = script("release").Release("HEAD", 1)
         cls.release.build = cls.release.python = lambda *_: None
-        cls.release.pack = lambda source, _, __, scratch, into, pack=cls.release.pack: pack(
-            source, BUILD, BUILD, scratch, into
+        cls.release.pack = lambda machine, _, __, scratch, into, pack=cls.release.pack: pack(
+            machine, BUILD, BUILD, scratch, into
         )
         for name in ("first", "second"):
             (cls.folder / name).mkdir()
