@@ -1,6 +1,6 @@
 // Executable memory that is never writable at the same time (W^X). It is filled from the front, in whole
-// pages. Pages that are being written are not executable yet, and executable pages are never written again.
-// Other threads may therefore execute them at any time, without a
+// pages, by a thread that has a CodeWriting. Pages that are being written are not executed yet, and
+// executable pages are never written again. Other threads may therefore execute them at any time, without a
 // barrier: no processor has fetched from them before they were executable.
 #pragma once
 

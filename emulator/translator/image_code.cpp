@@ -124,6 +124,7 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
   if (const void* entry = view.entry(pc)) return entry;
   if (memory_.left() < kBatchCapacity) full_ = true;
   if (full_ || !has_room(kBatchCapacity)) return nullptr;
+  const CodeWriting writing;
   if (enter_ == nullptr) make_stubs(layout);
   const Window window{wiring_, rom_.data(), view.code, view.entries.data()};
   Assembler assembler(memory_.writable(), memory_.left(), layout, window, exit_stub_);

@@ -13,9 +13,13 @@ namespace {
 
 }  // namespace
 
+// Pages are either writable or executable for all threads.
+CodeWriting::CodeWriting() = default;
+CodeWriting::~CodeWriting() = default;
+
 std::size_t page_size() { return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)); }
 
-Pages::Pages(std::size_t size) {
+Pages::Pages(std::size_t size, Use) {
   size = whole_pages(size);
   void* const memory =
       ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -28,8 +32,10 @@ Pages::~Pages() {
 }
 
 void Pages::make_executable(std::size_t offset, std::size_t size) {
-  if (::mprotect(data() + offset, size, PROT_READ | PROT_EXEC) != 0)
-    refuse("the system refuses executable memory");
+  // Processors other than x86-64 may still have the bytes before these in their caches of instructions.
+  auto* const first = reinterpret_cast<char*>(data() + offset);
+  __builtin___clear_cache(first, first + size);
+  if (::mprotect(first, size, PROT_READ | PROT_EXEC) != 0) refuse("the system refuses executable memory");
 }
 
 void Pages::forbid(std::size_t offset, std::size_t size) {

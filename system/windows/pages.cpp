@@ -18,13 +18,17 @@ bool protect(std::byte* first, std::size_t size, DWORD access) {
 
 }  // namespace
 
+// Pages are either writable or executable for all threads.
+CodeWriting::CodeWriting() = default;
+CodeWriting::~CodeWriting() = default;
+
 std::size_t page_size() {
   SYSTEM_INFO info;
   GetSystemInfo(&info);
   return info.dwPageSize;
 }
 
-Pages::Pages(std::size_t size) {
+Pages::Pages(std::size_t size, Use) {
   size = whole_pages(size);
   void* const memory = VirtualAlloc(nullptr, size, MEM_RESERVE | MEM_COMMIT, PAGE_READWRITE);
   if (memory == nullptr) refuse("the system refuses memory");

@@ -1,0 +1,13 @@
+#include "system/clock.hpp"
+
+#include <time.h>
+
+namespace racebeam {
+
+// CLOCK_MONOTONIC counts microseconds.
+std::int64_t wall_time() { return static_cast<std::int64_t>(::clock_gettime_nsec_np(CLOCK_MONOTONIC_RAW)); }
+std::int64_t processor_time() {
+  return static_cast<std::int64_t>(::clock_gettime_nsec_np(CLOCK_THREAD_CPUTIME_ID));
+}
+
+}  // namespace racebeam
