@@ -4,7 +4,9 @@
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
-add_link_options(-static-libstdc++ -Wl,--as-needed -Wl,--gc-sections)
+if(NOT APPLE)
+  add_link_options(-static-libstdc++ -Wl,--as-needed -Wl,--gc-sections)
+endif()
 add_compile_options(-ffunction-sections -fdata-sections)
 
 set(BUILD_TESTING OFF)

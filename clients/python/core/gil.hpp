@@ -13,11 +13,17 @@
 
 namespace racebeam::python {
 
+#if defined(__GLIBCXX__)
+using Unwinding = abi::__forced_unwind;
+#else
+struct Unwinding {};  // macOS ends a thread without
+#endif
+
 template <class Take>
 void take_gil(const Take& take) noexcept {
   try {
     take();
-  } catch (const abi::__forced_unwind&) {
+  } catch (const Unwinding&) {
     for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
   }
 }
