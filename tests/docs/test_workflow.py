@@ -6,10 +6,12 @@ import re
 import subprocess
 import tempfile
 
+import tomllib
 from tree import ROOT
 
 WORKFLOW = ".github/workflows/ci.yml"
-FILES = (WORKFLOW, ".pre-commit-config.yaml", ".ci/run", ".ci/nightly")
+WHEELS = ".github/workflows/wheels.yml"
+FILES = (WORKFLOW, WHEELS, ".pre-commit-config.yaml", ".ci/run", ".ci/nightly")
 
 # Programs that are not steps of .ci/nightly, and why.
 LEFT_OUT = {
@@ -78,8 +80,8 @@ class TestWorkflow:
         assert self.names(r"--preset ([\w-]+)") - presets() == set()
 
     def test_its_scripts_exist(self):
-        names = self.names(r"(?<![\w/])((?:scripts|\.ci|tests)/[\w./-]*\w)")
-        assert {name for name in names if not (ROOT / name).is_file()} == set()
+        names = self.names(r"(?<![\w/])((?:scripts|\.ci|tests|platforms)/[\w./-]*\w)")
+        assert {name for name in names if not (ROOT / name).exists()} == set()
 
     def test_its_jobs_are_the_steps_of_the_night(self):
         jobs = re.findall(r"^ {10}- ([a-z -]+)$", read(WORKFLOW), re.MULTILINE)
@@ -126,8 +128,21 @@ class TestWorkflow:
     def test_scripts_load_nothing_by_address(self):
         assert [name for name, text in self.scripts() if LOADER.search(text)] == []
 
+    def test_wheels_are_built_for_every_python_of_the_package(self):
+        config = tomllib.loads(read("pyproject.toml"))
+        built = set(re.findall(r"\b(cp\d+t?)-", self.expanded(config["tool"]["cibuildwheel"]["build"])))
+        assert built == {"cp310", "cp311", "cp312", "cp313", "cp314", "cp314t"}
+        assert config["project"]["requires-python"] == ">=3.10"
+        assert config["tool"]["scikit-build"]["wheel"]["py-api"] in built
+        assert re.search(r"cibuildwheel==\d+\.\d+\.\d+ ", read(WHEELS))
+
+    def expanded(self, patterns):
+        """Patterns of the form a[0-4]b are replaced by what they match."""
+        span = re.compile(r"(\S*)\[(\d)-(\d)\](\S*)")
+        return span.sub(lambda m: " ".join(f"{m[1]}{n}{m[4]}" for n in range(int(m[2]), int(m[3]) + 1)), patterns)
+
     def test_actions_are_named_by_their_commit(self):
-        uses = re.findall(r"uses: (.*)", read(WORKFLOW))
+        uses = re.findall(r"uses: (.*)", read(WORKFLOW) + read(WHEELS))
         assert uses
         for action in uses:
             assert re.search(r"^[\w/-]+@[0-9a-f]{40} # v[\d.]+$", action)
