@@ -1,4 +1,4 @@
-"""Inspects the module of a wheel for macOS: prints what it needs, and ends with status 1 if that is more than it may."""
+"""Inspects the module of a wheel for macOS: prints what it needs. Status 1: that is more than it may need."""
 
 import io
 import re

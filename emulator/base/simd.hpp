@@ -1,7 +1,8 @@
 // Selects the variant of a vectorised function for this processor.
 #pragma once
 
-#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
+// On macOS, Zig's library does not tell what the processor has.
+#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) && !defined(__APPLE__)
 #define RACEBEAM_HAS_AVX 1
 #else
 #define RACEBEAM_HAS_AVX 0
