@@ -41,7 +41,7 @@ std::uint64_t usable_files() {
   return ::setrlimit(RLIMIT_NOFILE, &highest) == 0 ? highest.rlim_cur : limit.rlim_cur;
 }
 
-void set_thread_stacks() {}  // 512 KiB, which the system has no function to change for all threads
+void set_thread_stacks() {}  // 512 KiB; the system has no function that changes this for all threads
 
 std::uint64_t open_files(std::uint64_t most) {
   std::uint64_t open = 0;
