@@ -2,6 +2,8 @@
 
 #include <windows.h>
 
+#include <cxxabi.h>
+
 #include <system_error>
 
 namespace racebeam {
@@ -14,6 +16,13 @@ namespace {
 bool protect(std::byte* first, std::size_t size, DWORD access) {
   DWORD before = 0;
   return VirtualProtect(first, size, access, &before) != 0;
+}
+
+// With MinGW, a thread that ends frees the memory of its thread_local variables by one key, and calls their
+// destructors by another; the key that was made first goes first. This makes the key of destructors before
+// any such variable is used.
+[[gnu::constructor(101)]] void call_destructors_first() {
+  abi::__cxa_thread_atexit([](void*) {}, nullptr, nullptr);
 }
 
 }  // namespace
