@@ -1,10 +1,6 @@
 // The program racebeam, with its subcommands.
-#include <fcntl.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -31,6 +27,8 @@
 #include "cli/connect/connect.hpp"
 #include "cli/connect/watch.hpp"
 #include "system/printable.hpp"
+#include "system/program/signals.hpp"
+#include "system/program/standard_streams.hpp"
 #include "system/similar.hpp"
 
 namespace {
@@ -119,16 +117,6 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   return sentence + " (see racebeam " + chosen[0]->get_name() + " --help)";
 }
 
-// If a standard descriptor is closed, the next file or socket would get its number, and messages for the user
-// would go there. This opens /dev/null instead, in the wrong direction, so that uses fail.
-void take_standard_descriptors() {
-  constexpr std::array kWays = {O_WRONLY, O_RDONLY, O_RDONLY};
-  for (int descriptor = 0; descriptor < 3; ++descriptor) {
-    if (::fcntl(descriptor, F_GETFD) == -1)
-      ::open("/dev/null", kWays.at(static_cast<std::size_t>(descriptor)));
-  }
-}
-
 // Returns the exit status.
 int run(int argc, char** argv) {
   CLI::App app{kAbout, "racebeam"};
@@ -182,7 +170,7 @@ int after_output(int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  take_standard_descriptors();
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer
+  racebeam::prepare_standard_streams();
+  racebeam::ignore_full_files();
   return after_output(run(argc, argv));
 }

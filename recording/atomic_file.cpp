@@ -1,15 +1,12 @@
 #include "recording/atomic_file.hpp"
 
-#include <fcntl.h>
-#include <stdio.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
+
+#include "system/output_file.hpp"
+#include "system/regular_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -30,34 +27,11 @@ std::string temporary_name(const std::string& path) {
 }
 
 void write_all(int descriptor, std::size_t place, std::string_view bytes, const std::string& path) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(place));
-    if (written < 0 && errno != EINTR) fail("write", path);
-    if (written <= 0) continue;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-    place += static_cast<std::size_t>(written);
-  }
+  if (!write_at(descriptor, place, bytes)) fail("write", path);
 }
 
-void sync_folder_of(const std::string& path) {
-  const int folder = ::open(fs::path(path).parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) return;
-  ::fsync(folder);
-  ::close(folder);
-}
-
-// Renames a file unless `path` exists.
-bool renames_anew(const char* temporary, const char* path) {
-#if defined(RENAME_NOREPLACE)
-  return ::renameat2(AT_FDCWD, temporary, AT_FDCWD, path, RENAME_NOREPLACE) == 0;
-#else
-  return ::link(temporary, path) == 0 && ::unlink(temporary) == 0;
-#endif
-}
-
-void rename_anew(const std::string& temporary, const std::string& path) {
-  if (!renames_anew(temporary.c_str(), path.c_str())) fail("create", path);
-  sync_folder_of(path);
+void create(const std::string& temporary, const std::string& path) {
+  if (!rename_anew(temporary, path)) fail("create", path);
 }
 
 void refuse_existing(const std::string& path) {
@@ -67,16 +41,6 @@ void refuse_existing(const std::string& path) {
 
 std::string_view text_of(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-// The sticky bit, which means nothing to a file, marks one that is written aside.
-constexpr mode_t kAside = S_ISVTX | 0644;
-
-// Whether a kill left the file behind when replace_file() wrote it.
-bool is_left_behind(const std::string& name) {
-  struct stat facts {};
-  return ::lstat(name.c_str(), &facts) == 0 && S_ISREG(facts.st_mode) && (facts.st_mode & S_ISVTX) != 0 &&
-         facts.st_uid == ::geteuid();
 }
 
 // A new file beside `path`: .NAME.part, or .NAME.part1 and so on if another program has a file of that name.
@@ -89,15 +53,14 @@ class Aside {
     const std::string first = (whole.parent_path() / hidden).string();
     for (int number = 0; descriptor_ < 0 && number < kMostNames; ++number) {
       name_ = number == 0 ? first : first + std::to_string(number);
-      if (is_left_behind(name_)) ::unlink(name_.c_str());
-      descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kAside);
+      descriptor_ = make_marked_file(name_);
       if (descriptor_ < 0 && errno != EEXIST) break;
     }
     if (descriptor_ < 0) fail("make", path);
   }
   ~Aside() {
-    ::close(descriptor_);
-    if (!name_.empty()) ::unlink(name_.c_str());
+    close_file(descriptor_);
+    if (!name_.empty()) remove_file(name_);
   }
   Aside(const Aside&) = delete;
   Aside& operator=(const Aside&) = delete;
@@ -105,10 +68,9 @@ class Aside {
   int descriptor() const { return descriptor_; }
 
   void rename_to(const std::string& path) {
-    if (::rename(name_.c_str(), path.c_str()) != 0) fail("replace", path);
+    if (!rename_over(name_, path)) fail("replace", path);
     name_.clear();
-    struct stat facts {};
-    if (::fstat(descriptor_, &facts) == 0) ::fchmod(descriptor_, facts.st_mode & 0777);
+    unmark(descriptor_);
   }
 
  private:
@@ -139,15 +101,15 @@ AtomicFile::AtomicFile(std::string path, DiskBudget& budget, std::string tail)
     : path_(std::move(path)), temporary_(temporary_name(path_)), budget_(budget), tail_(std::move(tail)) {
   refuse_existing(path_);
   budget_.take(tail_.size());
-  descriptor_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
+  descriptor_ = make_temporary_file(temporary_);
   if (descriptor_ < 0) fail("make", path_);
-  ::fchmod(descriptor_, 0644);
+  set_readers(descriptor_, Readers::kEveryone);
 }
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ < 0) return;
-  ::close(descriptor_);
-  ::unlink(temporary_.c_str());
+  close_file(descriptor_);
+  remove_file(temporary_);
 }
 
 void AtomicFile::write(std::span<const std::uint8_t> bytes) { write(text_of(bytes)); }
@@ -169,9 +131,9 @@ void AtomicFile::overwrite(std::size_t place, std::span<const std::uint8_t> byte
 }
 
 void AtomicFile::count_growth() {
-  struct stat facts {};
-  if (::fstat(descriptor_, &facts) != 0) fail("read", path_);
-  const auto size = static_cast<std::size_t>(facts.st_size);
+  const std::int64_t found = size_of_file(descriptor_);
+  if (found < 0) fail("read", path_);
+  const auto size = static_cast<std::size_t>(found);
   if (size <= size_) return;
   budget_.take(size - size_);
   size_ = size;
@@ -181,10 +143,10 @@ void AtomicFile::count_growth() {
 // more.
 void AtomicFile::commit() {
   write_all(descriptor_, size_, tail_, path_);
-  if (::ftruncate(descriptor_, static_cast<off_t>(size_ + tail_.size())) != 0) fail("write", path_);
-  if (::fsync(descriptor_) != 0) fail("sync", path_);
-  rename_anew(temporary_, path_);
-  ::close(descriptor_);
+  if (!cut_file(descriptor_, size_ + tail_.size())) fail("write", path_);
+  if (!sync_file(descriptor_)) fail("sync", path_);
+  create(temporary_, path_);
+  close_file(descriptor_);
   descriptor_ = -1;
 }
 
@@ -192,14 +154,14 @@ void replace_file(const std::string& path, std::string_view bytes, Durable durab
   const std::string target = target_of(path);
   Aside aside(target);
   write_all(aside.descriptor(), 0, bytes, path);
-  if (durable == Durable::kNow && ::syncfs(aside.descriptor()) != 0) fail("sync", path);
+  if (durable == Durable::kNow && !sync_disk_of(aside.descriptor())) fail("sync", path);
   aside.rename_to(target);
 }
 
 AtomicFolder::AtomicFolder(std::string path, DiskBudget& budget)
     : path_(std::move(path)), temporary_(temporary_name(path_)), budget_(budget) {
   refuse_existing(path_);
-  if (::mkdtemp(temporary_.data()) == nullptr) fail("make", path_);
+  if (!make_temporary_folder(temporary_)) fail("make", path_);
 }
 
 AtomicFolder::~AtomicFolder() {
@@ -211,29 +173,25 @@ AtomicFolder::~AtomicFolder() {
 void AtomicFolder::add(const std::string& name, std::span<const std::uint8_t> bytes) {
   budget_.take(bytes.size());
   const std::string file = temporary_ + "/" + name;
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  const int descriptor = make_file(file);
   try {
     if (descriptor < 0) fail("make", file);
     write_all(descriptor, 0, text_of(bytes), file);
   } catch (...) {
     budget_.give_back(bytes.size());
     if (descriptor < 0) throw;  // a file of that name may be there, and stays
-    ::close(descriptor);
-    ::unlink(file.c_str());
+    close_file(descriptor);
+    remove_file(file);
     throw;
   }
-  ::close(descriptor);
+  close_file(descriptor);
 }
 
 // One sync for all files: one for each file would stall the session.
 void AtomicFolder::commit() {
-  const int folder = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) fail("open", path_);
-  const bool synced = ::syncfs(folder) == 0;
-  ::close(folder);
-  if (!synced) fail("sync", path_);
-  fs::permissions(temporary_, fs::perms(0755));
-  rename_anew(temporary_, path_);
+  if (!sync_disk_of(temporary_)) fail("sync", path_);
+  open_folder_to_all(temporary_);
+  create(temporary_, path_);
   temporary_.clear();
 }
 

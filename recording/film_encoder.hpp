@@ -1,14 +1,15 @@
 // Another program that makes a film out of what it reads: a child process.
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "system/child_program.hpp"
 
 namespace racebeam {
 
@@ -17,8 +18,7 @@ class EncoderFailed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Not thread-safe. The program has only its standard descriptors, in its own process group. It reads
-// what write() sends. Its standard output is lost, and its last line on standard error is the reason of a
+// Not thread-safe. The program reads what write() sends. Its last line on standard error is the reason of a
 // failure. All throw EncoderFailed if the program is not there, fails, or does nothing for the time of
 // `patience`, or if the caller has given up.
 class FilmEncoder {
@@ -27,9 +27,6 @@ class FilmEncoder {
   // given_up: asked now and then while another call waits.
   explicit FilmEncoder(std::vector<std::string> words, std::function<bool()> given_up = {},
                        std::chrono::milliseconds patience = std::chrono::seconds(20));
-  ~FilmEncoder();  // kills the program, if it runs
-  FilmEncoder(const FilmEncoder&) = delete;
-  FilmEncoder& operator=(const FilmEncoder&) = delete;
 
   void write(std::string_view bytes);
   void finish();  // ends the input, and waits until the program has succeeded
@@ -41,14 +38,11 @@ class FilmEncoder {
   void wait_for_end();
   [[noreturn]] void fail(const std::string& otherwise);
   std::string last_words();
-  void close_input();
 
   std::string name_, said_;  // on standard error
   std::function<bool()> given_up_;
   std::chrono::milliseconds patience_;
-  int input_ = -1, errors_ = -1;
-  pid_t process_ = 0;  // 0: not running
-  int status_ = 0;     // how it has ended
+  std::unique_ptr<ChildProgram> program_;
 };
 
 }  // namespace racebeam

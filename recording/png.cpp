@@ -91,9 +91,9 @@ std::span<const std::uint8_t> PngWriter::file(std::span<const std::uint8_t> pixe
     if (i % (kPictureWidth / 2) == 0) rows_.push_back(0);  // the row's filter
     rows_.insert(rows_.end(), 2, pixels[i]);
   }
-  uLongf size = compressBound(rows_.size());
+  uLongf size = compressBound(static_cast<uLong>(rows_.size()));
   packed_.resize(size);
-  if (compress2(packed_.data(), &size, rows_.data(), rows_.size(), 3) != Z_OK)
+  if (compress2(packed_.data(), &size, rows_.data(), static_cast<uLong>(rows_.size()), 3) != Z_OK)
     throw std::runtime_error("cannot compress a picture");
   file_ = head_;
   put_chunk(file_, "IDAT", std::span(packed_).first(size));

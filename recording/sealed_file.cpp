@@ -43,8 +43,8 @@ std::uint32_t checksum(std::string_view head, std::string_view deflated) {
 std::string inflated(const SealedKind& kind, const std::string& name, std::string_view deflated,
                      std::size_t size) {
   std::string contents(size, '\0');
-  uLongf size_found = size;
-  uLong used = deflated.size();
+  auto size_found = static_cast<uLongf>(size);
+  auto used = static_cast<uLong>(deflated.size());
   const int status =
       uncompress2(reinterpret_cast<Bytef*>(contents.data()), &size_found, bytes_of(deflated), &used);
   if (status != Z_OK || size_found != size || used != deflated.size())
@@ -62,7 +62,7 @@ class Deflater {
   Deflater(const Deflater&) = delete;
   Deflater& operator=(const Deflater&) = delete;
 
-  std::size_t bound(std::size_t bytes) { return deflateBound(&stream_, bytes); }
+  std::size_t bound(std::size_t bytes) { return deflateBound(&stream_, static_cast<uLong>(bytes)); }
 
   // Appends to `out`, which has room for all.
   void add(std::string_view piece, std::string& out, std::size_t& size, bool is_last) {

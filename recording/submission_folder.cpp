@@ -1,10 +1,5 @@
 #include "recording/submission_folder.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -19,7 +14,10 @@
 #include "environment/settings/setting_tables.hpp"
 #include "recording/result_row.hpp"
 #include "recording/sha256.hpp"
+#include "system/file_lock.hpp"
 #include "system/input_file.hpp"
+#include "system/output_file.hpp"
+#include "system/regular_file.hpp"
 #include "system/words.hpp"
 
 namespace racebeam {
@@ -40,8 +38,8 @@ constexpr std::size_t kMostAgentBytes = std::size_t{1} << 16, kMostLineBytes = s
 bool is_there(const std::string& path) { return fs::symlink_status(path).type() != fs::file_type::not_found; }
 
 // Returns false if something of this name is there.
-bool make_folder(const std::string& path) {
-  if (::mkdir(path.c_str(), 0755) == 0) return true;
+bool makes_folder(const std::string& path) {
+  if (make_folder(path)) return true;
   if (errno != EEXIST) fail("make", path);
   return false;
 }
@@ -52,47 +50,39 @@ constexpr auto kPatience = 2s;  // for the lock; other recordings wait, too
 class SharedTable {
  public:
   SharedTable(std::string path, const DiskBudget& budget) : path_(std::move(path)) {
-    descriptor_ = ::open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+    descriptor_ = open_to_append(path_);
     if (descriptor_ < 0) fail("open", path_);
     try {
       lock(budget);
     } catch (...) {
-      ::close(descriptor_);
+      close_file(descriptor_);
       throw;
     }
   }
-  ~SharedTable() { ::close(descriptor_); }
+  ~SharedTable() { close_file(descriptor_); }
   SharedTable(const SharedTable&) = delete;
   SharedTable& operator=(const SharedTable&) = delete;
 
-  off_t size() const {
-    struct stat facts {};
-    if (::fstat(descriptor_, &facts) != 0) fail("read", path_);
-    return facts.st_size;
+  std::size_t size() const {
+    const std::int64_t size = size_of_file(descriptor_);
+    if (size < 0) fail("read", path_);
+    return static_cast<std::size_t>(size);
   }
 
   // All of the text, or nothing.
   void append(std::string_view text) const {
-    const off_t before = size();
-    while (!text.empty()) {
-      const ssize_t written = ::write(descriptor_, text.data(), text.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) {
-        const int reason = errno;
-        const bool is_cut = ::ftruncate(descriptor_, before) == 0;
-        errno = is_cut ? reason : errno;
-        fail("write", path_);
-      }
-      text.remove_prefix(static_cast<std::size_t>(written));
-    }
+    const std::size_t before = size();
+    if (racebeam::append(descriptor_, text)) return;
+    const int reason = errno;
+    if (cut_file(descriptor_, before)) errno = reason;
+    fail("write", path_);
   }
 
  private:
   void lock(const DiskBudget& budget) const {
     const auto end = std::chrono::steady_clock::now() + kPatience;
-    while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      if (errno == EINTR) continue;
-      if (errno != EWOULDBLOCK || budget.is_given_up() || std::chrono::steady_clock::now() > end)
+    while (!lock_file(descriptor_, Waiting::kNo)) {
+      if (!is_locked_elsewhere(errno) || budget.is_given_up() || std::chrono::steady_clock::now() > end)
         fail("lock", path_);
       std::this_thread::sleep_for(10ms);
     }
@@ -175,13 +165,13 @@ SubmissionFolder::SubmissionFolder(SubmissionOrder order, DiskBudget& budget)
     : order_(std::move(order)), budget_(budget) {
   const std::string text = text_of(order_.about, preset_of(order_.settings));
   if (!make_submission(order_.path, text, budget_)) check_earlier(text);
-  make_folder(order_.path + "/logs");
-  if (!make_folder(unit_path()))
+  makes_folder(order_.path + "/logs");
+  if (!makes_folder(unit_path()))
     throw std::runtime_error(fs::path(order_.path).filename().string() + " has the unit " + order_.unit +
                              " already; another trial= makes another");
 }
 
-SubmissionFolder::~SubmissionFolder() { ::rmdir(unit_path().c_str()); }
+SubmissionFolder::~SubmissionFolder() { remove_folder(unit_path()); }
 
 void SubmissionFolder::check_earlier(std::string_view text) const {
   const std::string name = fs::path(order_.path).filename().string(), about = order_.path + "/agent.toml";
@@ -214,7 +204,7 @@ void SubmissionFolder::add(const EpisodeLog& log) {
   try {
     SharedTable(table_path(), budget_).append(line_of(row_of(log, sha256_of(bytes))));
   } catch (...) {
-    ::unlink(path.c_str());
+    remove_file(path);
     throw;
   }
 }

@@ -1,8 +1,5 @@
 #include "server/server.hpp"
 
-#include <unistd.h>
-
-#include <csignal>
 #include <limits>
 #include <list>
 #include <memory>
@@ -18,6 +15,8 @@
 #include "server/operation/published_file.hpp"
 #include "server/scheduling/keep_running.hpp"
 #include "server/web/http.hpp"
+#include "system/program/activation.hpp"
+#include "system/program/signals.hpp"
 #include "system/resources.hpp"
 
 namespace racebeam {
@@ -86,10 +85,12 @@ Server::Server(const ServerSettings& settings, const Services& services)
       access_(settings, services, token_),
       loops_(static_cast<unsigned>(settings.threads), settings.busy_poll, metrics_),
       first_(loops_.first().context),
-      signals_(first_, SIGTERM, SIGINT, SIGHUP),
+      signals_(first_),
       idle_monitor_(settings, loops_, metrics_),
       acceptor_(settings, services, access_, loops_, metrics_),
       recorder_(recorder_of(services)) {
+  for (const int number : ending_signals()) signals_.add(number);
+  if (reading_signal() != 0) signals_.add(reading_signal());
   metrics_.memory = memory_of(services.line ? *services.line : *services.classic);
   for (const Endpoint& endpoint : settings.endpoints) {
     if (!is_stream(endpoint.address)) continue;
@@ -130,7 +131,7 @@ std::string Server::announcement() const {
   const auto& line = std::get<LineService>(*services_.line);
   const auto games = line.images->names();
   const std::string host = host_name();
-  return announce_text({acceptor_.announced(host), host, line.version, token_, ::getpid(),
+  return announce_text({acceptor_.announced(host), host, line.version, token_, process_number(),
                         std::vector<std::string>(games.begin(), games.end())});
 }
 
@@ -161,7 +162,7 @@ void Server::start() {
 void Server::open_http() {
   const OperatorPages pages{[this] { return ready_.load(); }, [this] { return metrics_.text(); }};
   http_->open({pages, access_.session_rules(http_->is_loopback())},
-              [this](int descriptor, HttpRequest request) {
+              [this](Socket::native_handle_type descriptor, HttpRequest request) {
                 acceptor_.admit_over_http(descriptor, std::move(request), http_->name());
               });
   log("health and metrics on " + http_->name(), {{"event", "listening"}, {"address", http_->name()}});
@@ -180,7 +181,7 @@ int Server::run() {
 Task<> Server::obey() {
   for (;;) {
     const int number = co_await signals_.async_wait(use_task);
-    if (number == SIGHUP) {
+    if (number == reading_signal()) {
       access_.read_again();
     } else if (told_to_stop_) {
       patient_ = false;
@@ -286,7 +287,7 @@ int run(const ServerSettings& settings, const Services& services) {
 }  // namespace
 
 int serve(const ServerSettings& settings, const Services& services) {
-  std::signal(SIGPIPE, SIG_IGN);
+  ignore_left_readers();
   const int status = run(settings, services);
   // Sessions that did not end in time are gone. Their recordings are finished here.
   if (const auto recorder = recorder_of(services)) recorder->end(kLastFrames);

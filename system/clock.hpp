@@ -5,7 +5,8 @@
 
 namespace racebeam {
 
-std::int64_t wall_time();       // never set back
-std::int64_t processor_time();  // what the calling thread has used
+std::int64_t wall_time();                  // never set back
+std::int64_t processor_time();             // what the calling thread has used
+std::int64_t processor_time_of_process();  // what all its threads have used
 
 }  // namespace racebeam

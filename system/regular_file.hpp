@@ -18,6 +18,7 @@ OpenedFile open_regular_file(const std::string& path);
 // Reads at most so many bytes. Returns how many; 0: the file ends; -1: failed, and errno has the reason.
 std::ptrdiff_t read_from(int descriptor, std::span<char> bytes);
 
+int another_number(int descriptor);  // of the same open file; -1: failed, and errno has the reason
 void close_file(int descriptor);
 
 // "the file cannot be read", and why.

@@ -35,6 +35,18 @@ void set_thread_stacks();
 // How many of its first `most` files the process has open now.
 std::uint64_t open_files(std::uint64_t most);
 
+// Gives memory of the heap that is free back to the system, now, or from now on each large block: those as
+// large as a picture, or as the records of its lines. Otherwise a server would keep the memory of its largest
+// load. Only the GNU C library can be told.
+void trim_heap();
+void return_large_blocks();
+
+int process_number();
+
+// Opens a file that has nothing, so that there is a number for another one after close_file(); -1 if none is
+// needed.
+int open_spare_file();
+
 // Bytes of memory that the process uses now.
 std::uint64_t resident_memory();
 

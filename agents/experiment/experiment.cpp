@@ -8,11 +8,11 @@
 #include <set>
 #include <thread>
 
-#include "agents/base/file_lock.hpp"
 #include "agents/experiment/cost.hpp"
 #include "agents/experiment/trial.hpp"
 #include "agents/features/game_facts.hpp"
 #include "recording/atomic_file.hpp"
+#include "system/file_lock.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 

@@ -1,13 +1,12 @@
 #include "agents/experiment/probe.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <new>
 #include <numeric>
 
 #include "agents/experiment/play.hpp"
 #include "agents/features/game_facts.hpp"
+#include "system/clock.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
@@ -26,11 +25,7 @@ constexpr int kMostShare = 12, kLeastScreens = 600;
 struct Enough {};  // ends an episode
 
 // Processor time of this thread, which other programs do not change.
-Seconds processor_time() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
-}
+Seconds time_of_thread() { return std::chrono::nanoseconds(processor_time()); }
 
 // What an agent did in a game.
 struct Sums {
@@ -72,13 +67,13 @@ class Probe {
 
   // The first of a kind's agents discovers what they all know.
   std::unique_ptr<Agent> make(int action) {
-    const auto start = processor_time();
+    const auto start = time_of_thread();
     auto agent = agent_.kind->make({agent_.values, action, 1, cartridge_, play_, &facts_});
-    const Seconds took = processor_time() - start;
+    const Seconds took = time_of_thread() - start;
     if (!agent_.kind->each_action) {
-      const auto again = processor_time();
+      const auto again = time_of_thread();
       agent = agent_.kind->make({agent_.values, action, 1, cartridge_, play_, &facts_});
-      sums_.discovery_seconds = std::max((took - (processor_time() - again)).count(), 0.0) * share_;
+      sums_.discovery_seconds = std::max((took - (time_of_thread() - again)).count(), 0.0) * share_;
     }
     return agent;
   }
@@ -88,14 +83,14 @@ class Probe {
     const std::unique_ptr<Agent> agent = make(action);
     stage_.machine().set_drawing(agent->drawing());
     agent->set_learning(trains_);
-    const Seconds start = processor_time();
+    const Seconds start = time_of_thread();
     const auto end = Clock::now() + time * kMostWaiting;
     Seconds counted = start;
     std::int64_t decisions = 0, frames = 0;
     const PlayOptions options{.watch = [&](std::int64_t, std::int64_t frames_now) {
       frames = frames_now;
       ++decisions;
-      const Seconds now = processor_time();
+      const Seconds now = time_of_thread();
       if (now - start >= time || Clock::now() >= end) throw Enough();
       if (counted > start || now - start < time * kWarmUp) return;
       counted = now;
@@ -111,7 +106,7 @@ class Probe {
       sums_.cut.push_back(static_cast<double>(frames));
     }
     sums_.decisions += static_cast<double>(decisions);
-    sums_.seconds += (processor_time() - counted).count();
+    sums_.seconds += (time_of_thread() - counted).count();
   }
 
   const PlanAgent& agent_;

@@ -1,7 +1,5 @@
 #include "agents/experiment/rerun.hpp"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <exception>
@@ -19,6 +17,7 @@
 #include "environment/vector/thread_pool.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
+#include "system/output_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -32,7 +31,7 @@ constexpr std::chrono::hours kNoCheckpoints{24 * 365};
 class TemporaryResults {
  public:
   TemporaryResults() : path_((fs::temp_directory_path() / "racebeam-rerun-XXXXXX").string()) {
-    if (::mkdtemp(path_.data()) == nullptr)
+    if (!make_temporary_folder(path_))
       throw std::system_error(errno, std::generic_category(), "cannot make the folder " + path_);
     for (const std::string& path : {folder().units(), folder().facts(), folder().work()})
       fs::create_directory(path);

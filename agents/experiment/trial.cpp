@@ -1,7 +1,6 @@
 #include "agents/experiment/trial.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <limits>
 
@@ -9,6 +8,7 @@
 #include "recording/atomic_file.hpp"
 #include "recording/sealed_file.hpp"
 #include "recording/sha256.hpp"
+#include "system/clock.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
@@ -30,11 +30,7 @@ PlaySettings with_cpu(PlaySettings play, CpuKind cpu) {
 }
 
 // Processor time of this thread: other programs do not change it.
-std::int64_t microseconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::int64_t{time.tv_sec} * 1000000 + time.tv_nsec / 1000;
-}
+std::int64_t microseconds() { return processor_time() / 1000; }
 
 }  // namespace
 

@@ -146,7 +146,7 @@ class Verification {
 
   // Folders are, but for links to them. The logs of a unit may lie elsewhere.
   bool is_wanted_folder(const fs::path& path) const {
-    return !is_link(path) ||
+    return !is_link(path.string()) ||
            (path.parent_path() == folder_.logs() && plan_rows_.has(path.filename().string()));
   }
 

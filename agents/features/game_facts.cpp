@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "agents/base/file_lock.hpp"
 #include "recording/atomic_file.hpp"
 #include "recording/sealed_file.hpp"
 #include "recording/sha256.hpp"
+#include "system/file_lock.hpp"
 #include "system/invalid_input.hpp"
 #include "system/words.hpp"
 

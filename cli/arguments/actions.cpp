@@ -1,6 +1,5 @@
 #include "cli/arguments/actions.hpp"
 
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -14,6 +13,8 @@
 #include <stdexcept>
 
 #include "system/input_file.hpp"
+#include "system/program/standard_streams.hpp"
+#include "system/regular_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -26,7 +27,9 @@ namespace {
 std::string contents(const std::string& path) {
   const auto close = [](gzFile file) { gzclose(file); };
   const std::unique_ptr<gzFile_s, decltype(close)> file{
-      gzdopen(path == "-" ? dup(STDIN_FILENO) : open_input_file("cannot read actions from", path), "rb"),
+      gzdopen(
+          path == "-" ? another_number(kStandardInput) : open_input_file("cannot read actions from", path),
+          "rb"),
       close};
   if (!file) refuse(path, std::strerror(errno));
 

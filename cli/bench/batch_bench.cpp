@@ -1,31 +1,22 @@
 #include "cli/bench/batch_bench.hpp"
 
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <random>
 
 #include "cli/bench/cpu_clock.hpp"
 #include "environment/vector/batch.hpp"
+#include "system/resources.hpp"
 
 namespace racebeam {
 namespace {
 
 double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-// Memory of this process; 0 if the kernel does not report it.
-double resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  double pages = 0;
-  file >> pages >> pages;
-  return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
 std::string crc(const std::vector<std::uint8_t>& bytes) {
@@ -71,7 +62,7 @@ nlohmann::ordered_json time_batch(const Cartridge& cartridge, const MachineOptio
                                   const std::vector<int>& actions) {
   const BatchSettings settings = batch_settings(machine, options);
   const auto count = static_cast<std::size_t>(options.machines);
-  const double memory_before = resident_bytes();
+  const double memory_before = static_cast<double>(resident_memory());
   Batch batch(std::vector<Cartridge>(count, cartridge), settings);
   BatchResults results = batch.make_results();
   const int frame_skip = settings.slot.machine.frame_skip;
@@ -88,7 +79,7 @@ nlohmann::ordered_json time_batch(const Cartridge& cartridge, const MachineOptio
     resets += static_cast<int>(std::ranges::count(results.finished, 1));
   }
   const double wall_used = wall_seconds() - wall, cpu_used = cpu_seconds() - cpu;
-  const double memory = resident_bytes() - memory_before;
+  const double memory = static_cast<double>(resident_memory()) - memory_before;
   const double run = static_cast<double>(steps) * options.machines * frame_skip;
   return {
       {"game", cartridge.game->name},

@@ -13,6 +13,7 @@
 #include "server/connections/rl_glue_connection.hpp"
 #include "server/operation/log.hpp"
 #include "server/server.hpp"
+#include "system/program/sockets.hpp"
 #include "system/words.hpp"
 
 namespace racebeam {
@@ -77,6 +78,9 @@ Cartridge open_by_name(const MachineOptions& machine) {
 }
 
 void check_controller(const std::string& name) {
+  if (name == "fifo_named" && !has_local_channels())
+    throw std::invalid_argument(
+        "-game_controller 'fifo_named' needs named pipes, which Windows lacks; accepted: fifo and rlglue");
   if (name == "fifo" || name == "fifo_named" || name == "rlglue") return;
   throw std::invalid_argument("-game_controller '" + name +
                               "' is not supported; accepted: fifo, fifo_named and rlglue");

@@ -1,7 +1,5 @@
 #include "cli/commands/experiment.hpp"
 
-#include <unistd.h>
-
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -15,8 +13,9 @@
 #include "agents/experiment/probe.hpp"
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/options.hpp"
-#include "cli/commands/interruption.hpp"
 #include "system/invalid_input.hpp"
+#include "system/program/signals.hpp"
+#include "system/program/standard_streams.hpp"
 #include "system/resources.hpp"
 #include "system/words.hpp"
 
@@ -111,7 +110,7 @@ class ProgressLine {
   }
 
  private:
-  const bool terminal_ = ::isatty(STDOUT_FILENO) == 1;
+  const bool terminal_ = is_terminal(kStandardOutput);
   bool is_open_ = false;  // the line has not ended
 };
 

@@ -47,7 +47,7 @@ Examples:
 
 constexpr auto kUsualGame = "beamfall";
 
-struct PlayOptions {
+struct PlayCommand {
   ServeOptions serve;
   std::string game;
   bool terminal = false;
@@ -80,7 +80,7 @@ void check_game(const std::string& name, const ServeOptions& options) {
 }
 
 // The game to begin with: GAME, else that of --rom, else that of --game-file, else an empty text.
-std::string first_game(const PlayOptions& options) {
+std::string first_game(const PlayCommand& options) {
   const MachineOptions& machine = options.serve.machine;
   if (!options.game.empty()) {
     check_game(options.game, options.serve);
@@ -124,7 +124,7 @@ class KeptLog {
   std::filesystem::path path_;
 };
 
-int play_in_browser(PlayOptions& options, const std::vector<Setting>& settings) {
+int play_in_browser(PlayCommand& options, const std::vector<Setting>& settings) {
   Supervisor supervisor;
   const PrivateFolder folder;
   ServeOptions& serve = options.serve;
@@ -138,7 +138,7 @@ int play_in_browser(PlayOptions& options, const std::vector<Setting>& settings) 
   return supervisor.wait();
 }
 
-int play_here(PlayOptions& options, const std::vector<Setting>& settings) {
+int play_here(PlayCommand& options, const std::vector<Setting>& settings) {
   if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDOUT_FILENO) == 0)
     throw UsageError("--terminal: standard input and output must be a terminal");
   Supervisor supervisor;
@@ -165,7 +165,7 @@ int play_here(PlayOptions& options, const std::vector<Setting>& settings) {
   return status;
 }
 
-int run(PlayOptions& options, const std::vector<Setting>& settings) {
+int run(PlayCommand& options, const std::vector<Setting>& settings) {
   check_for_page(options.serve);
   options.game = first_game(options);
   if (is_default(settings, "log_level")) options.serve.log_level = LogLevel::kWarning;
@@ -177,7 +177,7 @@ int run(PlayOptions& options, const std::vector<Setting>& settings) {
 void add_play(Subcommand& program) {
   Subcommand command =
       program.add_subcommand("play", "Play in a browser or in the terminal, on this machine", kPlayFooter);
-  const auto options = std::make_shared<PlayOptions>();
+  const auto options = std::make_shared<PlayCommand>();
   add_serve_options(command, options->serve);
   command.option("GAME", options->game, "The game to begin with");
   command.flag("--terminal", options->terminal, "Play in the terminal");

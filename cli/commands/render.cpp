@@ -12,7 +12,6 @@
 #include "agents/experiment/play.hpp"
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/subcommand.hpp"
-#include "cli/commands/interruption.hpp"
 #include "emulator/tia/sound.hpp"
 #include "recording/episode_log.hpp"
 #include "recording/footage.hpp"
@@ -20,6 +19,7 @@
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 #include "system/printable.hpp"
+#include "system/program/signals.hpp"
 
 namespace racebeam {
 namespace {
@@ -127,9 +127,9 @@ void run(const RenderOptions& options) {
   fs::path to = options.to;
   if (!to.has_filename()) to = to.parent_path();  // NAME/
   check_place(to);
-  if (const std::string name = to.filename(); name[0] == '.' && media_kind(name.substr(1)))
+  if (const std::string name = to.filename().string(); name[0] == '.' && media_kind(name.substr(1)))
     throw UsageError("--to: '" + options.to + "' is only an ending; accepted: names such as a" + name);
-  const std::string ending = to.extension();
+  const std::string ending = to.extension().string();
   const auto kind = ending.empty() ? MediaKind::kPng : media_kind(ending.substr(1));
   if (!kind || ending == ".png") {
     throw UsageError("--to: '" + options.to +

@@ -1,11 +1,6 @@
 #include "cli/commands/serve.hpp"
 
-#if __has_include(<malloc.h>)
-#include <malloc.h>
-#endif
-
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -23,6 +18,7 @@
 #include "server/operation/published_file.hpp"
 #include "server/server.hpp"
 #include "system/printable.hpp"
+#include "system/program/signals.hpp"
 #include "system/resources.hpp"
 
 namespace racebeam {
@@ -132,14 +128,6 @@ std::string limit_of(const std::vector<Setting>& settings, const std::string& ke
   return setting.source == Source::kDefault ? limit : setting.name();
 }
 
-// Returns large blocks to the system at once: those as large as a picture, or as the records of its lines.
-// Otherwise a server would keep the memory of its largest load.
-void return_large_blocks() {
-#if defined(M_MMAP_THRESHOLD)  // the GNU C library
-  mallopt(M_MMAP_THRESHOLD, 32 << 10);
-#endif
-}
-
 // Charges the memory of the server itself, and of what sessions share.
 void limit_memory(Services& services, std::uint64_t most, const SharedCaches& caches) {
   if (most == 0) return;
@@ -210,7 +198,7 @@ std::string places_of_images(const ServeOptions& options) {
 }
 
 int run_server(ServeOptions& options, const std::vector<Setting>& settings) {
-  std::signal(SIGHUP, SIG_IGN);  // until the server reads its files, which happens after this
+  ignore_reading_signal();  // until the server reads its files, which happens after this
   set_thread_stacks();
   return_large_blocks();
   // Before anything slow, and before anything that may fail.

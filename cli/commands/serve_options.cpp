@@ -7,6 +7,7 @@
 #include <set>
 
 #include "server/web/origin.hpp"
+#include "system/program/sockets.hpp"
 #include "system/resources.hpp"
 
 namespace racebeam {
@@ -213,6 +214,8 @@ void refuse_any_of(const std::vector<Setting>& settings, const VariableNames& na
 void collect_endpoints(ServeOptions& options) {
   std::vector<std::string> addresses = options.addresses;
   if (options.standard_streams) addresses.insert(addresses.begin(), "stdio");
+  if (!options.pipes.empty() && !has_local_channels())
+    throw UsageError("--pipes: Windows has no such named pipes; accepted: --stdio and --listen ADDRESS");
   if (!options.pipes.empty()) addresses.push_back("pipes:" + options.pipes);
   for (const std::string& address : addresses) {
     Endpoint endpoint = parse_endpoint(address);

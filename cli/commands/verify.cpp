@@ -12,11 +12,11 @@
 #include "agents/experiment/verify_submission.hpp"
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/options.hpp"
-#include "cli/commands/interruption.hpp"
 #include "environment/settings/play_settings.hpp"
 #include "recording/sha256.hpp"
 #include "system/input_file.hpp"
 #include "system/printable.hpp"
+#include "system/program/signals.hpp"
 
 namespace racebeam {
 namespace {

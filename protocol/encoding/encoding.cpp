@@ -139,7 +139,7 @@ std::size_t text_size(Encoding encoding, std::size_t bytes) {
     case Encoding::kRunLength: return kRun * bytes;
     case Encoding::kDelta: return kRun * bytes + kHeader * (bytes / kMostRuns + 1);
     case Encoding::kBase64: return in_base64(bytes);
-    case Encoding::kZlib: return in_base64(compressBound(bytes));
+    case Encoding::kZlib: return in_base64(compressBound(static_cast<uLong>(bytes)));
     case Encoding::kRaw: return bytes;
   }
   return 0;
@@ -179,7 +179,7 @@ class Encoder::Deflater {
 
   Bytes deflated(Bytes bytes, const BetweenPieces& pause) {
     deflateReset(&stream_);
-    packed_.resize(deflateBound(&stream_, bytes.size()));
+    packed_.resize(deflateBound(&stream_, static_cast<uLong>(bytes.size())));
     stream_.next_out = packed_.data();
     stream_.avail_out = static_cast<uInt>(packed_.size());
     in_pieces(bytes, pause, any_piece, [this](Bytes piece, bool last) {

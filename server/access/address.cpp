@@ -10,6 +10,7 @@
 #include <boost/asio/ip/address.hpp>
 
 #include "system/printable.hpp"
+#include "system/program/sockets.hpp"
 
 namespace racebeam {
 namespace {
@@ -115,6 +116,17 @@ std::string_view scheme_of(const Endpoint& endpoint) {
   return endpoint.tls ? kTlsScheme : kTcp;
 }
 
+void refuse_missing_kind(const std::string& text, const Address& address) {
+  const bool is_anywhere =
+      std::holds_alternative<TcpAddress>(address) || std::holds_alternative<StandardStreams>(address);
+  if (is_anywhere || has_local_channels()) return;
+  throw std::invalid_argument(
+      "'" + printable(text) +
+      "' is not an address to listen on with Windows, where racebeam has neither Unix "
+      "sockets nor named pipes nor systemd; accepted: tcp://HOST:PORT, tls://HOST:PORT, "
+      "ws://HOST:PORT, wss://HOST:PORT and stdio");
+}
+
 }  // namespace
 
 Endpoint parse_endpoint(const std::string& text) {
@@ -129,6 +141,7 @@ Endpoint parse_endpoint(const std::string& text) {
     (in_full = kTcp) += rest;
   }
   const auto address = parse_address(in_full);
+  if (address) refuse_missing_kind(text, *address);
   if (address && !(endpoint.tls && is_stream(*address))) {
     endpoint.address = *address;
     return endpoint;

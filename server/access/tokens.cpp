@@ -3,7 +3,6 @@
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 #include <openssl/rand.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <sstream>
@@ -12,6 +11,7 @@
 
 #include "server/operation/log.hpp"
 #include "system/input_file.hpp"
+#include "system/output_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -31,8 +31,7 @@ bool is_token(std::string_view text) {
 }
 
 void warn_if_open(const std::string& path) {
-  struct stat found {};
-  if (::stat(path.c_str(), &found) != 0 || (found.st_mode & S_IROTH) == 0) return;
+  if (!all_may_read(path)) return;
   log_warning("every user of this machine can read the tokens in " + path + "; chmod 600 keeps them");
 }
 

@@ -1,7 +1,5 @@
 #include "server/connections/connection.hpp"
 
-#include <netinet/tcp.h>
-
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -16,6 +14,7 @@
 #include "server/scheduling/keep_running.hpp"
 #include "server/web/exchange.hpp"
 #include "server/web/web_socket.hpp"
+#include "system/program/sockets.hpp"
 
 namespace racebeam {
 namespace {
@@ -96,11 +95,8 @@ void limit_message(WebSocket& stream, const LineSession& session) {
 }
 
 // A client that writes a request in pieces may delay the next one until this one is acknowledged (Nagle's
-// algorithm). The system delays acknowledgements by 40 ms. The option must be set each time.
-void acknowledge(Socket& socket) {
-  error_code is_unix;
-  socket.set_option(net::detail::socket_option::boolean<IPPROTO_TCP, TCP_QUICKACK>(true), is_unix);
-}
+// algorithm). The system delays acknowledgements by 40 ms.
+void acknowledge(Socket& socket) { acknowledge_at_once(static_cast<SocketNumber>(socket.native_handle())); }
 
 // Delays the answer to a wrong token, and what the client has sent after it. Returns early if the session is
 // to end.

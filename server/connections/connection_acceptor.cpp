@@ -1,13 +1,12 @@
 #include "server/connections/connection_acceptor.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
 #include "server/operation/log.hpp"
 #include "server/scheduling/keep_running.hpp"
+#include "system/program/sockets.hpp"
 
 namespace racebeam {
 namespace {
@@ -28,14 +27,14 @@ void set_options(Socket& socket) {
 }
 
 // Gives the descriptor to the socket, or closes it.
-void take_over(Socket& socket, int descriptor) {
+void take_over(Socket& socket, Socket::native_handle_type descriptor) {
   sockaddr_storage here{};
   socklen_t size = sizeof here;
   ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&here), &size);
   try {
     socket.assign(Protocol(here.ss_family, SOCK_STREAM), descriptor);
   } catch (const std::exception&) {
-    ::close(descriptor);
+    close_socket(static_cast<SocketNumber>(descriptor));
     throw;
   }
 }
@@ -219,7 +218,8 @@ void ConnectionAcceptor::admit(Socket socket, Loop& loop, Listener& listener) {
           service, std::move(carrier), endpoint);
 }
 
-void ConnectionAcceptor::admit_over_http(int descriptor, HttpRequest request, const std::string& address) {
+void ConnectionAcceptor::admit_over_http(Socket::native_handle_type descriptor, HttpRequest request,
+                                         const std::string& address) {
   Loop& loop = loops_.idlest();
   Socket socket(loop.context);
   take_over(socket, descriptor);

@@ -35,7 +35,8 @@ class ConnectionAcceptor {
   void close();  // accepts no more
 
   // Admits a client of --http, whose `request` opens a session. Closes `descriptor` at the end.
-  void admit_over_http(int descriptor, HttpRequest request, const std::string& address);
+  void admit_over_http(Socket::native_handle_type descriptor, HttpRequest request,
+                       const std::string& address);
 
  private:
   void listen(const Endpoint& endpoint);

@@ -6,10 +6,10 @@
 
 #include <boost/asio.hpp>
 
-#include "server/access/activation.hpp"
 #include "server/access/address.hpp"
 #include "server/connections/client.hpp"
 #include "server/operation/unlink_on_exit.hpp"
+#include "system/program/activation.hpp"
 
 namespace racebeam {
 

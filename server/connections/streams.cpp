@@ -1,9 +1,5 @@
 #include "server/connections/streams.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -14,7 +10,7 @@
 
 #include "server/connections/session_loop.hpp"
 #include "server/operation/log.hpp"
-#include "server/operation/terminal.hpp"
+#include "system/program/standard_streams.hpp"
 
 namespace racebeam {
 
@@ -42,21 +38,15 @@ int client_gone(const Halt& halt) {
 
 // Returns whether there is a pipe.
 bool refuse_other_file(const std::string& path) {
-  struct stat found {};
-  if (::stat(path.c_str(), &found) != 0) return false;
-  if (!S_ISFIFO(found.st_mode)) throw AddressError(path + " exists, but is not a named pipe");
-  return true;
-}
-
-bool is_pipe(int descriptor) {
-  struct stat found {};
-  return ::fstat(descriptor, &found) == 0 && (S_ISFIFO(found.st_mode) || S_ISSOCK(found.st_mode));
+  const Found found = look_for_pipe(path);
+  if (found == Found::kOther) throw AddressError(path + " exists, but is not a named pipe");
+  return found == Found::kPipe;
 }
 
 // A client in the same step, which has made the pipe itself, is not slowed down. The two cannot be told
 // apart.
 void warn_of_srun() {
-  if (std::getenv("SLURM_STEP_ID") == nullptr || !is_pipe(STDOUT_FILENO)) return;
+  if (std::getenv("SLURM_STEP_ID") == nullptr || !is_pipe(kStandardOutput)) return;
   log_warning(
       "this is a step of a Slurm job: if srun forwards standard output, replies above 1,024 bytes take some "
       "40 ms more; a socket avoids that: --listen, or cluster/slurm/racebeam-srun COMMAND");
@@ -64,7 +54,7 @@ void warn_of_srun() {
 
 // Returns the pipe if it was missing, to be removed at the end.
 UnlinkOnExit make_if_missing(const std::string& path) {
-  if (::mkfifo(path.c_str(), 0600) == 0) {
+  if (make_pipe(path)) {
     log("made the pipe " + path);
     return UnlinkOnExit(path);
   }
@@ -171,7 +161,7 @@ StreamSession::StreamSession(const Endpoint& endpoint, const Service& service,
   Meter& meter = metrics.add_meter();
   if (const auto* line = std::get_if<LineService>(&service)) {
     const bool standard = std::holds_alternative<StandardStreams>(address_);
-    const int columns = standard ? terminal_columns(STDOUT_FILENO) : 0;
+    const int columns = standard ? terminal_columns(kStandardOutput) : 0;
     conversation_ = std::make_unique<LineConversation>(*line, metrics, meter, columns);
     ++metrics.sessions_line;
   } else {
@@ -208,7 +198,7 @@ void StreamSession::begin() {
 void StreamSession::stop(bool at_once) {
   halt_.reading = true;
   if (at_once) halt_.all = true;
-  if (thread_.joinable() && !ended_) Halt::wake(thread_.native_handle());
+  if (thread_.joinable() && !ended_) Halt::wake(thread_);
 }
 
 void StreamSession::serve() {
@@ -234,15 +224,14 @@ bool StreamSession::connect() {
   if (std::holds_alternative<StandardStreams>(address_)) {
     log(what + ", on standard input and output");
     warn_of_srun();
-    streams_.use(STDIN_FILENO, STDOUT_FILENO);
+    streams_.use(kStandardInput, kStandardOutput);
     return true;
   }
   const auto* pipes = std::get_if<Pipes>(&address_);
   const std::string prefix = pipes ? pipes->prefix : "ale_fifo";
   log(what + ", for a client that opens " + prefix + "_out for reading, then " + prefix + "_in for writing");
   refuse_other_file(prefix + "_out");
-  return streams_.open_out(prefix + "_out", pipes ? 0 : O_CREAT | O_TRUNC) &&
-         streams_.open_in(prefix + "_in");
+  return streams_.open_out(prefix + "_out", pipes == nullptr) && streams_.open_in(prefix + "_in");
 }
 
 }  // namespace racebeam

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "server/access/address.hpp"
-#include "server/connections/blocking_pair.hpp"
 #include "server/connections/service.hpp"
 #include "server/operation/metrics.hpp"
 #include "server/operation/unlink_on_exit.hpp"
+#include "system/program/blocking_pair.hpp"
 
 namespace racebeam {
 

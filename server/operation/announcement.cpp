@@ -1,9 +1,6 @@
 #include "server/operation/announcement.hpp"
 
-#include <unistd.h>
-
-#include <array>
-
+#include <boost/asio/ip/host_name.hpp>
 #include <nlohmann/json.hpp>
 
 #include "server/operation/published_file.hpp"
@@ -20,9 +17,8 @@ std::string as_json(const nlohmann::json& value) {
 }  // namespace
 
 std::string host_name() {
-  std::array<char, 256> name{};
-  ::gethostname(name.data(), name.size() - 1);
-  return name.data();
+  boost::system::error_code unknown;
+  return boost::asio::ip::host_name(unknown);
 }
 
 std::string ready_text(const std::vector<std::string>& addresses) {

@@ -1,23 +1,15 @@
 #include "server/operation/heap_keeper.hpp"
 
-#if __has_include(<malloc.h>)
-#include <malloc.h>
-#endif
-
 #include <algorithm>
 #include <system_error>
+
+#include "system/resources.hpp"
 
 namespace racebeam {
 namespace {
 
 constexpr std::chrono::seconds kQuiet{1};
 constexpr std::int64_t kWorthwhile = 16;  // sessions; fewer leave little behind
-
-void trim_heap() {
-#if defined(M_TRIM_THRESHOLD)  // the GNU C library
-  ::malloc_trim(0);
-#endif
-}
 
 }  // namespace
 

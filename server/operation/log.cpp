@@ -2,7 +2,6 @@
 
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -58,7 +57,7 @@ const std::shared_ptr<LogSink>& sink() {
     const std::shared_ptr<LogSink> sink;
     ~Closing() { sink->close(); }
   };
-  static const Closing closing{LogSink::start(STDERR_FILENO, LogSink::kind_of(STDERR_FILENO), tell_of_lost)};
+  static const Closing closing{LogSink::start(kStandardError, kind_of_output(kStandardError), tell_of_lost)};
   return closing.sink;
 }
 

@@ -1,11 +1,5 @@
 #include "server/operation/log_sink.hpp"
 
-#include <poll.h>
-#include <sys/socket.h>
-#include <sys/stat.h>
-#include <sys/uio.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -23,7 +17,7 @@ constexpr auto kLastMoment = 200ms;
 // Writes a line, and may block for ever. Bytes that cannot be written, as on a full disk, are dropped.
 void write_whole(int descriptor, std::string_view line) {
   while (!line.empty()) {
-    const ssize_t count = ::write(descriptor, line.data(), line.size());
+    const std::ptrdiff_t count = write_some(descriptor, OutputKind::kFile, line);
     if (count < 0 && errno != EINTR) return;
     if (count > 0) line.remove_prefix(static_cast<std::size_t>(count));
   }
@@ -32,14 +26,14 @@ void write_whole(int descriptor, std::string_view line) {
 }  // namespace
 
 // The thread shares the sink, and may outlive its owner: it can hang in a write for ever.
-std::shared_ptr<LogSink> LogSink::start(int descriptor, Kind kind,
+std::shared_ptr<LogSink> LogSink::start(int descriptor, OutputKind kind,
                                         std::function<std::string(std::int64_t)> tell) {
   std::shared_ptr<LogSink> sink(new LogSink(descriptor, kind, std::move(tell)));
-  if (kind == Kind::kFile) std::thread([sink] { sink->write_file(); }).detach();
+  if (kind == OutputKind::kFile) std::thread([sink] { sink->write_file(); }).detach();
   return sink;
 }
 
-LogSink::LogSink(int descriptor, Kind kind, std::function<std::string(std::int64_t)> tell)
+LogSink::LogSink(int descriptor, OutputKind kind, std::function<std::string(std::int64_t)> tell)
     : descriptor_(descriptor), kind_(kind), tell_(std::move(tell)) {}
 
 void LogSink::close() {
@@ -52,12 +46,6 @@ void LogSink::close() {
   while (!all_written() && std::chrono::steady_clock::now() < end) changed_.wait_for(lock, 5ms);
   closed_ = true;
   changed_.notify_all();
-}
-
-LogSink::Kind LogSink::kind_of(int descriptor) {
-  struct stat found {};
-  if (::fstat(descriptor, &found) != 0) return Kind::kOther;
-  return S_ISREG(found.st_mode) ? Kind::kFile : S_ISSOCK(found.st_mode) ? Kind::kSocket : Kind::kOther;
 }
 
 void LogSink::sink_it_(const spdlog::details::log_msg& message) {
@@ -90,8 +78,8 @@ void LogSink::tell_of_lost() {
 }
 
 void LogSink::flush_() {
-  if (kind_ == Kind::kFile) return changed_.notify_all();
-  while (!waiting_.empty() && has_room()) {
+  if (kind_ == OutputKind::kFile) return changed_.notify_all();
+  while (!waiting_.empty() && has_room(descriptor_)) {
     if (untold_ > 0) tell_of_lost();
     if (!write(waiting_.front())) return;
     waiting_.pop_front();
@@ -115,30 +103,13 @@ void LogSink::write_file() {
   }
 }
 
-// A pipe or a terminal with any room accepts a line of a page, unless another process writes there, too.
-bool LogSink::has_room() const {
-  pollfd state{descriptor_, POLLOUT, 0};
-  return ::poll(&state, 1, 0) > 0;
-}
-
 // Bytes that cannot be written, because the reader is gone, are dropped.
 bool LogSink::write(std::string& line) {
-  const ssize_t count = write_some(line);
-  if (count < 0) return errno != EAGAIN && errno != EINTR;
+  const std::ptrdiff_t count = write_some(descriptor_, kind_, line);
+  if (count < 0) return !may_be_repeated(errno);
   has_begun_ = static_cast<std::size_t>(count) < line.size();
   if (has_begun_) line.erase(0, static_cast<std::size_t>(count));
   return !has_begun_;
-}
-
-ssize_t LogSink::write_some(const std::string& line) const {
-  if (kind_ == Kind::kSocket)
-    return ::send(descriptor_, line.data(), line.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
-  if (kind_ == Kind::kOther) {
-    iovec part{const_cast<char*>(line.data()), line.size()};
-    const ssize_t count = ::pwritev2(descriptor_, &part, 1, -1, RWF_NOWAIT);
-    if (count >= 0 || (errno != EOPNOTSUPP && errno != EINVAL && errno != ENOSYS)) return count;
-  }
-  return ::write(descriptor_, line.data(), line.size());
 }
 
 }  // namespace racebeam

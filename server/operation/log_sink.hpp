@@ -5,7 +5,6 @@
 #pragma once
 
 #include <spdlog/sinks/base_sink.h>
-#include <sys/types.h>
 
 #include <atomic>
 #include <condition_variable>
@@ -16,17 +15,16 @@
 #include <mutex>
 #include <string>
 
+#include "system/program/standard_streams.hpp"
+
 namespace racebeam {
 
 class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
   static constexpr std::size_t kMostWaiting = 1024;  // lines
 
-  enum class Kind { kFile, kSocket, kOther };  // the kind of the descriptor
-  static Kind kind_of(int descriptor);
-
   // tell: makes the line, in the log's format, that reports how many lines were lost.
-  static std::shared_ptr<LogSink> start(int descriptor, Kind kind,
+  static std::shared_ptr<LogSink> start(int descriptor, OutputKind kind,
                                         std::function<std::string(std::int64_t)> tell);
 
   void close();                                // at the end: waits for a moment for the remaining lines
@@ -37,18 +35,16 @@ class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
   void flush_() override;  // writes what there is room for
 
  private:
-  LogSink(int descriptor, Kind kind, std::function<std::string(std::int64_t)> tell);
+  LogSink(int descriptor, OutputKind kind, std::function<std::string(std::int64_t)> tell);
 
   void write_file();  // until the sink is closed
   void add(const spdlog::details::log_msg& message);
   void lose_oldest();
   void tell_of_lost();
-  bool has_room() const;
   bool write(std::string& line);  // returns false if it is full; the rest of the line stays in it
-  ssize_t write_some(const std::string& line) const;
 
   const int descriptor_;
-  const Kind kind_;
+  const OutputKind kind_;
   const std::function<std::string(std::int64_t)> tell_;
   std::deque<std::string> waiting_;
   bool has_begun_ = false;   // the first waiting line is written in part

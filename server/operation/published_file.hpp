@@ -1,28 +1,28 @@
 // Publishes what clients must know of a server, in a file that appears as a whole. Its first bytes identify
-// it; a file without them is never changed. The server holds a lock (flock) on its file during its lifetime.
+// it; a file without them is never changed. The server holds a lock on its file during its lifetime.
 // So the file of a server that died can be told from that of a live one.
 #pragma once
-
-#include <sys/types.h>
 
 #include <string>
 #include <string_view>
 
 #include "server/operation/unlink_on_exit.hpp"
+#include "system/output_file.hpp"
 
 namespace racebeam {
 
 struct FileKind {
   std::string_view name, option;
   std::string_view mark;  // the first bytes of such a file
-  mode_t mode;
+  Readers readers;
 };
 
 inline constexpr FileKind kReadyFile{
     "ready file", "--ready-file",
     "# racebeam ready file: the addresses of a server, one a line; lines that begin with # are comments\n",
-    0644};
-inline constexpr FileKind kAnnounceFile{"announce file", "--announce", "{\"racebeam_announce\":", 0600};
+    Readers::kEveryone};
+inline constexpr FileKind kAnnounceFile{"announce file", "--announce",
+                                        "{\"racebeam_announce\":", Readers::kNobody};
 
 // Removes the file of a server that died, so that clients do not find its addresses. The file of a live
 // server is not changed. Throws std::runtime_error if the file is not of this kind. Does nothing for an empty

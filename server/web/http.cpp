@@ -1,8 +1,5 @@
 #include "server/web/http.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -15,6 +12,9 @@
 #include "server/operation/log.hpp"
 #include "server/scheduling/keep_running.hpp"
 #include "server/web/exchange.hpp"
+#include "system/program/sockets.hpp"
+#include "system/regular_file.hpp"
+#include "system/resources.hpp"
 
 namespace racebeam {
 namespace {
@@ -28,16 +28,14 @@ constexpr std::size_t kMostConnections = 64;
 constexpr auto kTimeout = 30s;  // for a request and its response
 constexpr auto kFarewell = 2s;  // for a client to close its end
 
-int open_spare() { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }
-
 }  // namespace
 
 Http::Http(net::io_context& loop, const TcpAddress& address)
-    : loop_(loop), acceptor_(loop), spare_(open_spare()) {
+    : loop_(loop), acceptor_(loop), spare_(open_spare_file()) {
   const tcp::endpoint endpoint = resolve(address);
   error_code error;
   acceptor_.open(endpoint.protocol());
-  acceptor_.set_option(net::socket_base::reuse_address(true));
+  claim_address(static_cast<SocketNumber>(acceptor_.native_handle()));
   acceptor_.bind(endpoint, error);
   if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
   const auto named = [](const TcpAddress& where) { return "http" + to_string(Address(where)).substr(3); };
@@ -48,7 +46,7 @@ Http::Http(net::io_context& loop, const TcpAddress& address)
 }
 
 Http::~Http() {
-  if (spare_ >= 0) ::close(spare_);
+  if (spare_ >= 0) close_file(spare_);
 }
 
 bool Http::is_loopback() const { return acceptor_.local_endpoint().address().is_loopback(); }
@@ -92,7 +90,7 @@ bool Http::make_file_room() {
   if (spare_ < 0) {
     close_oldest();
   } else {
-    ::close(std::exchange(spare_, -1));
+    close_file(std::exchange(spare_, -1));
   }
   return true;
 }
@@ -101,7 +99,7 @@ void Http::ended(const Connection& connection) {
   connections_.remove(connection);
   error_code ignored;
   connection->socket.close(ignored);
-  if (spare_ < 0) spare_ = open_spare();
+  if (spare_ < 0) spare_ = open_spare_file();
 }
 
 void Http::close_oldest() {

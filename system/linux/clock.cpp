@@ -14,6 +14,7 @@ std::int64_t nanoseconds(clockid_t clock) {
 }  // namespace
 
 std::int64_t wall_time() { return nanoseconds(CLOCK_MONOTONIC); }
+std::int64_t processor_time_of_process() { return nanoseconds(CLOCK_PROCESS_CPUTIME_ID); }
 std::int64_t processor_time() { return nanoseconds(CLOCK_THREAD_CPUTIME_ID); }
 
 }  // namespace racebeam

@@ -4,6 +4,9 @@
 #include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <charconv>
@@ -183,5 +186,20 @@ std::uint64_t resident_memory() {
   file >> all >> resident;
   return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
+
+void trim_heap() {
+#if defined(M_TRIM_THRESHOLD)  // the GNU C library
+  ::malloc_trim(0);
+#endif
+}
+
+void return_large_blocks() {
+#if defined(M_MMAP_THRESHOLD)  // the GNU C library
+  ::mallopt(M_MMAP_THRESHOLD, 32 << 10);
+#endif
+}
+
+int process_number() { return ::getpid(); }
+int open_spare_file() { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
 }  // namespace racebeam

@@ -8,28 +8,10 @@
 
 #include <cerrno>
 
+#include "system/windows/files.hpp"
+
 namespace racebeam {
 namespace {
-
-constexpr auto kVerbatim = L"\\\\?\\";  // before a path that may be longer than MAX_PATH
-
-// `path` is UTF-8.
-std::wstring wide(const std::string& path) {
-  const int size = static_cast<int>(path.size());
-  std::wstring letters(path.size(), L'\0');
-  letters.resize(
-      static_cast<std::size_t>(MultiByteToWideChar(CP_UTF8, 0, path.data(), size, letters.data(), size)));
-  return letters;
-}
-
-// The whole path if it is long, since the system takes such a path only in this form.
-std::wstring name_of(const std::string& path) {
-  const std::wstring name = wide(path);
-  if (name.size() < MAX_PATH || name.starts_with(L"\\\\")) return name;
-  std::wstring whole(GetFullPathNameW(name.c_str(), 0, nullptr, nullptr), L'\0');
-  whole.resize(GetFullPathNameW(name.c_str(), static_cast<DWORD>(whole.size()), whole.data(), nullptr));
-  return kVerbatim + whole;
-}
 
 bool is_directory(const std::wstring& name) {
   const DWORD attributes = GetFileAttributesW(name.c_str());
@@ -65,6 +47,7 @@ std::ptrdiff_t read_from(int descriptor, std::span<char> bytes) {
   return _read(descriptor, bytes.data(), static_cast<unsigned>(bytes.size()));
 }
 
+int another_number(int descriptor) { return _dup(descriptor); }
 void close_file(int descriptor) { _close(descriptor); }
 
 }  // namespace racebeam

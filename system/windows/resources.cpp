@@ -54,4 +54,10 @@ std::uint64_t resident_memory() {
   return memory.WorkingSetSize;
 }
 
+void trim_heap() {}
+void return_large_blocks() {}
+
+int process_number() { return static_cast<int>(GetCurrentProcessId()); }
+int open_spare_file() { return -1; }
+
 }  // namespace racebeam

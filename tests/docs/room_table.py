@@ -93,7 +93,7 @@ def portable_sources(root, table):
     exempt = {root / folder for folder in table["except"]}
     for folder in table["folders"]:
         for path in sorted((root / folder).rglob("*")):
-            if path.suffix in SOURCES and not exempt.intersection(path.parents):
+            if path.suffix in SOURCES and not exempt.intersection((path, *path.parents)):
                 yield path
 
 

@@ -31,7 +31,7 @@ TEST_CASE("A file that hangs does not block threads that log, and lost lines are
   std::array<int, 2> pipe{};
   REQUIRE(::pipe2(pipe.data(), O_CLOEXEC) == 0);
   ::fcntl(pipe[1], F_SETPIPE_SZ, 4096);
-  const auto sink = LogSink::start(pipe[1], LogSink::Kind::kFile,
+  const auto sink = LogSink::start(pipe[1], OutputKind::kFile,
                                    [](std::int64_t lines) { return "lost " + std::to_string(lines); });
   sink->set_pattern("%v");
   for (int line = 0; line < kLines; ++line) {

@@ -173,8 +173,8 @@ inline Bytes from_zlib(std::string_view text) {
   const Bytes packed = from_base64(text);
   Bytes bytes(std::max<std::size_t>(1024, 8 * packed.size()));
   while (true) {
-    uLongf size = bytes.size();
-    const int status = uncompress(bytes.data(), &size, packed.data(), packed.size());
+    auto size = static_cast<uLongf>(bytes.size());
+    const int status = uncompress(bytes.data(), &size, packed.data(), static_cast<uLong>(packed.size()));
     if (status == Z_BUF_ERROR && size == bytes.size() &&
         bytes.size() < 1100 * packed.size()) {  // zlib packs 1032 to 1
       bytes.resize(2 * bytes.size());

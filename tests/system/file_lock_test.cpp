@@ -1,4 +1,4 @@
-#include "agents/base/file_lock.hpp"
+#include "system/file_lock.hpp"
 
 #include <atomic>
 #include <catch2/catch.hpp>

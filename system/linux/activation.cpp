@@ -1,4 +1,4 @@
-#include "server/access/activation.hpp"
+#include "system/program/activation.hpp"
 
 #include <fcntl.h>
 #include <sys/socket.h>

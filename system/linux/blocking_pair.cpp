@@ -1,7 +1,9 @@
-#include "server/connections/blocking_pair.hpp"
+#include "system/program/blocking_pair.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
+#include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
@@ -29,6 +31,19 @@ void wait_until(int descriptor, short ready) {
 
 }  // namespace
 
+Found look_for_pipe(const std::string& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) return Found::kNothing;
+  return S_ISFIFO(found.st_mode) ? Found::kPipe : Found::kOther;
+}
+
+bool make_pipe(const std::string& path) { return ::mkfifo(path.c_str(), 0600) == 0; }
+
+bool is_pipe(int descriptor) {
+  struct stat found {};
+  return ::fstat(descriptor, &found) == 0 && (S_ISFIFO(found.st_mode) || S_ISSOCK(found.st_mode));
+}
+
 // A handler that does nothing, and calls that are not restarted after it: they end with EINTR.
 void Halt::prepare() {
   struct sigaction action {};
@@ -36,7 +51,7 @@ void Halt::prepare() {
   ::sigaction(kWakingSignal, &action, nullptr);
 }
 
-void Halt::wake(pthread_t thread) { ::pthread_kill(thread, kWakingSignal); }
+void Halt::wake(std::jthread& thread) { ::pthread_kill(thread.native_handle(), kWakingSignal); }
 
 BlockingPair::~BlockingPair() {
   for (const int descriptor : {in_, out_}) {
@@ -60,8 +75,8 @@ bool BlockingPair::open(int& descriptor, const std::string& path, int flags) {
   return false;
 }
 
-bool BlockingPair::open_out(const std::string& path, int flags) {
-  if (!open(out_, path, O_WRONLY | flags)) return false;
+bool BlockingPair::open_out(const std::string& path, bool makes_file) {
+  if (!open(out_, path, makes_file ? O_WRONLY | O_CREAT | O_TRUNC : O_WRONLY)) return false;
   make_room(out_);
   return true;
 }

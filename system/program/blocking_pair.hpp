@@ -2,8 +2,6 @@
 // woken up by another.
 #pragma once
 
-#include <pthread.h>
-
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -11,10 +9,17 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "system/busy_poll.hpp"
 
 namespace racebeam {
+
+// Named pipes, which are files. Windows lacks them.
+enum class Found { kNothing, kPipe, kOther };
+Found look_for_pipe(const std::string& path);
+bool make_pipe(const std::string& path);  // for this user; if it fails, errno has the reason
+bool is_pipe(int descriptor);             // or a socket
 
 // What another thread wants of the one that waits.
 struct Halt {
@@ -22,7 +27,7 @@ struct Halt {
   std::atomic<bool> all = false;      // nothing more is to be done
 
   // Interrupts the call of the system that the thread is in. It may come just before the call: repeat it.
-  static void wake(pthread_t thread);
+  static void wake(std::jthread& thread);
   static void prepare();  // before wake(), once in a process
 };
 
@@ -36,7 +41,7 @@ class BlockingPair {
   void use(int in, int out);
   // Open a named pipe, and wait until the client opens its other end. False if told to halt. Throw
   // std::runtime_error.
-  bool open_out(const std::string& path, int flags);
+  bool open_out(const std::string& path, bool makes_file);  // an empty file if there is no pipe
   bool open_in(const std::string& path);
 
   std::size_t read(std::span<char> space);  // 0: the end, or told to halt

@@ -1,9 +1,11 @@
-#include "server/connections/peer_socket.hpp"
+#include "system/program/sockets.hpp"
 
 #include <linux/inet_diag.h>
 #include <linux/netlink.h>
 #include <linux/sock_diag.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -14,6 +16,8 @@
 
 namespace racebeam {
 namespace {
+
+int number_of(SocketNumber socket) { return static_cast<int>(socket); }
 
 struct Place {
   std::array<std::uint32_t, 4> address{};
@@ -87,9 +91,50 @@ std::optional<std::uint32_t> inode(const Question& question) {
 
 }  // namespace
 
-bool peer_has_closed(int descriptor) {
+bool has_local_channels() { return true; }
+
+void claim_address(SocketNumber socket) {
+  constexpr int kOn = 1;
+  ::setsockopt(number_of(socket), SOL_SOCKET, SO_REUSEADDR, &kOn, sizeof kOn);
+}
+
+void close_socket(SocketNumber socket) { ::close(number_of(socket)); }
+
+// Fails on a Unix socket. The option must be set each time.
+void acknowledge_at_once(SocketNumber socket) {
+  constexpr int kOn = 1;
+  ::setsockopt(number_of(socket), IPPROTO_TCP, TCP_QUICKACK, &kOn, sizeof kOn);
+}
+
+PeerState state_of_peer(SocketNumber socket) {
+  pollfd state{number_of(socket), POLLRDHUP, 0};
+  if (::poll(&state, 1, 0) <= 0) return PeerState::kThere;
+  if ((state.revents & (POLLHUP | POLLERR)) != 0) return PeerState::kGone;
+  return (state.revents & POLLRDHUP) != 0 ? PeerState::kHalfClosed : PeerState::kThere;
+}
+
+bool peer_has_closed(SocketNumber socket) {
+  const int descriptor = number_of(socket);
   const auto here = place_of(descriptor, ::getsockname), there = place_of(descriptor, ::getpeername);
   return here && there && inode(question(*there, *here)) == 0U;
 }
+
+// Fails on a Unix socket, whose other end is seen directly.
+void probe_often(SocketNumber socket) {
+  constexpr int kBetweenProbes = 5;  // seconds
+  for (const int option : {TCP_KEEPIDLE, TCP_KEEPINTVL})
+    ::setsockopt(number_of(socket), IPPROTO_TCP, option, &kBetweenProbes, sizeof kBetweenProbes);
+}
+
+#if defined(SO_PEERCRED)
+std::string user_of_peer(SocketNumber socket) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  if (::getsockopt(number_of(socket), SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return {};
+  return "user " + std::to_string(peer.uid);
+}
+#else
+std::string user_of_peer(SocketNumber) { return "a user"; }
+#endif
 
 }  // namespace racebeam

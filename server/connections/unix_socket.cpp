@@ -1,0 +1,77 @@
+#include "server/connections/unix_socket.hpp"
+
+#include <cerrno>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "server/access/address.hpp"
+#include "system/file_lock.hpp"
+#include "system/regular_file.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace net = boost::asio;
+using Unix = net::local::stream_protocol;
+using SocketFile = net::detail::sockaddr_un_type;
+using boost::system::error_code;
+
+// A socket file remains after its server has died, and refuses connections.
+void remove_stale(const std::string& path) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown)) return;
+  if (!std::filesystem::is_socket(path)) throw AddressError(path + " exists, but is not a socket");
+  net::io_context context;
+  error_code error;
+  Unix::socket probe(context, Unix());
+  probe.non_blocking(true);  // a busy server has a full queue, for which connect() would wait
+  probe.connect(Unix::endpoint(path), error);
+  if (error == net::error::connection_refused) std::filesystem::remove(path);
+}
+
+// A lock on the folder of a socket. A server that has bound its socket and does not listen yet looks dead;
+// others that hold the lock do not take its file.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder)
+      : folder_(open_lock_of_folder(folder.empty() ? "." : folder.string())) {
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (!lock_file(folder_, Waiting::kNo) && is_locked_elsewhere(errno) &&
+           std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(kBetweenTries);
+  }
+  ~FolderLock() {
+    if (folder_ >= 0) close_file(folder_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  // Something else may hold the lock for long, and a folder may lack one: the server then goes on without.
+  static constexpr std::chrono::seconds kPatience{2};
+  static constexpr std::chrono::milliseconds kBetweenTries{5};
+
+  const int folder_;
+};
+
+}  // namespace
+
+void bind_unix_socket(const std::string& path, const std::string& name,
+                      const std::function<void(const Protocol::endpoint&)>& bind) {
+  constexpr std::size_t kLongestPath = sizeof(SocketFile::sun_path) - 1;
+  if (path.size() > kLongestPath) {
+    throw AddressError(name + " is too long; a socket's path has at most " + std::to_string(kLongestPath) +
+                       " bytes");
+  }
+  const FolderLock lock(std::filesystem::path(path).parent_path());
+  remove_stale(path);
+  bind(Unix::endpoint(path));
+}
+
+std::optional<std::string> unix_path_of(const Protocol::endpoint& endpoint) {
+  if (endpoint.protocol().family() != AF_UNIX) return std::nullopt;
+  return static_cast<const SocketFile*>(static_cast<const void*>(endpoint.data()))->sun_path;
+}
+
+}  // namespace racebeam

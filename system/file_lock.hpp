@@ -1,0 +1,43 @@
+// Locks between processes. A lock is free when its process is gone, however that ended.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace racebeam {
+
+// Of an open file, until it is closed. Without waiting, they return false if another holds the lock, and
+// leave the reason in errno.
+enum class Waiting { kNo, kYes };
+bool lock_file(int file, Waiting waiting);
+bool is_locked_elsewhere(int error);  // whether that was the reason
+bool is_locked(int file);             // by another that has opened it
+
+int open_lock(const std::string& path);            // makes the file; returns -1 if that fails
+int open_lock_of_folder(const std::string& path);  // -1: it cannot be locked
+bool is_at(int file, const std::string& path);     // whether the name means this open file
+
+// A file that one process holds. It may remove the file: processes that wait for it then lock the one that is
+// there next.
+class FileLock {
+ public:
+  // Waits for the lock. Throws std::system_error if the file cannot be made.
+  explicit FileLock(const std::string& path);
+
+  // Returns nothing if another process, or another thread, holds it.
+  static std::optional<FileLock> attempt(const std::string& path);
+
+  FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  FileLock& operator=(FileLock&&) = delete;
+  ~FileLock();
+
+ private:
+  FileLock() = default;
+
+  bool take(const std::string& path, Waiting waiting);
+
+  int descriptor_ = -1;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,141 @@
+#include "system/output_file.hpp"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+
+namespace racebeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The sticky bit, which means nothing to a file, marks one.
+constexpr mode_t kMarked = S_ISVTX | 0644;
+
+bool is_left_behind(const std::string& name) {
+  struct stat facts {};
+  return ::lstat(name.c_str(), &facts) == 0 && S_ISREG(facts.st_mode) && (facts.st_mode & S_ISVTX) != 0 &&
+         facts.st_uid == ::geteuid();
+}
+
+int open_folder(const std::string& path) { return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }
+
+void sync_folder_of(const std::string& path) {
+  const int folder = open_folder(fs::path(path).parent_path().string());
+  if (folder < 0) return;
+  ::fsync(folder);
+  ::close(folder);
+}
+
+bool renames_anew(const char* from, const char* to) {
+#if defined(RENAME_NOREPLACE)
+  return ::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0;
+#else
+  return ::link(from, to) == 0 && ::unlink(from) == 0;
+#endif
+}
+
+}  // namespace
+
+int make_file(const std::string& path) {
+  return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+}
+
+int make_temporary_file(std::string& name) { return ::mkostemp(name.data(), O_CLOEXEC); }
+
+int make_marked_file(const std::string& path) {
+  if (is_left_behind(path)) ::unlink(path.c_str());
+  return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kMarked);
+}
+
+void unmark(int file) {
+  struct stat facts {};
+  if (::fstat(file, &facts) == 0) ::fchmod(file, facts.st_mode & 0777);
+}
+
+int open_to_append(const std::string& path) {
+  return ::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+}
+
+int open_own_file(const std::string& path) {
+  return ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+}
+
+bool set_readers(int file, Readers readers) {
+  return ::fchmod(file, readers == Readers::kEveryone ? 0644 : 0600) == 0;
+}
+
+bool write_at(int file, std::size_t place, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(place));
+    if (written < 0 && errno != EINTR) return false;
+    if (written <= 0) continue;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    place += static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+bool append(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+std::int64_t size_of_file(int file) {
+  struct stat facts {};
+  return ::fstat(file, &facts) == 0 ? std::int64_t{facts.st_size} : -1;
+}
+
+bool cut_file(int file, std::size_t size) { return ::ftruncate(file, static_cast<off_t>(size)) == 0; }
+bool sync_file(int file) { return ::fsync(file) == 0; }
+bool sync_disk_of(int file) { return ::syncfs(file) == 0; }
+
+bool sync_disk_of(const std::string& path) {
+  const int folder = open_folder(path);
+  if (folder < 0) return false;
+  const bool synced = sync_disk_of(folder);
+  ::close(folder);
+  return synced;
+}
+
+bool make_folder(const std::string& path) { return ::mkdir(path.c_str(), 0755) == 0; }
+bool make_temporary_folder(std::string& name) { return ::mkdtemp(name.data()) != nullptr; }
+void open_folder_to_all(const std::string& path) { fs::permissions(path, fs::perms(0755)); }
+bool remove_folder(const std::string& path) { return ::rmdir(path.c_str()) == 0; }
+
+bool rename_anew(const std::string& from, const std::string& to) {
+  if (!renames_anew(from.c_str(), to.c_str())) return false;
+  sync_folder_of(to);
+  return true;
+}
+
+bool rename_over(const std::string& from, const std::string& to) {
+  return ::rename(from.c_str(), to.c_str()) == 0;
+}
+
+bool remove_file(const std::string& path) { return ::unlink(path.c_str()) == 0; }
+
+// The system may give the inode number of a removed file to the next one; the time then differs. That of a
+// pipe does not count: it changes with each write.
+FileMark mark_of(const std::string& path) {
+  struct stat found {};
+  if (::lstat(path.c_str(), &found) != 0) return {};
+  if (S_ISFIFO(found.st_mode)) return {.number = found.st_ino};
+  return {found.st_ino, found.st_mtim.tv_sec, found.st_mtim.tv_nsec, S_ISREG(found.st_mode)};
+}
+
+bool all_may_read(const std::string& path) {
+  struct stat found {};
+  return ::stat(path.c_str(), &found) == 0 && (found.st_mode & S_IROTH) != 0;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,32 @@
+// Standard input, output and error, by their numbers.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace racebeam {
+
+inline constexpr int kStandardInput = 0, kStandardOutput = 1, kStandardError = 2;
+
+// At the start of the program. If one of them is closed, the next file or socket would get its number, and
+// messages for the user would go there: a null device takes its place, in the wrong direction, so that uses
+// fail. Their bytes are those of the protocol: lines end as they are written.
+void prepare_standard_streams();
+
+bool is_terminal(int stream);
+int terminal_columns(int stream);  // its width; 80 if it does not tell; 0 if it is not a terminal
+
+// A destination that a thread may write to without waiting.
+enum class OutputKind {
+  kFile,  // the system cannot tell whether it has room
+  kSocket,
+  kOther
+};
+OutputKind kind_of_output(int stream);
+bool has_room(int stream);  // not for a file
+
+// Writes what there is room for, and returns how many bytes; -1: failed. For a file, it may block for ever.
+std::ptrdiff_t write_some(int stream, OutputKind kind, std::string_view bytes);
+bool may_be_repeated(int error);  // that was because there was no room, or a signal came
+
+}  // namespace racebeam
