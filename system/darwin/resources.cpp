@@ -5,6 +5,7 @@
 #include <mach/mach.h>
 #include <sys/resource.h>
 #include <sys/sysctl.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -48,6 +49,12 @@ std::uint64_t open_files(std::uint64_t most) {
   for (std::uint64_t file = 0; file < most; ++file) open += ::fcntl(static_cast<int>(file), F_GETFD) != -1;
   return open;
 }
+
+void trim_heap() {}
+void return_large_blocks() {}
+
+int process_number() { return ::getpid(); }
+int open_spare_file() { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
 std::uint64_t resident_memory() {
   mach_task_basic_info info{};

@@ -36,7 +36,7 @@ class SpawnPlan {
 #endif
 #endif
     sigset_t none;
-    ::sigemptyset(&none);
+    sigemptyset(&none);  // a macro of macOS
     ::posix_spawnattr_init(&attributes_);
     ::posix_spawnattr_setsigmask(&attributes_, &none);
     ::posix_spawnattr_setflags(&attributes_, flags);

@@ -32,6 +32,14 @@ void sync_folder_of(const std::string& path) {
   ::close(folder);
 }
 
+#if defined(__APPLE__)
+timespec changed_at(const struct stat& facts) { return facts.st_mtimespec; }
+bool sync_disk(int file) { return ::fcntl(file, F_FULLFSYNC) == 0; }
+#else
+timespec changed_at(const struct stat& facts) { return facts.st_mtim; }
+bool sync_disk(int file) { return ::syncfs(file) == 0; }
+#endif
+
 bool renames_anew(const char* from, const char* to) {
 #if defined(RENAME_NOREPLACE)
   return ::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0;
@@ -97,7 +105,7 @@ std::int64_t size_of_file(int file) {
 
 bool cut_file(int file, std::size_t size) { return ::ftruncate(file, static_cast<off_t>(size)) == 0; }
 bool sync_file(int file) { return ::fsync(file) == 0; }
-bool sync_disk_of(int file) { return ::syncfs(file) == 0; }
+bool sync_disk_of(int file) { return sync_disk(file); }
 
 bool sync_disk_of(const std::string& path) {
   const int folder = open_folder(path);
@@ -130,7 +138,8 @@ FileMark mark_of(const std::string& path) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0) return {};
   if (S_ISFIFO(found.st_mode)) return {.number = found.st_ino};
-  return {found.st_ino, found.st_mtim.tv_sec, found.st_mtim.tv_nsec, S_ISREG(found.st_mode)};
+  const timespec changed = changed_at(found);
+  return {found.st_ino, changed.tv_sec, changed.tv_nsec, S_ISREG(found.st_mode)};
 }
 
 bool all_may_read(const std::string& path) {
