@@ -1,5 +1,5 @@
-"""The program for Windows, in Wine: what differs there from other systems. platforms/program runs this file, and tests of
-the server. RACEBEAM_BINARY is platforms/windows-program, and RACEBEAM_NATIVE the program of this system."""
+"""The program for Windows, in Wine: what differs there from other systems. platforms/program runs this file, and tests
+of the server. RACEBEAM_BINARY is platforms/windows-program, and RACEBEAM_NATIVE the program of this system."""
 
 import os
 import pathlib
