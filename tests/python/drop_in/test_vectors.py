@@ -98,10 +98,10 @@ class TestVectors:
                 envs.reset(seed=np.arange(3), options={"reset_mask": np.array([True, False, False])})
 
     def test_a_reset_drops_what_was_not_received(self):
+        # ale_py is not run beside it: a reset while its threads play ends the process now and then.
         for batch_size in (2, 4):
-            for module in (drop_in, ale_py):
-                envs = module.AtariVectorEnv("pong", 4, batch_size=batch_size)
-                for seed in (1, 2):
-                    _, info = envs.reset(seed=seed)
-                    assert info["env_id"].shape == (batch_size,)
-                    envs.send(np.zeros(batch_size, np.int64))
+            envs = drop_in.AtariVectorEnv("pong", 4, batch_size=batch_size)
+            for seed in (1, 2):
+                _, info = envs.reset(seed=seed)
+                assert info["env_id"].shape == (batch_size,)
+                envs.send(np.zeros(batch_size, np.int64))
