@@ -1,7 +1,7 @@
 # Read by cpack: the parts that each kind of package has.
 set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
 if(CPACK_GENERATOR STREQUAL "DEB")
-  set(CPACK_COMPONENTS_ALL program system)
+  set(CPACK_COMPONENTS_ALL program library system)
   set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
   set(CPACK_PACKAGE_FILE_NAME racebeam-${CPACK_PACKAGE_VERSION})
   if(CPACK_SHLIBDEPS)  # for another platform than this machine's
@@ -10,6 +10,6 @@ if(CPACK_GENERATOR STREQUAL "DEB")
   endif()
 else()
   set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
-  set(CPACK_COMPONENTS_ALL program development)
+  set(CPACK_COMPONENTS_ALL program library development)
   set(CPACK_PACKAGE_FILE_NAME racebeam-${CPACK_PACKAGE_VERSION}-linux-${CMAKE_SYSTEM_PROCESSOR})
 endif()

@@ -64,7 +64,7 @@ class Racebeam(ConanFile):
         cmake = CMake(self)
         cmake.install(component="development")
         if self.options.shared:
-            cmake.install(component="program")
+            cmake.install(component="library")
 
     def package_info(self):
         # The package's own racebeamConfig.cmake is what find_package reads.

@@ -93,6 +93,15 @@ class TestRelease:
         )
         assert output.stdout.splitlines()[-1] == "ok reward=21 terminated=0 truncated=0 lives=4"
 
+    def test_a_link_that_leads_nowhere_is_refused(self, tmp_path):
+        (tmp_path / "librace.so.1").touch()
+        (tmp_path / "librace.so").symlink_to("librace.so.1")
+        check = script("release").check_links
+        check(tmp_path)
+        (tmp_path / "librace.so.1").unlink()
+        with pytest.raises(FileNotFoundError, match="librace.so leads to librace.so.1"):
+            check(tmp_path)
+
     def test_the_source_is_that_of_the_commit(self):
         source = self.unpacked("*-source.tar.gz")
         output = subprocess.run(
