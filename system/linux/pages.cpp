@@ -32,9 +32,11 @@ Pages::~Pages() {
 }
 
 void Pages::make_executable(std::size_t offset, std::size_t size) {
-  // Processors other than x86-64 may still have the bytes before these in their caches of instructions.
   auto* const first = reinterpret_cast<char*>(data() + offset);
+#if !defined(__wasm__)  // it has no instructions in memory
+  // Processors other than x86-64 may still have the bytes before these in their caches of instructions.
   __builtin___clear_cache(first, first + size);
+#endif
   if (::mprotect(first, size, PROT_READ | PROT_EXEC) != 0) refuse("the system refuses executable memory");
 }
 
