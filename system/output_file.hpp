@@ -43,7 +43,7 @@ bool remove_file(const std::string& path);
 
 // Tells a file from one that has replaced it.
 struct FileMark {
-  std::uint64_t number = 0;  // 0: there is no file
+  std::uint64_t number = 0;  // of the file in its file system; 0 if the file does not exist
   std::int64_t seconds = 0, nanoseconds = 0;
   bool is_regular = false;
   bool operator==(const FileMark&) const = default;

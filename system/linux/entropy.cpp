@@ -1,6 +1,9 @@
 #include "system/entropy.hpp"
 
 #include <unistd.h>
+#if defined(__APPLE__)
+#include <sys/random.h>  // getentropy(), which unistd.h declares elsewhere
+#endif
 
 #include <cerrno>
 #include <system_error>

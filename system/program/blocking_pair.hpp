@@ -41,7 +41,8 @@ class BlockingPair {
   void use(int in, int out);
   // Open a named pipe, and wait until the client opens its other end. False if told to halt. Throw
   // std::runtime_error.
-  bool open_out(const std::string& path, bool makes_file);  // an empty file if there is no pipe
+  // makes_file: without such a pipe, open_out() makes a file, or empties the one that is there.
+  bool open_out(const std::string& path, bool makes_file);
   bool open_in(const std::string& path);
 
   std::size_t read(std::span<char> space);  // 0: the end, or told to halt

@@ -27,6 +27,6 @@ bool has_room(int stream);  // not for a file
 
 // Writes what there is room for, and returns how many bytes; -1: failed. For a file, it may block for ever.
 std::ptrdiff_t write_some(int stream, OutputKind kind, std::string_view bytes);
-bool may_be_repeated(int error);  // that was because there was no room, or a signal came
+bool may_be_repeated(int error);  // whether the write failed only for lack of room, or because of a signal
 
 }  // namespace racebeam

@@ -17,7 +17,8 @@
 namespace racebeam {
 namespace {
 
-// Reads standard input on a thread of its own, which nothing waits for: not every read can be interrupted.
+// Reads standard input on a thread of its own. The thread is detached, since some reads cannot be
+// interrupted.
 class Reader {
  public:
   void start(int in) {
