@@ -1,5 +1,5 @@
 // A function call that can be suspended at any point and resumed later. It has its own stack
-// (Boost.Context). Long work can therefore be straight-line code, and still yield to other sessions.
+// (fiber_context.hpp). Long work can therefore be straight-line code, and still yield to other sessions.
 #pragma once
 
 #include <cstddef>
