@@ -176,7 +176,7 @@ StreamSession::StreamSession(const Endpoint& endpoint, const Service& service,
 }
 
 StreamSession::~StreamSession() {
-  if (!has_begun_.test()) halt_.reading = halt_.all = true;
+  if (!beginning_.is_open()) halt_.reading = halt_.all = true;
   begin();
   if (thread_.joinable()) thread_.join();
 }
@@ -185,15 +185,12 @@ void StreamSession::start(std::function<void()> ended) {
   on_end_ = std::move(ended);
   Halt::prepare();
   thread_ = std::jthread([this] {
-    has_begun_.wait(false);
+    beginning_.wait();
     run();
   });
 }
 
-void StreamSession::begin() {
-  has_begun_.test_and_set();
-  has_begun_.notify_all();
-}
+void StreamSession::begin() { beginning_.open(); }
 
 void StreamSession::stop(bool at_once) {
   halt_.reading = true;

@@ -15,6 +15,7 @@
 #include "server/operation/metrics.hpp"
 #include "server/operation/unlink_on_exit.hpp"
 #include "system/program/blocking_pair.hpp"
+#include "system/program/gate.hpp"
 
 namespace racebeam {
 
@@ -61,7 +62,7 @@ class StreamSession {
   std::atomic<bool> ended_ = false;
   std::atomic<int> status_ = 0;
   std::function<void()> on_end_;
-  std::atomic_flag has_begun_;
+  Gate beginning_;
   std::jthread thread_;
 };
 

@@ -79,7 +79,7 @@ Loops::~Loops() {
 void Loops::start() {
   for (Loop& loop : loops_) {
     threads_.emplace_back([this, &loop] { work(loop); });
-    start_result_.acquire();
+    loop.started.wait();
     if (failure_) std::rethrow_exception(failure_);
   }
 }
@@ -91,17 +91,16 @@ void Loops::work(Loop& loop) {
   } catch (const std::bad_alloc&) {
     failure_ = std::current_exception();
   }
-  start_result_.release();
+  loop.started.open();
   if (!first) return;
-  running_.wait(false);
+  running_.wait();
   loop.run();
 }
 
 void Loops::run() { let_go(); }
 
 void Loops::let_go() {
-  running_.test_and_set();
-  running_.notify_all();
+  running_.open();
   threads_.clear();
 }
 

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <exception>
 #include <list>
-#include <semaphore>
 #include <thread>
 #include <unordered_set>
 #include <utility>  // Asio 1.74 forgets it
@@ -17,6 +16,7 @@
 #include "server/operation/metrics.hpp"
 #include "server/scheduling/turns.hpp"
 #include "system/busy_poll.hpp"
+#include "system/program/gate.hpp"
 
 namespace racebeam {
 
@@ -28,6 +28,7 @@ struct Loop {
   void run();            // until its context is stopped
   void handle_events();  // what is ready, or as much of it as takes a few milliseconds
 
+  Gate started;  // opens once its thread knows whether it can run
   std::atomic<int> sessions = 0;
   Meter& meter;
   BusyPoll busy;                        // only touched on the loop's thread
@@ -61,9 +62,8 @@ class Loops {
   void let_go();
 
   std::list<Loop> loops_;
-  std::exception_ptr failure_;  // of a thread that cannot run; read after it has begun
-  std::binary_semaphore start_result_{0};
-  std::atomic_flag running_;
+  std::exception_ptr failure_;  // of a thread that cannot run; read after it has started
+  Gate running_;
   std::vector<std::jthread> threads_;
 };
 

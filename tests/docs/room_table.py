@@ -11,6 +11,7 @@ TOP = "top"  # stands for the files of a folder that are in no room
 SOURCES = (".cpp", ".hpp", ".inc")
 INCLUDE = re.compile(r'^\s*#\s*include "([^"]+)"', re.MULTILINE)
 LIBRARY = re.compile(r"^\s*#\s*include <([^>]+)>", re.MULTILINE)
+WAIT = re.compile(r"\.wait\((?:false|true|\d)")  # for another value than this one
 
 
 def read(root=ROOT):
@@ -97,14 +98,23 @@ def portable_sources(root, table):
                 yield path
 
 
+def waits_for_atomics(root=ROOT):
+    """The portable sources that wait for the value of an atomic variable."""
+    table = tomllib.loads((root / TABLE).read_text())["portable"]
+    paths = [path for path in portable_sources(root, table) if WAIT.search(path.read_text())]
+    return [path.relative_to(root).as_posix() for path in paths]
+
+
 def system_faults(root=ROOT):
     """A line for each include of a portable source that is neither of the C++ library, whose names have no mark, nor in
-    the table; and for each header of the table that nobody includes."""
+    the table, or that the table refuses; and for each header of the table that nobody includes."""
     table = tomllib.loads((root / TABLE).read_text())["portable"]
     idle = set(table["headers"])
     wrong = []
     for path in portable_sources(root, table):
         for name in LIBRARY.findall(path.read_text()):
+            if name in table["refused"]:
+                wrong.append(f"{path.relative_to(root)} includes {name}")
             if not re.search(r"\W", name):
                 continue
             library = name.split("/")[0]

@@ -18,6 +18,9 @@ class TestThisTree:
     def test_no_portable_source_includes_a_header_of_the_operating_system(self):
         assert room_table.system_faults() == []
 
+    def test_no_portable_source_waits_for_an_atomic_variable(self):
+        assert room_table.waits_for_atomics() == []
+
     def test_each_row_uses_only_rows_above_it(self):
         assert room_table.order_faults() == []
 
@@ -37,6 +40,7 @@ TABLE = """
 folders = ["low", "high"]
 except = ["low/linux"]
 headers = ["zlib.h"]
+refused = ["latch"]
 [folders]
 low = []
 high = ["low"]
@@ -89,6 +93,14 @@ class TestTheCheck:
             "high/first/pages.cpp includes sys/mman.h",
             "docs/rooms.toml: no portable source includes zlib.h",
         ]
+
+    def test_what_waits_for_an_atomic_variable_is_named(self):
+        self.write("low/base.hpp", "#include <zlib.h>\n#include <latch>\n")
+        self.write("low/wait.cpp", "flag_.wait(false);\n")
+        self.write("low/count.cpp", "count.wait(0, std::memory_order::acquire);\n")
+        self.write("low/lock.cpp", "changed_.wait(lock);\nloop.turns.wait(loop.context, client.usage);\n")
+        assert "low/base.hpp includes latch" in room_table.system_faults(self.root)
+        assert room_table.waits_for_atomics(self.root) == ["low/count.cpp", "low/wait.cpp"]
 
     def test_a_row_that_nobody_needs_is_named(self):
         self.write("high/second/two.cpp", "")

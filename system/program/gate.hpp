@@ -1,0 +1,34 @@
+// A gate at which threads wait until it opens. It stays open. std::atomic_flag has wait() for that. But with
+// g++ 12, a thread on Windows waits for ever if the flag changes between its look and its sleep.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+
+namespace racebeam {
+
+class Gate {
+ public:
+  void open() {
+    const std::lock_guard lock(mutex_);
+    is_open_ = true;
+    opened_.notify_all();
+  }
+
+  void wait() {
+    std::unique_lock lock(mutex_);
+    opened_.wait(lock, [this] { return is_open_; });
+  }
+
+  bool is_open() {
+    const std::lock_guard lock(mutex_);
+    return is_open_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable opened_;
+  bool is_open_ = false;
+};
+
+}  // namespace racebeam
