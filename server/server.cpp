@@ -162,8 +162,8 @@ void Server::start() {
 void Server::open_http() {
   const OperatorPages pages{[this] { return ready_.load(); }, [this] { return metrics_.text(); }};
   http_->open({pages, access_.session_rules(http_->is_loopback())},
-              [this](Socket::native_handle_type descriptor, HttpRequest request) {
-                acceptor_.admit_over_http(descriptor, std::move(request), http_->name());
+              [this](Socket socket, HttpRequest request) {
+                acceptor_.admit_over_http(std::move(socket), std::move(request), http_->name());
               });
   log("health and metrics on " + http_->name(), {{"event", "listening"}, {"address", http_->name()}});
 }

@@ -39,6 +39,18 @@ void take_over(Socket& socket, Socket::native_handle_type descriptor) {
   }
 }
 
+// Moves the socket to another loop. Returns false if the system cannot do that, as Wine 8 cannot; the socket
+// then stays.
+bool has_moved(Socket& socket, Loop& loop) {
+  error_code error;
+  const auto descriptor = socket.release(error);
+  if (error) return false;
+  Socket moved(loop.context);
+  take_over(moved, descriptor);
+  socket = std::move(moved);
+  return true;
+}
+
 constexpr auto kPatience = 800ms;      // of a client that comes when the memory is short
 constexpr auto kBetweenChecks = 20ms;  // whether there is memory for it
 constexpr int kMostWaiting = 64;
@@ -218,11 +230,9 @@ void ConnectionAcceptor::admit(Socket socket, Loop& loop, Listener& listener) {
           service, std::move(carrier), endpoint);
 }
 
-void ConnectionAcceptor::admit_over_http(Socket::native_handle_type descriptor, HttpRequest request,
-                                         const std::string& address) {
-  Loop& loop = loops_.idlest();
-  Socket socket(loop.context);
-  take_over(socket, descriptor);
+void ConnectionAcceptor::admit_over_http(Socket socket, HttpRequest request, const std::string& address) {
+  Loop& idlest = loops_.idlest();
+  Loop& loop = has_moved(socket, idlest) ? idlest : loops_.first();
   set_options(socket);
   std::string name = address + " client " + std::to_string(++from_http_);
   const Endpoint endpoint{TcpAddress(), false, false, true};

@@ -34,9 +34,8 @@ class ConnectionAcceptor {
   void open(int most_connections);
   void close();  // accepts no more
 
-  // Admits a client of --http, whose `request` opens a session. Closes `descriptor` at the end.
-  void admit_over_http(Socket::native_handle_type descriptor, HttpRequest request,
-                       const std::string& address);
+  // Admits a client of --http, whose `request` opens a session. The socket is one of the first loop.
+  void admit_over_http(Socket socket, HttpRequest request, const std::string& address);
 
  private:
   void listen(const Endpoint& endpoint);

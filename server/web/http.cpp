@@ -143,7 +143,7 @@ Task<> Http::converse(Connection connection) {
   }
   connection->timeout.cancel();
   if (done.session) {
-    on_session_(socket.release(), std::move(*done.session));
+    on_session_(std::move(socket), std::move(*done.session));
     co_return;
   }
   co_await await_end(connection);

@@ -22,7 +22,7 @@ namespace racebeam {
 class Http {
  public:
   // Takes over a connection whose request opens a session. Its descriptor is the callee's.
-  using OnSession = std::function<void(ByteStream::Socket::native_handle_type, HttpRequest)>;
+  using OnSession = std::function<void(ByteStream::Socket, HttpRequest)>;
 
   // Listens from now on. Throws std::runtime_error if the address cannot be used.
   Http(boost::asio::io_context& loop, const TcpAddress& address);
