@@ -33,7 +33,7 @@ def _missing_roms(games):
 NEEDS = {
     "needs_roms": _missing_roms,
     "needs_program": lambda _: [] if os.path.exists(harness.BINARY) else ["the program racebeam"],
-    "needs_posix": lambda _: [] if os.name == "posix" else ["POSIX"],
+    "needs_posix": lambda _: [] if os.name == "posix" and not harness.WINDOWS else ["POSIX"],
     "needs_jax": lambda _: [] if _has_module("jax") else ["JAX"],
     "needs_modules": lambda names: [name for name in names if not _has_module(name)],
     "needs_programs": lambda names: [name for name in names if shutil.which(name) is None],

@@ -1,4 +1,4 @@
-"""Shared by tests of the running server: starts it, talks to it over four transports, and waits for its end.
+"""Shared by tests of the running server: starts it, talks to it over up to four transports, and waits for its end.
 
 RACEBEAM_BINARY names the executable. RACEBEAM_ROMS has the commercial images, or else an ale-py in .venv or in the
 environment that runs the tests. Tests that need one are skipped without it.
@@ -19,7 +19,12 @@ SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file_
 BINARY = os.environ.get("RACEBEAM_BINARY", os.path.join(SOURCE, "build", "release", "racebeam"))
 GAME = "builtin:beamfall"
 LOAD = b"load beamfall seed=1 sticky=0 max_episode_frames=0\nsave root\nobserve frame\n"
-TRANSPORTS = ("stdio", "pipes", "tcp", "unix")
+WINDOWS = os.path.basename(BINARY) == "windows-program"  # in Wine (platforms/program)
+STREAMS = ("stdio",) if WINDOWS else ("stdio", "pipes")
+SOCKETS = ("tcp",) if WINDOWS else ("tcp", "unix")
+TRANSPORTS = STREAMS + SOCKETS
+# Where a server of many sessions listens: at a free port, and at a Unix socket in its folder.
+LISTEN = ("--listen", "tcp://127.0.0.1:0") + (() if WINDOWS else ("--listen", "unix:s"))
 PATIENCE = float(
     os.environ.get("RACEBEAM_PATIENCE", 60)
 )  # seconds until something counts as hanging; more for slow builds
@@ -243,6 +248,14 @@ def connect_unix(path):
     connection = socket.socket(socket.AF_UNIX)
     connection.connect(path)
     return Wire(connection.fileno(), connection.fileno(), connection)
+
+
+def connect_nearby(server):
+    """Connects to a server that listens at LISTEN: over the Unix socket, if there is one."""
+    if WINDOWS:
+        return connect_tcp(server.port())
+    server.wait_for("listening on unix:s")
+    return connect_unix(server.path("s"))
 
 
 def open_pipes(server, prefix):

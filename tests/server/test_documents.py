@@ -6,7 +6,7 @@ import shlex
 import sys
 
 import pytest
-from harness import SOURCE, TRANSPORTS, Session, run
+from harness import SOURCE, STREAMS, TRANSPORTS, Session, run
 
 sys.path.insert(0, os.path.join(SOURCE, "tests/server/recorded"))
 import replies  # noqa: E402
@@ -61,7 +61,7 @@ class TestDocuments:
             options = [word for word in command[1:] if word != "--stdio"]
             expected = pattern(answers)
             strict = "--strict" in options  # on streams only; such a conversation ends with an error
-            for transport in TRANSPORTS[:2] if strict else TRANSPORTS:
+            for transport in STREAMS if strict else TRANSPORTS:
                 with self.subtests.test(command=command, said=requests, transport=transport):
                     with Session(transport, *options, image=None) as session:
                         received = converse(session.wire, [line.encode() for line in requests])

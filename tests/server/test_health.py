@@ -156,7 +156,7 @@ class TestLog:
             for words, status, level, hint in (
                 (["--classic", "--stdio", "--rom", image], 0, "warning", "is not in the catalogue"),
                 (["--classic", "--stdio", "--rom", image + "x"], 1, "error", "no such file"),
-                (["--listen", "unix:/nowhere/s"], 3, "error", "cannot listen on unix:/nowhere/s"),
+                (["--listen", "tcp://192.0.2.1:1"], 3, "error", "cannot listen on tcp://192.0.2.1:1"),
             ):
                 ended, _, errors = run("serve", "--log-format", "json", *words)
                 first = [json.loads(line) for line in errors][0]

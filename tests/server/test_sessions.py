@@ -5,7 +5,7 @@ import contextlib
 import os
 
 import pytest
-from harness import TRANSPORTS, Session, rom, sanitized, thread_sanitized
+from harness import SOCKETS, STREAMS, TRANSPORTS, Session, rom, sanitized, thread_sanitized
 
 MEBIBYTE = 1 << 20
 
@@ -185,7 +185,7 @@ class TestStalling:
             answers = session.wire.rest()
             assert (answers.count(b":\n"), answers[-4:]) == (1001, b"DIE\n")
 
-    @pytest.mark.parametrize("transport", ("stdio", "pipes"))
+    @pytest.mark.parametrize("transport", STREAMS)
     def test_a_client_that_leaves_with_a_full_pipe_ends_its_session(self, transport):
         with Session(transport, "--full-screen") as session:
             self.stall(session)
@@ -194,7 +194,7 @@ class TestStalling:
             assert session.status() == 1
             assert session.server.log()[-1] == "racebeam: the client stopped reading"
 
-    @pytest.mark.parametrize("transport", ("tcp", "unix"))
+    @pytest.mark.parametrize("transport", SOCKETS)
     def test_clients_that_do_not_read_hold_nobody_up(self, transport):
         with Session(transport, "--full-screen", "--seed", "1") as session:
             stalled = [session.wire] + [session.connect() for _ in range(15)]

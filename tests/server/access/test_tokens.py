@@ -8,14 +8,14 @@ import time
 
 import pytest
 from access_case import OTHER, TOKEN, Folder
-from harness import PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, run
+from harness import LISTEN, PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, run
 
 
 @pytest.mark.usefixtures("self_cleanup")
 class TestTokens(Folder):
     def serve(self, *options):
         tokens = self.write("tokens", f"# for the tests\n\n{TOKEN}\n")
-        return Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:s", "--token-file", tokens, *options)
+        return Server("serve", *LISTEN, "--token-file", tokens, *options)
 
     def test_only_who_gives_a_token_may_play(self):
         with self.serve() as server:
@@ -95,6 +95,7 @@ class TestTokens(Folder):
             assert wire.rest() == b""
             wire.close()
 
+    @pytest.mark.needs_posix
     def test_who_has_no_token_makes_room_for_others(self):
         full = b"error busy there are 3 sessions, the limit of this server; "
         with self.serve("--max-sessions", "3") as server:
@@ -144,6 +145,7 @@ class TestTokens(Folder):
             for wire in (silent, admitted):
                 wire.close()
 
+    @pytest.mark.needs_posix
     def test_a_unix_socket_needs_no_token(self):
         with self.serve() as server:
             server.wait_for("listening on unix:s")
@@ -151,6 +153,7 @@ class TestTokens(Folder):
             assert ask(wire, b"load beamfall").startswith(b"ok game=beamfall")
             wire.close()
 
+    @pytest.mark.needs_posix
     def test_a_hangup_reads_the_file_again_and_a_bad_file_keeps_the_old_tokens(self):
         def admits(server, token):
             wire = connect_tcp(server.port())
@@ -185,6 +188,7 @@ class TestTokens(Folder):
         status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--token-file", self.path("nothing"))
         assert (status, len(errors)) == (1, 1), errors
 
+    @pytest.mark.needs_posix
     def test_a_file_that_everyone_can_read_is_warned_of(self):
         for mode, warned in ((0o600, False), (0o644, True)):
             path = self.write("tokens", TOKEN)

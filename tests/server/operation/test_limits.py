@@ -4,6 +4,7 @@ import os
 import tempfile
 import time
 
+import pytest
 from harness import (
     GAME,
     LOAD,
@@ -88,6 +89,7 @@ class TestLimits:
         codes = [line.split()[1] if line.startswith(b"error") else b"ok" for line in lines]
         assert codes == [b"ok", b"ok", b"limit", b"ok", b"limit", b"limit", b"ok", b"line-too-long"]
 
+    @pytest.mark.needs_posix
     def test_nothing_that_is_there_is_replaced(self):
         with tempfile.TemporaryDirectory() as folder:
             os.symlink("/nowhere/file", os.path.join(folder, "link.gif"))
@@ -108,6 +110,7 @@ class TestLimits:
 
 
 class TestTogether:
+    @pytest.mark.needs_posix
     def test_both_protocols_on_streams_and_sockets(self):
         with Server(
             "serve",

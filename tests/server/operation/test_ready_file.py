@@ -7,6 +7,7 @@ import tempfile
 
 import pytest
 from harness import (
+    WINDOWS,
     Server,
     ask,
     connect_tcp,
@@ -29,11 +30,12 @@ class TestReadyFile:
             "near": lambda path: file(path, FIRST_LINE[:15]),
             "other": lambda path: file(path, "# racebeam ready file: x\n"),
             "long": lambda path: file(path, FIRST_LINE[:-1] + " of a kind\n"),
-            "pipe": os.mkfifo,
             "folder": os.mkdir,
-            "device": lambda path: os.symlink("/dev/null", path),
-            "link": lambda path: os.symlink("ready", path),
         }
+        if not WINDOWS:
+            kinds["pipe"] = os.mkfifo
+            kinds["device"] = lambda path: os.symlink("/dev/null", path)
+            kinds["link"] = lambda path: os.symlink("ready", path)
 
         def marks(path):  # all but the time of the last access
             found = os.lstat(path)
@@ -52,7 +54,8 @@ class TestReadyFile:
                     assert marks(path) == before
 
     @pytest.mark.parametrize(
-        "words", (["--listen", "unix:/nowhere/s"], ["--stdio", "--roms", "/nowhere"], ["--classic", "--stdio"])
+        "words",
+        (["--listen", "tcp://192.0.2.1:1"], ["--stdio", "--roms", "/nowhere"], ["--classic", "--stdio"]),
     )
     def test_a_stale_one_is_gone_before_anything_else_is_looked_at(self, words):
         with tempfile.TemporaryDirectory() as folder:
@@ -104,6 +107,7 @@ class TestReadyFile:
                 assert server.stop() == 0
             assert os.listdir(folder) == []
 
+    @pytest.mark.needs_posix
     def test_the_file_of_a_successor_stays(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "ready")

@@ -6,11 +6,12 @@ import time
 
 import pytest
 from harness import (
+    LISTEN,
     Server,
     Wire,
     ask,
+    connect_nearby,
     connect_tcp,
-    connect_unix,
     serve,
 )
 from long_request import LONG, load
@@ -79,13 +80,13 @@ class TestStopping:
             assert server.wait() == 0
             wire.close()
 
-    @pytest.mark.parametrize("transport", ("--stdio", "--listen=unix:s"))
-    def test_a_recording_is_kept(self, transport):
-        with Server("serve", transport, "--record-dir", ".", "--grace", "0", streams=True) as server:
+    @pytest.mark.parametrize("where", (("--stdio",), LISTEN))
+    def test_a_recording_is_kept(self, where):
+        with Server("serve", *where, "--record-dir", ".", "--grace", "0", streams=True) as server:
             wire = (
                 Wire(os.dup(server.process.stdout.fileno()), os.dup(server.process.stdin.fileno()))
-                if transport == "--stdio"
-                else server.wait_for("listening") and connect_unix(server.path("s"))
+                if where != LISTEN
+                else connect_nearby(server)
             )
             wire.send(b"load beamfall\nrecord y4m film\nact NOOP*10\n")
             for _ in range(3):

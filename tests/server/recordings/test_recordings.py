@@ -10,7 +10,7 @@ import threading
 import time
 
 import pytest
-from harness import BINARY, PATIENCE, Server, ask, connect_tcp, connect_unix, run, serve
+from harness import BINARY, LISTEN, PATIENCE, Server, ask, connect_nearby, connect_tcp, run, serve
 
 LIMIT = 1000000
 KINDS = {
@@ -54,6 +54,7 @@ class TestLimits:
                 os.path.getsize(os.path.join(path, name)) for path, _, names in os.walk(folder) for name in names
             )
 
+    @pytest.mark.needs_posix
     @pytest.mark.parametrize(
         "kind, limit", {"y4m": LIMIT, "gif": LIMIT // 10, "wav": LIMIT // 10, "y4m,wav": LIMIT}.items()
     )
@@ -108,6 +109,7 @@ class TestLogs:
         assert done.returncode == 0
         return done.stdout.splitlines()
 
+    @pytest.mark.needs_posix
     @pytest.mark.parametrize("limit, logged", ((200, 0), (900, 4)))
     def test_a_full_disk_ends_them_and_the_session_goes_on(self, limit, logged):
         with tempfile.TemporaryDirectory() as folder:
@@ -123,6 +125,7 @@ class TestLogs:
             logs = [name for _, _, names in os.walk(folder) for name in names if name.endswith(".episode")]
             assert len(logs) == count
 
+    @pytest.mark.needs_posix
     def test_where_nothing_fits_there_is_nothing(self):
         with tempfile.TemporaryDirectory() as folder:
             lines = self.serve(folder, 10, b"load beamfall seed=7\nlog mine\nact NOOP\n")
@@ -170,9 +173,8 @@ class TestOthers:
             other.close()
 
     def test_what_a_client_that_left_has_recorded_is_kept(self):
-        with Server("serve", "--listen", "unix:s", "--record-dir", ".") as server:
-            server.wait_for("listening")
-            wire = connect_unix(server.path("s"))
+        with Server("serve", *LISTEN, "--record-dir", ".") as server:
+            wire = connect_nearby(server)
             for line in (b"load beamfall sticky=0", b"record gif film", b"act FIRE*100"):
                 assert ask(wire, line).startswith(b"ok ")
             wire.close()
@@ -184,9 +186,8 @@ class TestOthers:
             assert server.stop() == 0
 
     def test_what_many_record_is_kept_at_the_end(self):
-        with Server("serve", "--listen", "unix:s", "--record-dir", ".", "--grace", "0") as server:
-            server.wait_for("listening")
-            wires = [connect_unix(server.path("s")) for _ in range(8)]
+        with Server("serve", *LISTEN, "--record-dir", ".", "--grace", "0") as server:
+            wires = [connect_nearby(server) for _ in range(8)]
 
             def play(number):
                 for line in (b"load beamfall sticky=0", b"record wav,gif film%d" % number, b"act FIRE*100"):

@@ -127,12 +127,36 @@ class TestBesideThePage(Case):
         assert "there are 1 sessions" in reply.text
         assert wire.ask(b"act NOOP").startswith(b"ok ")
 
+    def test_either_side_ends_a_session_in_good_order(self):
+        self.start("--threads", "2")
+        ends = (
+            (lambda wire: wire.send(b"quit"), (b"ok", 1000)),
+            (lambda wire: wire.write(frame(CLOSE, struct.pack("!H", 1000))), (None, 1000)),
+            (lambda wire: self.server.process.send_signal(signal.SIGTERM), (b"error stopping the server stops", 1001)),
+        )
+        for number, (end, last) in enumerate(ends, 1):
+            wire = self.connect("http")
+            assert wire.ask(b"load beamfall").startswith(b"ok game=beamfall")
+            end(wire)
+            assert wire.end() == last
+            wire.close()
+            self.server.wait_for(rf"client {number}: (\d requests|closed)")
+        assert self.server.wait() == 0
+
+    def test_the_place_of_a_client_that_vanishes_is_free(self):
+        self.start("--max-sessions", "1")
+        wire = self.connect("http")
+        assert wire.ask(b"load beamfall").startswith(b"ok ")
+        wire.close()
+        self.server.wait_for("client 1: 1 requests")
+        assert self.connect("http").ask(b"load beamfall").startswith(b"ok ")
+
     def test_a_server_without_the_line_protocol_offers_no_session(self):
         self.start("--rom", "builtin:beamfall", listen="classic+tcp://127.0.0.1:0")
         assert self.refusal("http").status == 403
 
     def test_beyond_this_machine_sessions_need_tokens(self):
-        with Server("serve", "--listen", "unix:s", "--http", "0.0.0.0:0") as server:
+        with Server("serve", "--listen", "tcp://127.0.0.1:0", "--http", "0.0.0.0:0") as server:
             port = int(server.wait_for(r"health and metrics on http://0\.0\.0\.0:(\d+)").group(1))
             with pytest.raises(Refused) as refused:
                 WebSocket(port)
