@@ -123,6 +123,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "racebeam " RACEBEAM_VERSION);
   app.footer(kFooter);
   app.require_subcommand(1);
+  app.allow_windows_style_options(false);  // a word that begins with / is a path
   racebeam::Subcommand program(app);
   racebeam::add_serve(program);
   racebeam::add_with(program);
