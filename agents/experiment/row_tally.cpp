@@ -48,8 +48,10 @@ void RowTally::find_surplus(const std::string& logs,
   namespace fs = std::filesystem;
   std::set<std::string> surplus;
   std::error_code none;
-  for (const auto& entry : fs::recursive_directory_iterator(logs, none))
-    if (!is_wanted(entry.path().string(), entry.is_directory(none))) surplus.insert(entry.path().string());
+  for (const auto& entry : fs::recursive_directory_iterator(logs, none)) {
+    const std::string path = entry.path().generic_string();  // with /, as the names of rows
+    if (!is_wanted(path, entry.is_directory(none))) surplus.insert(path);
+  }
   for (const std::string& path : surplus) wrong(path + ": no row of results.csv has this log");
 }
 
