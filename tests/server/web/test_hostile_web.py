@@ -111,6 +111,7 @@ class TestHostile(Case):
         self.check_bystander()
         assert self.memory() - before < 4 << 20
 
+    @pytest.mark.needs_posix
     def test_one_that_leaves_in_a_long_request_is_noticed(self):
         wire = self.connect()
         assert wire.ask(load_inline(JUMP_TO_ITSELF) + b" frame_skip=1000").startswith(b"ok ")
