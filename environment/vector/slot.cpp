@@ -34,11 +34,8 @@ Settings machine_settings(const SlotSettings& settings) {
     machine.truncate_on_life_loss |= settings.life_loss == LifeLoss::kResets;
     return machine;
   }
-  const Settings defaults;
   machine.frame_skip = 1;
   machine.frame_skip_max = 0;
-  machine.reward_min = defaults.reward_min;
-  machine.reward_max = defaults.reward_max;
   machine.max_episode_frames = 0;
   return machine;
 }

@@ -107,12 +107,16 @@ TEST_CASE("A step that loses a life is played to its end where the model has it 
   }
 }
 
-TEST_CASE("The last life is the game's own matter") {
-  SlotSettings settings = no_noops();
-  settings.life_loss = LifeLoss::kEnds;
-  Slot slot(cartridge(), settings);
-  lose_life(slot, 0);
-  CHECK_FALSE(slot.finished());
+TEST_CASE("The last life is the game's own matter, and the one before it is not") {
+  for (const int remaining : {0, 1}) {
+    SlotSettings settings = no_noops();
+    settings.life_loss = LifeLoss::kEnds;
+    Slot slot(cartridge(), settings);
+    lose_life(slot, remaining);
+    INFO(remaining);
+    CHECK(slot.finished() == (remaining == 1));
+    CHECK(slot.outcome().terminated == (remaining == 1));
+  }
 }
 
 TEST_CASE("The next life begins as the model has it") {
