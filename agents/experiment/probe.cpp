@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <new>
-#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "agents/experiment/play.hpp"
+#include "agents/experiment/settling_rate.hpp"
 #include "agents/features/game_facts.hpp"
 #include "system/clock.hpp"
 #include "system/invalid_input.hpp"
@@ -18,7 +21,7 @@ using Seconds = std::chrono::duration<double>;
 constexpr std::size_t kMostProbes = 60, kMostActions = 4;
 constexpr Seconds kLongestProbe{2};
 constexpr double kMostWaiting = 10;  // on a busy machine, a probe ends after so many times its share
-constexpr double kWarmUp = 0.3;      // of the time of a probe
+constexpr double kMostLearning = 8;  // a learner's speed may take so many times its share to settle
 // The probe samples one in so many of the screens that facts are discovered from, but each of a trajectory.
 constexpr int kMostShare = 12, kLeastScreens = 600;
 
@@ -27,10 +30,21 @@ struct Enough {};  // ends an episode
 // Processor time of this thread, which other programs do not change.
 Seconds time_of_thread() { return std::chrono::nanoseconds(processor_time()); }
 
+// How long episodes were.
+struct Lengths {
+  double frames = 0;
+  int ends = 0;  // the others were cut
+
+  // All frames for each end: a mean of whole episodes would prefer short ones, since the time cuts long ones.
+  double mean() const { return frames / ends; }
+};
+
 // What an agent did in a game.
 struct Sums {
-  double decisions = 0, seconds = 0, discovery_seconds = 0;
-  std::vector<double> whole, cut;  // frames of episodes that were played to their end, and of others
+  double seconds_per_decision = 0;  // of all agents
+  int agents = 0;
+  double discovery_seconds = 0;
+  Lengths lengths;
 };
 
 // An agent, for as long as it is measured.
@@ -78,35 +92,32 @@ class Probe {
     return agent;
   }
 
-  // The first part of the time warms up: code is translated, and caches are filled.
   void play(int action, Seconds time) {
     const std::unique_ptr<Agent> agent = make(action);
     stage_.machine().set_drawing(agent->drawing());
     agent->set_learning(trains_);
-    const Seconds start = time_of_thread();
-    const auto end = Clock::now() + time * kMostWaiting;
-    Seconds counted = start;
-    std::int64_t decisions = 0, frames = 0;
+    const Seconds most = trains_ ? time * kMostLearning : time, start = time_of_thread();
+    const auto end = Clock::now() + most * kMostWaiting;
+    SettlingRate rate(time.count(), most.count());
+    std::int64_t frames = 0;
     const PlayOptions options{.watch = [&](std::int64_t, std::int64_t frames_now) {
       frames = frames_now;
-      ++decisions;
-      const Seconds now = time_of_thread();
-      if (now - start >= time || Clock::now() >= end) throw Enough();
-      if (counted > start || now - start < time * kWarmUp) return;
-      counted = now;
-      decisions = 0;
+      const bool waits = trains_ && sums_.lengths.ends == 0;  // for the end of an episode
+      if (rate.add((time_of_thread() - start).count(), waits) || Clock::now() >= end) throw Enough();
     }};
     try {
       for (std::uint32_t seed = 1; !agent->diverged(); ++seed) {
         stage_.begin(seed);
         racebeam::play(*agent, stage_, options);
-        sums_.whole.push_back(static_cast<double>(std::exchange(frames, 0)));
+        sums_.lengths.frames += static_cast<double>(std::exchange(frames, 0));
+        ++sums_.lengths.ends;
       }
     } catch (const Enough&) {
-      sums_.cut.push_back(static_cast<double>(frames));
+      sums_.lengths.frames += static_cast<double>(frames);
     }
-    sums_.decisions += static_cast<double>(decisions);
-    sums_.seconds += (time_of_thread() - counted).count();
+    if (rate.rate() == 0) return;
+    sums_.seconds_per_decision += 1 / rate.rate();
+    ++sums_.agents;
   }
 
   const PlanAgent& agent_;
@@ -119,23 +130,26 @@ class Probe {
   Sums sums_;
 };
 
-double sum_of(const std::vector<double>& numbers) {
-  return std::accumulate(numbers.begin(), numbers.end(), 0.0);
-}
-
-// All frames for each end: a mean of whole episodes would prefer short ones, since the time cuts long ones.
-double mean_length(const Sums& sums) {
-  return (sum_of(sums.whole) + sum_of(sums.cut)) / static_cast<double>(sums.whole.size());
-}
-
 // A search plays better than what can be measured in a moment, so that its episodes are taken to be as long
 // as they may be.
-PlayRate rate_of(const Plan& plan, const PlanAgent& agent, const Sums& sums) {
+PlayRate rate_of(const Plan& plan, const PlanAgent& agent, const Sums& sums, const Lengths& lengths) {
   const double longest = plan.play.machine.max_episode_frames;
-  const bool is_known = !sums.whole.empty() && agent.kind->role != Role::kPlanner;
-  return {.episode_frames = is_known ? std::min(mean_length(sums), longest) : longest,
-          .decisions_per_second = sums.decisions / sums.seconds,
+  const bool is_known = lengths.ends > 0 && agent.kind->role != Role::kPlanner;
+  return {.episode_frames = is_known ? std::min(lengths.mean(), longest) : longest,
+          .decisions_per_second = sums.agents / sums.seconds_per_decision,
           .discovery_seconds = sums.discovery_seconds};
+}
+
+// Returns nothing if the agent cannot be measured.
+std::optional<Sums> measure(const Plan& plan, const PlanGame& game, const PlanAgent& agent,
+                            const Cartridge& cartridge, Seconds time) {
+  try {
+    Sums sums = Probe(plan, game, agent, cartridge).play(actions_of_agents(game, *agent.kind), time);
+    if (sums.agents > 0) return sums;
+  } catch (const std::bad_alloc&) {  // too little memory to measure: the table's speed counts
+  } catch (const InvalidInput&) {    // a setting that the game lacks, which a run refuses
+  }
+  return {};
 }
 
 // Returns `most` of the games that have an image, evenly spaced.
@@ -150,22 +164,27 @@ std::vector<const PlanGame*> some_games(const Plan& plan, const Images& images, 
 
 }  // namespace
 
+// A moment has few episodes of each learner, so that all learners of a game get the mean of their episodes.
 PlayRates measure_rates(const Plan& plan, const Images& images, std::chrono::duration<double> time) {
   const std::vector<const PlanGame*> games = some_games(plan, images, kMostProbes / plan.agents.size());
   const auto count = static_cast<double>(games.size() * plan.agents.size());
   PlayRates rates;
-  for (const PlanAgent& agent : plan.agents) {
-    for (const PlanGame* const game : games) {
-      const Cartridge& cartridge = *images.find(game->name);
-      try {
-        const Sums sums =
-            Probe(plan, *game, agent, cartridge)
-                .play(actions_of_agents(*game, *agent.kind), std::min(time / count, kLongestProbe));
-        if (sums.decisions > 0 && sums.seconds > 0) rates.add(*game, agent, rate_of(plan, agent, sums));
-      } catch (const std::bad_alloc&) {  // too little memory to measure: the table's speed counts
-      } catch (const InvalidInput&) {    // a setting that the game lacks, which a run refuses
-      }
+  for (const PlanGame* const game : games) {
+    std::vector<std::pair<const PlanAgent*, Sums>> measured;
+    Lengths of_learners;
+    for (const PlanAgent& agent : plan.agents) {
+      const std::optional<Sums> sums =
+          measure(plan, *game, agent, *images.find(game->name), std::min(time / count, kLongestProbe));
+      if (!sums) continue;
+      measured.emplace_back(&agent, *sums);
+      if (agent.kind->role != Role::kLearner) continue;
+      of_learners.frames += sums->lengths.frames;
+      of_learners.ends += sums->lengths.ends;
     }
+    for (const auto& [agent, sums] : measured)
+      rates.add(
+          *game, *agent,
+          rate_of(plan, *agent, sums, agent->kind->role == Role::kLearner ? of_learners : sums.lengths));
   }
   return rates;
 }

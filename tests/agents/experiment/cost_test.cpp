@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <set>
 
 #include "agents/experiment/probe.hpp"
 #include "system/invalid_input.hpp"
@@ -97,6 +98,7 @@ TEST_CASE("A moment of play measures every kind of agent") {
           "500\n[agent.uct]\nsimulations = 5\n",
       "");
   const PlayRates rates = measure_rates(plan, Images(), std::chrono::duration<double>(1));
+  std::set<double> lengths;
   for (const PlanAgent& agent : plan.agents) {
     INFO(agent.kind->name);
     const PlayRate rate = rates.of(plan, plan.games[0], agent);
@@ -104,7 +106,9 @@ TEST_CASE("A moment of play measures every kind of agent") {
     CHECK(rate.decisions_per_second != agent.kind->decisions_per_second);
     CHECK(rate.episode_frames >= agent.frame_skip);
     CHECK(rate.episode_frames <= 18000);
+    if (agent.kind->role == Role::kLearner) lengths.insert(rate.episode_frames);
     if (agent.kind->role == Role::kPlanner) CHECK(rate.episode_frames == 18000);
   }
+  CHECK(lengths.size() == 1);  // which all learners of a game share
   CHECK(rates.of(plan, plan.games[0], plan.agents[0]).episode_frames < 9000);  // of random play
 }
