@@ -40,16 +40,16 @@ constexpr ConsoleOption kConsoleOptions[] = {
 
 void add_console_options(Subcommand& command, GivenProperties& console) {
   for (const auto& [key, value, help] : kConsoleOptions) {
-    const auto refusal = [key = key](const std::string& text) -> std::string {
+    const auto refusal = [name = key](const std::string& text) -> std::string {
       try {
-        GivenProperties{}.give(key, text);
+        GivenProperties{}.give(name, text);
         return "";
       } catch (const InvalidInput& error) {
         return error.what();
       }
     };
-    const std::function<void(const std::string&)> set = [&console, key = key](const std::string& text) {
-      console.give(key, text);
+    const std::function<void(const std::string&)> set = [&console, name = key](const std::string& text) {
+      console.give(name, text);
     };
     command.option("--" + std::string(key), set, help).check({refusal, ""}).value_name(value);
   }

@@ -114,7 +114,9 @@ template Option Subcommand::option(const std::string&, std::optional<std::string
 template Option Subcommand::option(const std::string&, int&, const std::string&);
 template Option Subcommand::option(const std::string&, unsigned&, const std::string&);
 template Option Subcommand::option(const std::string&, std::int64_t&, const std::string&);
-template Option Subcommand::option(const std::string&, std::uint64_t&, const std::string&);
+// std::uint64_t and std::size_t, which are not the same type on macOS.
+template Option Subcommand::option(const std::string&, unsigned long&, const std::string&);
+template Option Subcommand::option(const std::string&, unsigned long long&, const std::string&);
 template Option Subcommand::option(const std::string&, float&, const std::string&);
 template Option Subcommand::option(const std::string&, double&, const std::string&);
 template Option Subcommand::option(const std::string&, std::optional<int>&, const std::string&);

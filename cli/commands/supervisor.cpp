@@ -1,12 +1,9 @@
 #include "cli/commands/supervisor.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#if defined(__linux__)
-#include <sys/prctl.h>
-#endif
 
 #include <cerrno>
 #include <cstdlib>
@@ -16,6 +13,7 @@
 
 #include "cli/arguments/options.hpp"
 #include "system/printable.hpp"
+#include "system/program/parent_process.hpp"
 
 namespace racebeam {
 namespace {
@@ -26,9 +24,6 @@ constexpr int kNotFound = 127, kNotExecutable = 126, kSignalled = 128;
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
 int status_of(int ended) { return WIFEXITED(ended) ? WEXITSTATUS(ended) : kSignalled + WTERMSIG(ended); }
-
-// The terminal sends Ctrl-C to the command itself.
-bool is_from_terminal(const siginfo_t& signal) { return signal.si_code == SI_KERNEL; }
 
 [[noreturn]] void execute(const std::vector<std::string>& command) {
   std::vector<char*> words;
@@ -56,23 +51,15 @@ PrivateFolder::~PrivateFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-Supervisor::Supervisor() {
-  ::sigemptyset(&handled_);
-  for (const int number : kHandled) ::sigaddset(&handled_, number);
-  ::sigprocmask(SIG_BLOCK, &handled_, &before_);
-}
+Supervisor::Supervisor() : signals_(kHandled) {}
 
-// The child is told if its parent is killed.
 pid_t Supervisor::fork_child() const {
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child < 0) fail("cannot start a process");
   if (child > 0) return child;
-#if defined(__linux__)
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-#endif
-  if (::getppid() != parent) ::_exit(kExitFailure);
-  ::sigprocmask(SIG_SETMASK, &before_, nullptr);
+  if (!end_with_parent(parent)) ::_exit(kExitFailure);
+  signals_.handle_as_before();
   return 0;
 }
 
@@ -92,11 +79,11 @@ int Supervisor::wait_until_ready(const std::filesystem::path& announce) {
   constexpr int kBetweenLooks = 5;
   std::error_code ignored;
   while (!std::filesystem::exists(announce, ignored)) {
-    const siginfo_t signal = next_signal(kBetweenLooks);
+    const int signal = next_signal(kBetweenLooks).number;
     if (server_.process == 0) return server_.status == 0 ? kExitFailure : server_.status;
-    if (signal.si_signo == 0 || signal.si_signo == SIGCHLD) continue;
+    if (signal == 0 || signal == SIGCHLD) continue;
     stop_server();
-    return kSignalled + signal.si_signo;
+    return kSignalled + signal;
   }
   return 0;
 }
@@ -115,12 +102,13 @@ int Supervisor::run(const std::vector<std::string>& command) {
   return wait_for_command();
 }
 
+// The terminal sends Ctrl-C to the command itself.
 int Supervisor::wait_for_command() {
   bool serves = server_.process != 0;
   while (command_.process != 0) {
-    const siginfo_t signal = next_signal();
-    if (signal.si_signo != SIGCHLD && command_.process != 0 && !is_from_terminal(signal))
-      ::kill(command_.process, signal.si_signo);
+    const auto signal = next_signal();
+    if (signal.number != SIGCHLD && command_.process != 0 && !signal.from_terminal)
+      ::kill(command_.process, signal.number);
     if (serves && server_.process == 0 && server_.status != 0)
       std::cerr << "racebeam: the server has ended with status " << server_.status << "\n";
     serves = server_.process != 0;
@@ -130,8 +118,8 @@ int Supervisor::wait_for_command() {
 
 int Supervisor::wait() {
   while (server_.process != 0) {
-    const siginfo_t signal = next_signal();
-    if (signal.si_signo != 0 && signal.si_signo != SIGCHLD) stop_server();
+    const int signal = next_signal().number;
+    if (signal != 0 && signal != SIGCHLD) stop_server();
   }
   return server_.status;
 }
@@ -139,18 +127,13 @@ int Supervisor::wait() {
 void Supervisor::stop_server() {
   if (server_.process != 0) ::kill(server_.process, SIGTERM);
   while (server_.process != 0) {
-    const siginfo_t signal = next_signal();
-    if (signal.si_signo != SIGCHLD && server_.process != 0) ::kill(server_.process, SIGTERM);
+    const int signal = next_signal().number;
+    if (signal != SIGCHLD && server_.process != 0) ::kill(server_.process, SIGTERM);
   }
 }
 
-// Waits for a signal: for ever, or for a time. Returns a signal with the number 0 if none has come.
-siginfo_t Supervisor::next_signal(int milliseconds) {
-  siginfo_t signal{};
-  const timespec limit{0, milliseconds * 1'000'000L};
-  const int number =
-      milliseconds < 0 ? ::sigwaitinfo(&handled_, &signal) : ::sigtimedwait(&handled_, &signal, &limit);
-  if (number <= 0) signal.si_signo = 0;
+AwaitedSignals::Came Supervisor::next_signal(int milliseconds) {
+  const auto signal = signals_.next(milliseconds);
   reap();
   return signal;
 }

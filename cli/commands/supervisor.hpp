@@ -1,12 +1,13 @@
 // Runs a command beside a server: two child processes, of which neither outlives this one.
 #pragma once
 
-#include <signal.h>
 #include <sys/types.h>
 
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "system/program/awaited_signals.hpp"
 
 namespace racebeam {
 
@@ -69,10 +70,10 @@ class Supervisor {
   };
 
   pid_t fork_child() const;  // returns 0 in the child
-  siginfo_t next_signal(int milliseconds = -1);
+  AwaitedSignals::Came next_signal(int milliseconds = -1);
   void reap();
 
-  sigset_t handled_{}, before_{};
+  AwaitedSignals signals_;
   Child server_, command_;
 };
 

@@ -1,8 +1,8 @@
 #include "cli/terminal/tty.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/ioctl.h>
+#include <sys/select.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -30,6 +30,25 @@ struct Before {
 };
 Before saved;
 
+struct Ready {
+  bool to_read = false, to_write = false;
+};
+
+// Waits until the terminal is ready for what is asked, or the time is over. Returns what select() does. On
+// macOS, poll() refuses /dev/tty.
+int wait_for(Ready& ready, int milliseconds) {
+  const int descriptor = saved.descriptor;
+  fd_set reading, writing;
+  FD_ZERO(&reading);
+  FD_ZERO(&writing);
+  if (ready.to_read) FD_SET(descriptor, &reading);
+  if (ready.to_write) FD_SET(descriptor, &writing);
+  timeval limit{.tv_sec = milliseconds / 1000, .tv_usec = milliseconds % 1000 * 1000};
+  const int count = ::select(descriptor + 1, &reading, &writing, nullptr, &limit);
+  ready = {count > 0 && FD_ISSET(descriptor, &reading), count > 0 && FD_ISSET(descriptor, &writing)};
+  return count;
+}
+
 // Calls only what a signal handler may call. Output that is still on its way may end within a sequence: ST
 // ends it.
 void restore() {
@@ -39,9 +58,9 @@ void restore() {
   const char* const end = saved.undo.data() + saved.undo.size();
   while (next < end) {
     const ssize_t written = ::write(saved.descriptor, next, static_cast<std::size_t>(end - next));
-    pollfd state{saved.descriptor, POLLOUT, 0};
+    Ready room{.to_write = true};
     if (written > 0) next += written;
-    if (written < 0 && ((errno != EAGAIN && errno != EINTR) || ::poll(&state, 1, kMostWait) <= 0)) break;
+    if (written < 0 && ((errno != EAGAIN && errno != EINTR) || wait_for(room, kMostWait) <= 0)) break;
   }
   ::tcsetattr(saved.descriptor, TCSAFLUSH, &saved.modes);
 }
@@ -85,8 +104,9 @@ void end() {
 // The descriptor is one of our own: that it does not block must not concern other programs on the terminal.
 Tty::Tty() {
   const int descriptor = ::open("/dev/tty", O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  if (descriptor < 0 || ::tcgetattr(descriptor, &saved.modes) != 0) {
-    const int reason = errno;
+  const bool is_too_high = descriptor >= FD_SETSIZE;
+  if (descriptor < 0 || is_too_high || ::tcgetattr(descriptor, &saved.modes) != 0) {
+    const int reason = is_too_high ? EMFILE : errno;
     if (descriptor >= 0) ::close(descriptor);
     errno = reason;
     fail("cannot draw without a terminal: /dev/tty");
@@ -130,24 +150,27 @@ void Tty::flush() {
 }
 
 std::string Tty::wait(Time until, bool writes_too) {
-  std::array<char, 4096> bytes{};
   while (true) {
     const auto remaining =
         std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
     const bool writes = !waiting_.empty();
-    pollfd state{saved.descriptor, static_cast<short>(writes ? POLLIN | POLLOUT : POLLIN), 0};
-    const int ready = ::poll(&state, 1, static_cast<int>(std::max<std::int64_t>(0, remaining.count())));
-    if (ready < 0 && errno != EINTR) fail("cannot wait for the terminal");
-    if (ready == 0) return {};
-    if (ready < 0) continue;
-    if ((state.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0)
-      throw std::runtime_error("the terminal is gone");
-    if ((state.revents & POLLOUT) != 0) flush();
-    const ssize_t count =
-        (state.revents & POLLIN) != 0 ? ::read(saved.descriptor, bytes.data(), bytes.size()) : 0;
-    if (count > 0) return {bytes.data(), static_cast<std::size_t>(count)};
-    if (writes_too && writes && waiting_.empty()) return {};
+    Ready ready{.to_read = true, .to_write = writes};
+    const int count = wait_for(ready, static_cast<int>(std::max<std::int64_t>(0, remaining.count())));
+    if (count < 0 && errno != EINTR) fail("cannot wait for the terminal");
+    if (count == 0) return {};
+    std::string bytes = ready.to_read ? read() : "";
+    if (ready.to_write) flush();
+    if (!bytes.empty() || (writes_too && writes && waiting_.empty())) return bytes;
   }
+}
+
+// A terminal that is gone has no bytes, though it is ready.
+std::string Tty::read() {
+  std::array<char, 4096> bytes{};
+  const ssize_t count = ::read(saved.descriptor, bytes.data(), bytes.size());
+  if (count > 0) return {bytes.data(), static_cast<std::size_t>(count)};
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return {};
+  throw std::runtime_error("the terminal is gone");
 }
 
 Room Tty::room() const {

@@ -34,6 +34,7 @@ class Tty {
 
  private:
   void flush();
+  static std::string read();  // what has come
 
   std::string waiting_;  // to be written
 };

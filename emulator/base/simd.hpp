@@ -1,8 +1,9 @@
 // Selects the variant of a vectorised function for this processor.
 #pragma once
 
-// On macOS, Zig's library does not tell what the processor has.
-#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) && !defined(__APPLE__)
+// Zig's library does not tell what the processor has (platforms/macos.cmake, platforms/musl.cmake).
+#if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) && !defined(__APPLE__) && \
+    !defined(RACEBEAM_WITHOUT_AVX)
 #define RACEBEAM_HAS_AVX 1
 #else
 #define RACEBEAM_HAS_AVX 0

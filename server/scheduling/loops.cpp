@@ -21,9 +21,9 @@ Loop::Loop(Meter& counting, std::chrono::microseconds busy_poll) : meter(countin
 // Some clients send so much that an event is always ready. The sessions that wait for their turn do not wait
 // for the end of that. The work of sessions does not count: few events would be handled while it is long.
 void Loop::handle_events() {
-  using Clock = std::chrono::steady_clock;
-  const auto begin = Clock::now();
-  while (context.poll_one() > 0 && Clock::now() - begin < tuning::kLongestEvents + turns.worked()) {
+  constexpr auto now = std::chrono::steady_clock::now;
+  const auto begin = now();
+  while (context.poll_one() > 0 && now() - begin < tuning::kLongestEvents + turns.worked()) {
   }
 }
 

@@ -136,10 +136,10 @@ Task<> WebSocket::send(std::string_view bytes, bool binary, const std::function<
 
 // Beast sends nothing after a read was cancelled, so that these frames are written without it.
 Task<> WebSocket::leave(std::string_view line, CloseCode code) {
-  constexpr unsigned char kText = 1, kClose = 8;
+  constexpr unsigned char kTextFrame = 1, kCloseFrame = 8;
   if (std::exchange(impl_->closed, true)) co_return;
   const std::string text =
-      (line.empty() ? std::string() : frame(kText, line)) + frame(kClose, close_payload(code));
+      (line.empty() ? std::string() : frame(kTextFrame, line)) + frame(kCloseFrame, close_payload(code));
   error_code ignored;
   co_await net::async_write(impl_->lower, net::buffer(text), net::redirect_error(use_task, ignored));
 }

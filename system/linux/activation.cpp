@@ -72,8 +72,9 @@ void notify_manager(const std::string& state) {
   address.sun_family = AF_UNIX;
   std::ranges::copy(name, address.sun_path);
   if (name.front() == '@') address.sun_path[0] = '\0';  // in the abstract name space
-  const int socket = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const int socket = ::socket(AF_UNIX, SOCK_DGRAM, 0);
   if (socket < 0) return;
+  ::fcntl(socket, F_SETFD, FD_CLOEXEC);
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
   ::sendto(socket, state.data(), state.size(), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address),
            size);

@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <pthread.h>
 #include <sys/stat.h>
-#include <sys/uio.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,17 +11,12 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "system/program/without_waiting.hpp"
+
 namespace racebeam {
 namespace {
 
 constexpr int kWakingSignal = SIGUSR1;
-
-// A pipe holds 64 KiB unless it is told otherwise: a longer reply, of many machines, would wait for its
-// reader in between. Where it is not a pipe, or may not be larger, it stays as it is.
-void make_room(int pipe) {
-  constexpr int kRoom = 1 << 18;
-  if (::fcntl(pipe, F_GETPIPE_SZ) < kRoom) ::fcntl(pipe, F_SETPIPE_SZ, kRoom);
-}
 
 void wait_until(int descriptor, short ready) {
   pollfd state{descriptor, ready, 0};
@@ -93,8 +87,7 @@ std::size_t BlockingPair::read(std::span<char> space) {
 
 std::optional<std::size_t> BlockingPair::read_at_once(std::span<char> space) {
   if (halt_.reading) return std::nullopt;
-  iovec part{space.data(), space.size()};
-  const ssize_t count = ::preadv2(in_, &part, 1, -1, RWF_NOWAIT);
+  const std::ptrdiff_t count = read_without_waiting(in_, space);
   return count < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(count));
 }
 

@@ -67,6 +67,10 @@ std::array<int, 2> stream() {
   if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) != 0)
     throw std::system_error(errno, std::generic_category(), "cannot make a socket");
   for (const int end : ends) ::fcntl(end, F_SETFD, FD_CLOEXEC);
+#if defined(SO_NOSIGPIPE)  // macOS 11 need not know MSG_NOSIGNAL
+  constexpr int kOn = 1;
+  ::setsockopt(ends[0], SOL_SOCKET, SO_NOSIGPIPE, &kOn, sizeof kOn);
+#endif
   return ends;
 }
 

@@ -9,17 +9,16 @@
 #include <cerrno>
 #include <filesystem>
 
+#include "system/linux/files.hpp"
+
 namespace racebeam {
 namespace {
 
 namespace fs = std::filesystem;
 
-// The sticky bit, which means nothing to a file, marks one.
-constexpr mode_t kMarked = S_ISVTX | 0644;
-
 bool is_left_behind(const std::string& name) {
   struct stat facts {};
-  return ::lstat(name.c_str(), &facts) == 0 && S_ISREG(facts.st_mode) && (facts.st_mode & S_ISVTX) != 0 &&
+  return ::lstat(name.c_str(), &facts) == 0 && S_ISREG(facts.st_mode) && is_marked(facts) &&
          facts.st_uid == ::geteuid();
 }
 
@@ -28,24 +27,8 @@ int open_folder(const std::string& path) { return ::open(path.c_str(), O_RDONLY 
 void sync_folder_of(const std::string& path) {
   const int folder = open_folder(fs::path(path).parent_path().string());
   if (folder < 0) return;
-  ::fsync(folder);
+  sync_bytes(folder);
   ::close(folder);
-}
-
-#if defined(__APPLE__)
-timespec changed_at(const struct stat& facts) { return facts.st_mtimespec; }
-bool sync_disk(int file) { return ::fcntl(file, F_FULLFSYNC) == 0; }
-#else
-timespec changed_at(const struct stat& facts) { return facts.st_mtim; }
-bool sync_disk(int file) { return ::syncfs(file) == 0; }
-#endif
-
-bool renames_anew(const char* from, const char* to) {
-#if defined(RENAME_NOREPLACE)
-  return ::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0;
-#else
-  return ::link(from, to) == 0 && ::unlink(from) == 0;
-#endif
 }
 
 }  // namespace
@@ -58,12 +41,14 @@ int make_temporary_file(std::string& name) { return ::mkostemp(name.data(), O_CL
 
 int make_marked_file(const std::string& path) {
   if (is_left_behind(path)) ::unlink(path.c_str());
-  return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kMarked);
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kModeOfMarked);
+  if (file >= 0) mark(file);
+  return file;
 }
 
 void unmark(int file) {
   struct stat facts {};
-  if (::fstat(file, &facts) == 0) ::fchmod(file, facts.st_mode & 0777);
+  if (::fstat(file, &facts) == 0) unmark(file, facts);
 }
 
 int open_to_append(const std::string& path) {
@@ -104,7 +89,7 @@ std::int64_t size_of_file(int file) {
 }
 
 bool cut_file(int file, std::size_t size) { return ::ftruncate(file, static_cast<off_t>(size)) == 0; }
-bool sync_file(int file) { return ::fsync(file) == 0; }
+bool sync_file(int file) { return sync_bytes(file); }
 bool sync_disk_of(int file) { return sync_disk(file); }
 
 bool sync_disk_of(const std::string& path) {
@@ -121,7 +106,7 @@ void open_folder_to_all(const std::string& path) { fs::permissions(path, fs::per
 bool remove_folder(const std::string& path) { return ::rmdir(path.c_str()) == 0; }
 
 bool rename_anew(const std::string& from, const std::string& to) {
-  if (!renames_anew(from.c_str(), to.c_str())) return false;
+  if (!rename_if_new(from.c_str(), to.c_str())) return false;
   sync_folder_of(to);
   return true;
 }

@@ -5,11 +5,12 @@
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/uio.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+
+#include "system/program/without_waiting.hpp"
 
 namespace racebeam {
 
@@ -47,8 +48,7 @@ std::ptrdiff_t write_some(int stream, OutputKind kind, std::string_view bytes) {
   if (kind == OutputKind::kSocket)
     return ::send(stream, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   if (kind == OutputKind::kOther) {
-    iovec part{const_cast<char*>(bytes.data()), bytes.size()};
-    const ssize_t count = ::pwritev2(stream, &part, 1, -1, RWF_NOWAIT);
+    const std::ptrdiff_t count = write_without_waiting(stream, bytes);
     if (count >= 0 || (errno != EOPNOTSUPP && errno != EINVAL && errno != ENOSYS)) return count;
   }
   return ::write(stream, bytes.data(), bytes.size());

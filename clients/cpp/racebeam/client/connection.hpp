@@ -261,10 +261,27 @@ class ProcessConnection final : public StreamConnection<asio::local::stream_prot
   std::future<void> ended_;  // of the process, after close()
 };
 
+#if defined(F_SETNOSIGPIPE)
+/// Keeps a write to a pipe without reader from raising SIGPIPE. macOS would send it to any thread.
+class NoBrokenPipe {
+ public:
+  explicit NoBrokenPipe(int pipe) : pipe_(pipe), before_(::fcntl(pipe, F_GETNOSIGPIPE)) {
+    ::fcntl(pipe_, F_SETNOSIGPIPE, 1);
+  }
+  ~NoBrokenPipe() {
+    if (before_ == 0) ::fcntl(pipe_, F_SETNOSIGPIPE, 0);
+  }
+  NoBrokenPipe(const NoBrokenPipe&) = delete;
+  NoBrokenPipe& operator=(const NoBrokenPipe&) = delete;
+
+ private:
+  int pipe_, before_;
+};
+#else
 /// Keeps the calling thread from SIGPIPE, which a write to a pipe without reader raises.
 class NoBrokenPipe {
  public:
-  NoBrokenPipe() {
+  explicit NoBrokenPipe(int /*pipe*/) {
     ::sigemptyset(&signal_);
     ::sigaddset(&signal_, SIGPIPE);
     ::pthread_sigmask(SIG_BLOCK, &signal_, &before_);
@@ -281,6 +298,7 @@ class NoBrokenPipe {
  private:
   sigset_t signal_{}, before_{};
 };
+#endif
 
 /// Two descriptors, one for each direction.
 class DescriptorConnection : public Connection {
@@ -312,7 +330,7 @@ class DescriptorConnection : public Connection {
  private:
   /// 0 if nothing can be written now.
   std::size_t write_some(asio::const_buffer data) {
-    const NoBrokenPipe guard;
+    const NoBrokenPipe guard(out_.native_handle());
     boost::system::error_code failure;
     out_.non_blocking(true);
     const std::size_t written = out_.write_some(data, failure);

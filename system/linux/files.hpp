@@ -1,0 +1,22 @@
+// What Linux and macOS do differently with files, for output_file.cpp.
+#pragma once
+
+#include <sys/stat.h>
+#include <time.h>
+
+namespace racebeam {
+
+// A mark of a file that means nothing to others.
+extern const mode_t kModeOfMarked;  // of a new file
+void mark(int file);                // after it was made
+void unmark(int file, const struct stat& facts);
+bool is_marked(const struct stat& facts);
+
+timespec changed_at(const struct stat& facts);
+
+bool sync_bytes(int file);  // or a folder
+bool sync_disk(int file);   // the whole disk
+
+bool rename_if_new(const char* from, const char* to);  // fails if `to` exists
+
+}  // namespace racebeam

@@ -1,0 +1,30 @@
+// Signals that a process with one thread waits for, instead of handling them. Windows lacks them.
+#pragma once
+
+#include <memory>
+#include <span>
+
+namespace racebeam {
+
+class AwaitedSignals {
+ public:
+  struct Came {
+    int number = 0;              // 0: none
+    bool from_terminal = false;  // which sends it to the other processes in its foreground, too
+  };
+
+  explicit AwaitedSignals(std::span<const int> numbers);  // they are blocked from now on
+  ~AwaitedSignals();
+  AwaitedSignals(const AwaitedSignals&) = delete;
+  AwaitedSignals& operator=(const AwaitedSignals&) = delete;
+
+  Came next(int milliseconds = -1) const;  // waits: for ever, or for a time
+
+  void handle_as_before() const;  // in a child
+
+ private:
+  struct Sets;
+  std::unique_ptr<Sets> sets_;
+};
+
+}  // namespace racebeam
