@@ -74,7 +74,7 @@ TEST_CASE("Each command has a method") {
       std::filesystem::temp_directory_path() / ("racebeam-client-" + std::to_string(::getpid()));
   std::filesystem::create_directory(folder);
   {
-    auto game = client::launch(RACEBEAM_BINARY, {"--record-dir", folder});
+    auto game = client::launch(RACEBEAM_BINARY, {"--record-dir", folder, "--roms", folder});
     CHECK(game.hello().text("server").starts_with("racebeam/"));
     CHECK(game.help("act").starts_with("act A"));
     CHECK(game.games() == std::vector<std::string>{"beamfall", "updraft"});

@@ -17,7 +17,7 @@ function launched(context, ...options) {
 
 test("each command has a method", { skip }, async (context) => {
   const folder = mkdtempSync(path.join(os.tmpdir(), "racebeam-"));
-  const game = launched(context, "--record-dir", folder);
+  const game = launched(context, "--record-dir", folder, "--roms", folder);
   context.after(() => rmSync(folder, { recursive: true })); // after the server has ended
   assert.match((await game.hello()).server, /^racebeam\//);
   assert.match(await game.help("act"), /act A/);

@@ -23,7 +23,7 @@ class ServerTest {
   @BeforeEach
   void launch() throws IOException {
     Assumptions.assumeTrue(System.getenv("RACEBEAM_PROGRAM") != null, "RACEBEAM_PROGRAM names no program");
-    session = Racebeam.launch("--record-dir", folder.toString());
+    session = Racebeam.launch("--record-dir", folder.toString(), "--roms", folder.toString());
   }
 
   @AfterEach
