@@ -13,6 +13,9 @@ import { chromium, type Browser, type BrowserContext, type BrowserContextOptions
 const PATIENCE = 1000 * Number(process.env.RACEBEAM_PATIENCE ?? 20); // milliseconds
 const OPTIONS = ["--no-sandbox", "--disable-gpu", "--autoplay-policy=user-gesture-required"];
 
+const ENVIRONMENT = { ...process.env };
+delete ENVIRONMENT.RACEBEAM_ROMS; // so that the page begins with a game of our own
+
 /** The program racebeam as a server of the page. */
 export class Server {
   readonly folder = mkdtempSync(path.join(os.tmpdir(), "racebeam-"));
@@ -27,7 +30,7 @@ export class Server {
   async start(options: readonly string[] = [], port: number | string = 0): Promise<void> {
     rmSync(this.#ready, { force: true });
     const words = ["serve", "--listen", `ws://127.0.0.1:${port}`, "--ready-file", this.#ready, "--log-level", "warning", ...options];
-    this.#process = spawn(process.env.RACEBEAM_BINARY!, words, { stdio: ["ignore", "ignore", "inherit"], cwd: this.folder });
+    this.#process = spawn(process.env.RACEBEAM_BINARY!, words, { stdio: ["ignore", "ignore", "inherit"], cwd: this.folder, env: ENVIRONMENT });
     for (const until = Date.now() + PATIENCE; !existsSync(this.#ready); await sleep(20)) {
       assert.ok(Date.now() < until, "the server does not start");
     }
