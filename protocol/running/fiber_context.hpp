@@ -1,5 +1,5 @@
-// A call on a stack of its own, and the switches between that stack and its caller's. Windows has a source of
-// its own. Calls in WebAssembly cannot be suspended.
+// Runs a call on its own stack, and switches between that stack and the caller's. Windows does this with its
+// own fibers, Linux and macOS with Boost.Context. WebAssembly cannot suspend calls.
 #pragma once
 
 #include <memory>

@@ -14,7 +14,7 @@ bool is_marked(const struct stat& facts) { return (facts.st_flags & UF_NODUMP) !
 
 timespec changed_at(const struct stat& facts) { return facts.st_mtimespec; }
 
-// After fsync(), a disk may still have the bytes in a memory of its own. Some file systems know nothing else.
+// After fsync(), the bytes may still be in the disk's cache. Some file systems do not support F_FULLFSYNC.
 bool sync_bytes(int file) { return ::fcntl(file, F_FULLFSYNC) == 0 || ::fsync(file) == 0; }
 bool sync_disk(int file) { return ::fsync_volume_np(file, SYNC_VOLUME_FULLSYNC | SYNC_VOLUME_WAIT) == 0; }
 

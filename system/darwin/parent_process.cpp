@@ -33,8 +33,8 @@ namespace {
 
 }  // namespace
 
-// The system has no such signal, so that a process of its own waits. Its parent ends at once: the program
-// that this process executes has no child that it does not know.
+// macOS cannot send a signal when a parent ends, so a separate process watches it. The process between ends
+// at once. The watcher is then no child of the program that this process executes.
 bool end_with_parent(int parent) {
   const pid_t child = ::getpid();
   const pid_t between = ::fork();

@@ -17,8 +17,7 @@
 namespace racebeam {
 namespace {
 
-// Reads standard input on a thread of its own. The thread is detached, since some reads cannot be
-// interrupted.
+// Reads standard input on a separate thread. The thread is detached, since some reads cannot be interrupted.
 class Reader {
  public:
   void start(int in) {
