@@ -35,7 +35,7 @@ enum class Likeness { kOther, kBegins, kLooks, kIsSame };
 // How far a line that starts with `registers` and has the writes from `entry` on equals a recorded one.
 RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::uint32_t* entry,
                                  std::uint32_t origin, const LineRecord& record) {
-  const bool same = record.is_summarized() && record.starts_with(registers);
+  const bool same = record.starts_with(registers);
   if (!same && !record.looks_like(registers)) return Likeness::kOther;
   const LineWrite next(entry[record.count], origin);
   if (next.is_of_line() && !(same && next.is_late())) return Likeness::kBegins;
@@ -289,7 +289,7 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions latches) {
     if (likeness == Likeness::kIsSame) {
       record->pass(registers);
       if (record->view.seen & kMoves)
-        tia_.hmove_clock = static_cast<std::uint32_t>(cursor + 3 * record->hmove_cycle);
+        tia_.hmove_clock = static_cast<std::uint32_t>(cursor + record->hmove_clock);
       if (record->view.seen & kClears) beam_.clear_collisions();
     } else {
       beam_.lose_track();
@@ -355,8 +355,8 @@ void Tia::close_record() {
   recorded_->view.seen |= beam_.seen();
   recorded_->meetings = beam_.meetings();
   recorded_->cleared = beam_.cleared_meetings();
+  recorded_->close(tia_, tia_.cursor - kLineClocks);
   beam_.show(*recorded_);
-  recorded_->end = tia_.registers();
   recorded_ = nullptr;
 }
 

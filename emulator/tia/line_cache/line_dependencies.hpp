@@ -21,10 +21,11 @@
 namespace racebeam {
 
 // Bits of LineDependencies::seen. Bits 0-5: Object n was shown.
-constexpr std::uint16_t kScoreSeen = 1U << 6;  // the playfield in the players' colours
-constexpr std::uint16_t kLit = 1U << 7;        // something else than VBLANK's black was shown
-constexpr std::uint16_t kMoves = 1U << 8;      // there is an HMOVE
-constexpr std::uint16_t kClears = 1U << 9;     // there is a CXCLR, which clears earlier collisions
+constexpr std::uint16_t kScoreSeen = 1U << 6;     // the playfield in the players' colours
+constexpr std::uint16_t kLit = 1U << 7;           // something else than VBLANK's black was shown
+constexpr std::uint16_t kMoves = 1U << 8;         // there is an HMOVE
+constexpr std::uint16_t kClears = 1U << 9;        // there is a CXCLR, which clears earlier collisions
+constexpr std::uint16_t kMayBeCosmic = 1U << 10;  // there is an HMM0, which may start the Cosmic Ark mode
 // Bits of LineDependencies::control. Bits 0-5: a write affects the control of Object n.
 constexpr std::uint8_t kPlaceOfP0 = 1U << 6, kPlaceOfP1 = 1U << 7;  // their old positions count
 
@@ -43,7 +44,7 @@ struct LineEffect {
   std::int8_t
       first_late_cycle;  // from this cycle on, it affects only the next line, as if it were written there
   std::uint8_t control;  // see LineDependencies; for RESPx only if a write follows at once
-  std::uint16_t seen;    // kMoves, kClears or 0
+  std::uint16_t seen;    // kMoves, kClears, kMayBeCosmic or 0
 };
 extern const std::array<LineEffect, 64> kLineEffects;
 

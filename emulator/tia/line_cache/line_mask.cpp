@@ -18,7 +18,7 @@ struct Key {
   auto operator<=>(const Key&) const = default;
 };
 
-TiaRegisters mask_of(ByteSet set) {
+constexpr TiaRegisters mask_of(ByteSet set) {
   TiaBytes bytes{};
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = set >> i & 1 ? 0xFF : 0;
   return std::bit_cast<TiaRegisters>(bytes);
@@ -35,6 +35,8 @@ const LineMask* find_or_add(const Key& key) {
 }
 
 }  // namespace
+
+constinit const LineMask LineMask::kWhole = {mask_of(~ByteSet{0}), mask_of(~ByteSet{0})};
 
 const LineMask* LineMask::find(ByteSet counts, ByteSet sets) {
   struct Entry {

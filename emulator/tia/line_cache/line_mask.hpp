@@ -12,6 +12,8 @@ struct LineMask {
   TiaRegisters counts;  // pixels, collisions or the registers at the end depend on
   TiaRegisters sets;    // is known at the end: those that count, and those that are written
 
+  static const LineMask kWhole;  // all bytes count, and are set
+
   // Returns the mask with these bytes. It is shared by all machines and never released. Thread-safe. Returns
   // null if there are too many masks, which only a program causes that writes at random.
   static const LineMask* find(ByteSet counts, ByteSet sets);

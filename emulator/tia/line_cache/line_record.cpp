@@ -62,7 +62,7 @@ ByteSet moved_positions(int cycle, const std::array<std::uint8_t, 5>& motion) {
 void LineRecord::open(const TiaRegisters& registers) {
   number = kNoLine;  // until the line is complete
   start = registers;
-  mask = nullptr;
+  mask = &LineMask::kWhole;
   view = {};
   count = 0;
   repeats = false;
@@ -84,6 +84,12 @@ const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t o
   view.seen = static_cast<std::uint16_t>(view.seen | dependencies);
   view.control = static_cast<std::uint8_t>(view.control | control);
   return entry;
+}
+
+void LineRecord::close(const TiaState& tia, std::int32_t first_clock) {
+  end = tia;
+  hmove_clock = static_cast<std::int16_t>(tia.hmove_clock - static_cast<std::uint32_t>(first_clock));
+  if ((start.cosmic | tia.cosmic) != 0 || (view.seen & kMayBeCosmic) != 0) start.spare[0] = kNever;
 }
 
 std::uint8_t LineRecord::hash() const {
@@ -117,8 +123,7 @@ void LineRecord::summarize(bool pal) {
       case HMP0: case HMP1: case HMM1: case HMBL: motion[reg - HMP0] = write.value() >> 4; break;
       case HMCLR: motion = {}; break;
       case HMOVE:
-        hmove_cycle = static_cast<std::int8_t>(write.cycle());
-        counts |= moved_positions(hmove_cycle, motion);
+        counts |= moved_positions(write.cycle(), motion);
         break;
       // In PAL, all colours have the frame's colour loss in bit 0.
       case COLUP0: case COLUP1: case COLUPF: case COLUBK:
@@ -132,8 +137,9 @@ void LineRecord::summarize(bool pal) {
   if (view.seen & kMoves) counts |= kMotions;
   if (!foreseen) counts |= kForeseen;
   sets |= counts;
-  mask = LineMask::find(counts, sets);
-  if (mask == nullptr) return;
+  const LineMask* const found = LineMask::find(counts, sets);
+  if (found == nullptr) return;
+  mask = found;
   clear_but(start, mask->counts);
   clear_but(end, mask->sets);
   start.spare[0] = foreseen ? 0 : kNever;

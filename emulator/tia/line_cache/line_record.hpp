@@ -49,23 +49,24 @@ constexpr LineNumber kNoLine = 0, kAnyLine = 1;  // of a record without a line; 
 // What is known of a record's line. Each state adds to the one before it.
 enum class LineState : std::uint8_t {
   kOpen,        // nothing that is complete: the line is being drawn, or none has been
-  kDrawn,       // its pixels: a line that looks like it is not drawn, but its writes are played
-  kSummarized,  // its end: the writes of a line that starts with it are not played either
+  kDrawn,       // its pixels, and its end after this start: a line that only looks like it is not drawn, but
+                // its writes are played
+  kSummarized,  // which bytes of its start decide about its end
 };
 
 struct alignas(64) LineRecord {
   static constexpr std::size_t kMostEvents = 16;
 
-  TiaRegisters start;              // at the line's first clock
-  TiaRegisters end;                // when the line is over
-  const LineMask* mask = nullptr;  // set by summarize(): then `start` and `end` are 0 except for the bytes
-                                   // that count, or are set
-  Collisions meetings;             // pairs that met on the line, after the last CXCLR
-  Collisions cleared;              // pairs that met before it
-  LineDependencies view;           // why bytes count
+  TiaRegisters start;  // at the line's first clock
+  TiaRegisters end;    // when the line is over
+  // Set by summarize(): then `start` and `end` are 0 except for the bytes that count, or are set.
+  const LineMask* mask = &LineMask::kWhole;
+  Collisions meetings;    // pairs that met on the line, after the last CXCLR
+  Collisions cleared;     // pairs that met before it
+  LineDependencies view;  // why bytes count
   LineNumber number = kNoLine;
-  std::uint8_t count;       // of events
-  std::int8_t hmove_cycle;  // of the last HMOVE, if the line kMoves
+  std::uint8_t count;  // of events
+  std::int16_t hmove_clock;  // of the last HMOVE, from the line's first clock, if the line kMoves
   std::array<std::uint8_t, 2>
       hashes{};          // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp)
   bool repeats = false;  // the line is that of the row before, and ends as it starts: see is_repetition_of()
@@ -73,17 +74,20 @@ struct alignas(64) LineRecord {
 
   // Derived from what each state brings, so that nothing more is stored.
   LineState state() const {
-    assert(mask == nullptr || number != kNoLine);
+    assert(!is_summarized() || number != kNoLine);
     if (is_open()) return LineState::kOpen;
     return is_summarized() ? LineState::kSummarized : LineState::kDrawn;
   }
   bool is_open() const { return number == kNoLine; }
-  bool is_summarized() const { return mask != nullptr; }
+  bool is_summarized() const { return mask != &LineMask::kWhole; }
 
   void open(const TiaRegisters& registers);
 
   // Takes the writes from `entry` on that affect only this line, up to the capacity. Returns the next one.
   const std::uint32_t* add(const std::uint32_t* entry, std::uint32_t origin);
+
+  // Ends the record of a line that has been drawn. tia: as the line has left it. first_clock: the line's.
+  void close(const TiaState& tia, std::int32_t first_clock);
 
   // A hash of what the line's pixels are made from. Only while it is not summarized.
   std::uint8_t hash() const;
@@ -92,9 +96,8 @@ struct alignas(64) LineRecord {
   // If there are too many masks, the line stays drawn.
   void summarize(bool pal);
 
-  // Whether the registers equal the start in all bytes that count. Only if it is summarized.
+  // Whether the registers equal the start in all bytes that count.
   RACEBEAM_INLINE bool starts_with(const RegisterVectors& registers) const {
-    assert(state() == LineState::kSummarized);
     TwoWords difference{};
     for (std::size_t i = 0; i < 3; ++i)
       difference |=
@@ -103,7 +106,7 @@ struct alignas(64) LineRecord {
   }
 
   // Whether, where the line of the record of the row before exists, this one does too: it is the same line,
-  // without a write, and changes no register that counts. Only if that one is summarized.
+  // without a write, and changes no register that counts.
   bool is_repetition_of(const LineRecord& before) const;
 
   // Compares only the bytes that pixels depend on. The registers may end differently.
@@ -116,7 +119,7 @@ struct alignas(64) LineRecord {
 
   // Replaces the registers at the line's start by those at its end.
   RACEBEAM_INLINE void pass(RegisterVectors& registers) const {
-    assert(state() == LineState::kSummarized && !must_be_played());
+    assert(!is_open() && !must_be_played());
     for (std::size_t i = 0; i < 3; ++i)
       registers.part[i] =
           (registers.part[i] & ~RegisterVectors::of(mask->sets, i)) | RegisterVectors::of(end, i);

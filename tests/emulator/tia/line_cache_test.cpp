@@ -91,6 +91,45 @@ TEST_CASE("A record is open until its line is drawn, and no line starts with one
   CHECK_FALSE(summarized(moving, 0x50).starts_with(RegisterVectors(moving)));
 }
 
+// The record of a line that has been drawn: an HMOVE in cycle 3, and a write of 0 in cycle 10.
+LineRecord drawn(const TiaRegisters& registers, unsigned reg) {
+  LineCache memory;
+  memory.aim(1);
+  LineRecord& record = memory.open(0, registers);
+  const std::uint32_t log[] = {TiaWrite(3, HMOVE, 0).packed(), TiaWrite(10, reg, 0).packed(),
+                               TiaWrite(200, 0, 0).packed()};
+  CHECK(record.add(log, 0) == log + 2);
+  TiaState tia;
+  static_cast<TiaRegisters&>(tia) = registers;
+  tia.hmove_clock = 1009;
+  record.close(tia, 1000);
+  memory.add(record);
+  CHECK(record.state() == LineState::kDrawn);
+  return record;
+}
+
+TEST_CASE("A line that has just been drawn recurs if no register differs") {
+  TiaRegisters registers;
+  registers.player[0].position = 20;
+  const LineRecord record = drawn(registers, COLUBK);
+  CHECK(record.starts_with(RegisterVectors(registers)));
+  CHECK(record.hmove_clock == 9);
+  TiaRegisters hidden = registers;
+  hidden.player[0].position = 21;
+  CHECK_FALSE(record.starts_with(RegisterVectors(hidden)));
+  CHECK(record.looks_like(RegisterVectors(hidden)));
+  RegisterVectors passed(hidden);
+  record.pass(passed);
+  CHECK(passed.bytes_other_than(RegisterVectors(registers)) == 0);
+}
+
+TEST_CASE("A line that may start Cosmic Ark's mode, or has it, is played until it is summarized") {
+  TiaRegisters plain, cosmic;
+  cosmic.cosmic = 1;
+  CHECK_FALSE(drawn(plain, HMM0).starts_with(RegisterVectors(plain)));
+  CHECK_FALSE(drawn(cosmic, COLUBK).starts_with(RegisterVectors(cosmic)));
+}
+
 // The records of two rows: lines of one colour each, without a write, or the second one with one.
 void fill(LineCache& memory, std::uint8_t first, std::uint8_t second, bool writes) {
   memory.begin_frame();
