@@ -334,7 +334,7 @@ std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int
     driven = collision_bits(reg, cycle);
   } else {
     touch_tia(cycle);
-    driven = static_cast<std::uint32_t>(cycle) >= pin_high_from_[reg - 8] ? 0x80 : 0;
+    driven = pin(reg - 8, cycle);
     if (has_gun_ && gun_sees_beam(reg - kFirstButton, cycle)) [[unlikely]]
       driven = 0;
   }

@@ -45,6 +45,13 @@ class Board {
                     std::int32_t cycle);  // plain memory or a device
   std::uint8_t read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
 
+  // INPT0-5, where neither the beam nor the cartridge has to do with them.
+  bool has_plain_pins() const { return has_plain_pins_ && !exact_mode_; }
+  std::uint8_t read_plain_pin(unsigned number, std::uint8_t latch, std::int32_t cycle) {
+    last_access_ = cycle;
+    return static_cast<std::uint8_t>(pin(number, cycle) | (latch & 0x3F));
+  }
+
   // Returns the bytes of the instruction at `pc`. Moves the code window there if plain memory holds them,
   // else reads them over the bus.
   const std::uint8_t* locate_code(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
@@ -125,6 +132,9 @@ class Board {
   void write_port(unsigned reg, std::uint8_t value);
   std::uint8_t read_watched(std::uint16_t address, std::int32_t cycle);
   void write_watched(std::uint16_t address, std::uint8_t value, std::int32_t cycle);
+  std::uint8_t pin(unsigned number, std::int32_t cycle) const {
+    return static_cast<std::uint32_t>(cycle) >= pin_high_from_[number] ? 0x80 : 0;
+  }
   [[gnu::noinline]] bool gun_sees_beam(unsigned side, std::int32_t cycle) const;
   std::int32_t write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
   void close_frame();
@@ -153,6 +163,7 @@ class Board {
   std::array<KnownWindow, 64> known_windows_{};
   Ports ports_;
   const bool has_gun_ = ports_.has_light_gun();
+  const bool has_plain_pins_ = !has_gun_ && !slot.scheme.watches_tia;
   const std::uint32_t unwatched_;  // the bit of addresses that only the RIOT sees; 0 if the cartridge watches
   // From which cycle on each of INPT0-5 reads high, and the two addresses after them, which never do.
   std::array<std::uint32_t, 8> pin_high_from_{};

@@ -65,7 +65,7 @@ struct alignas(64) LineRecord {
   Collisions cleared;     // pairs that met before it
   LineDependencies view;  // why bytes count
   LineNumber number = kNoLine;
-  std::uint8_t count;  // of events
+  std::uint8_t count;        // of events
   std::int16_t hmove_clock;  // of the last HMOVE, from the line's first clock, if the line kMoves
   std::array<std::uint8_t, 2>
       hashes{};          // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp)
