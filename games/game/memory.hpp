@@ -1,9 +1,16 @@
 // The console's memory as a rule reads it, without side effects.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace racebeam {
+
+constexpr std::size_t kRamBytes = 128;
+
+// A part of the RAM: $FF for each byte that belongs to it.
+using RamMask = std::array<std::uint8_t, kRamBytes>;
 
 struct Memory {
   const std::uint8_t* ram = nullptr;  // the 128 bytes at $80-$FF

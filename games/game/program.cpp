@@ -77,6 +77,16 @@ void run(const Program& program, Values& values, const std::int32_t* variables, 
 
 }  // namespace
 
+std::optional<RamMask> ram_read_by(const Program& program) {
+  RamMask read{};
+  for (const Instruction& instruction : program.code) {
+    if (instruction.op == Op::kMemAt) return std::nullopt;
+    if (instruction.op == Op::kRamAt) read.fill(0xFF);
+    if (instruction.op == Op::kRam) read[static_cast<std::size_t>(instruction.value)] = 0xFF;
+  }
+  return read;
+}
+
 std::int32_t apply(Op op, std::int32_t a, std::int32_t b, std::int32_t c) {
   const std::array operands = {a, b, c};
   return value_of({.op = op, .a = 0, .b = 1, .c = 2}, operands.data(), nullptr, {});

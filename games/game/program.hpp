@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "games/game/memory.hpp"
@@ -69,6 +70,9 @@ struct Program {
       outputs;          // copied into the variables at the end, so that all code sees their old values
   Register result = 0;  // of an expression
 };
+
+// The bytes of RAM that the program may read. Nothing if it may read other memory, too.
+std::optional<RamMask> ram_read_by(const Program& program);
 
 // Applies an operator in 32-bit two's complement, which wraps. A division by 0 gives 0, and so does its
 // remainder. Shifts use the low five bits of the count. Not for loads.

@@ -14,6 +14,7 @@ Rule::Rule(const Game& game) : program_(game.rule ? &*game.rule : nullptr) { res
 
 void Rule::reset() {
   if (!program_) return;
+  is_settled_ = false;
   std::int32_t* value = state_.values.data();
   for (const Variable& variable : program_->variables) {
     if (!variable.kept) *value = variable.initial;
@@ -22,7 +23,20 @@ void Rule::reset() {
 }
 
 void Rule::step(const Memory& memory) {
-  if (program_) execute(program_->step, state_.values.data(), memory);
+  if (!program_ || would_change_nothing(memory.ram)) return;
+  const RuleState before = state_;
+  execute(program_->step, state_.values.data(), memory);
+  is_settled_ = program_->inputs && state_ == before;
+  if (is_settled_) std::ranges::copy_n(memory.ram, kRamBytes, settled_ram_.begin());
+}
+
+// Most frames change no byte that the rule reads.
+bool Rule::would_change_nothing(const std::uint8_t* ram) const {
+  if (!is_settled_) return false;
+  unsigned changed = 0;
+  for (std::size_t i = 0; i < kRamBytes; ++i)
+    changed |= static_cast<unsigned>((ram[i] ^ settled_ram_[i]) & (*program_->inputs)[i]);
+  return changed == 0;
 }
 
 int Rule::reward() const { return state_.values[kRewardSlot]; }

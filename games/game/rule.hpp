@@ -39,8 +39,9 @@ struct NamedByte {
 struct RuleProgram {
   std::vector<Variable> variables;  // variable n is RuleState::values[n]
   Program step;
-  Program terminal, lives;       // for queries; they read variables only
-  std::optional<int> reward_b;   // the variable with player B's reward, if the rule has one
+  std::optional<RamMask> inputs;  // all memory that `step` reads, if that is RAM only
+  Program terminal, lives;        // for queries; they read variables only
+  std::optional<int> reward_b;    // the variable with player B's reward, if the rule has one
   std::vector<NamedByte> bytes;  // in the order of their indices; where several variables read one, the first
 };
 
@@ -65,11 +66,20 @@ class Rule {
   bool keeps_variables() const;  // whether a variable persists over resets
 
   const RuleState& state() const { return state_; }
-  void restore(const RuleState& state) { state_ = state; }
+  void restore(const RuleState& state) {
+    state_ = state;
+    is_settled_ = false;
+  }
 
  private:
+  bool would_change_nothing(const std::uint8_t* ram) const;
+
   const RuleProgram* program_;  // null: the game has no rule
   RuleState state_;
+  // The last step() changed no variable, and read these bytes. With the same bytes, the next one changes
+  // none.
+  bool is_settled_ = false;
+  RamMask settled_ram_{};
 };
 
 }  // namespace racebeam

@@ -83,6 +83,7 @@ RuleProgram RuleCompiler::finish() {
   for (const auto& [name, value] : step_scope_.values)
     if (const std::optional<int> slot = names_.slot_if_used(name)) step_.output(*slot, value);
   rule_.step = step_.finish();
+  rule_.inputs = ram_read_by(rule_.step);
   return std::move(rule_);
 }
 

@@ -77,6 +77,51 @@ TEST_CASE("lives at the beginning do not count what is kept from earlier episode
   CHECK(rule.lives() == 5);
 }
 
+TEST_CASE("a step that would change nothing is left out, and no other one is") {
+  const Game game =
+      game_with_step("score = ram[0x80]\nn = n + ram[0x81]\nlives = n\nterminal = ram[0x82]", "lives = 'n'");
+  FakeMemory memory;
+  Rule rule(game);
+  const RuleState first = rule.state();
+  memory[0x80] = 4;
+  for (const int reward : {4, 0, 0}) {
+    rule.step(memory.memory());
+    CHECK(rule.reward() == reward);
+  }
+  memory[0x90] = 1;  // not read
+  rule.step(memory.memory());
+  CHECK(rule.reward() == 0);
+  rule.restore(first);  // with the same bytes, but another score before
+  rule.step(memory.memory());
+  CHECK(rule.reward() == 4);
+  rule.step(memory.memory());
+  rule.step(memory.memory());
+  rule.reset();
+  rule.step(memory.memory());
+  CHECK(rule.reward() == 4);
+  memory[0x81] = 1;  // changes a variable in each frame
+  for (const int lives : {1, 2, 3}) {
+    rule.step(memory.memory());
+    CHECK(rule.lives() == lives);
+  }
+  memory[0x82] = 1;
+  rule.step(memory.memory());
+  CHECK(rule.terminal());
+}
+
+TEST_CASE("a byte that a rule reads through another one, or on the bus, is never taken for the same") {
+  const Game through = game_with_step("x = ram[ram[0x80]]\nreward = x\nterminal = 0");
+  FakeMemory memory;
+  Rule rule(through);
+  memory[0x80] = 0x85;
+  for (int frame = 0; frame < 3; ++frame) rule.step(memory.memory());
+  memory[0x85] = 7;
+  rule.step(memory.memory());
+  CHECK(rule.reward() == 7);
+  CHECK(through.rule->inputs);
+  CHECK_FALSE(game_with_step("reward = mem[0x1000 + ram[0x80]]\nterminal = 0").rule->inputs);
+}
+
 // What a rule reads last stays on the bus.
 TEST_CASE("the byte that a rule reads last is known unless an address depends on values") {
   const auto last = [](const std::string& reward) {
