@@ -65,7 +65,8 @@ void Host::append_change(unsigned reg, Reg value, int cycles) {
       as_.and_(as_.edx, WriteLog::kUnknown | 0xFF);
       as_.cmp(as_.edx, reg_of(value));
       as_.je(same_value);
-      as_.or_(as_.byte[as_.r15 + place_of_written(other) + 1], WriteLog::kUnsettled >> 8);
+      // As a word: after a store of one of its bytes, the next load of the word would wait for the memory.
+      as_.or_(as_.word[as_.r15 + place_of_written(other)], WriteLog::kUnsettled);
       as_.L(same_value);
     }
   }
