@@ -66,8 +66,7 @@ void check_hex_and_runs(Bytes bytes) {
   const std::string digits = written(hex(Simd::kPlain), bytes), lengths = written(runs(Simd::kPlain), bytes);
   require(same(bytes_of_hex(digits), bytes), "hex gives back what it was made of");
   require(same(runs_of(bytes_of_hex(lengths)), bytes), "runs give back what they were made of");
-  for (const Simd form : {Simd::kAvx2, Simd::kAvx512}) {
-    if (form > best_simd()) break;
+  for (const Simd form : supported_simd()) {
     require(written(hex(form), bytes) == digits, "all forms of append_hex are the same");
     require(written(runs(form), bytes) == lengths, "all forms of append_run_length are the same");
   }

@@ -1,36 +1,16 @@
 #include "environment/observe/area_resize.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 
-#if RACEBEAM_HAS_AVX
-#include <immintrin.h>
-#endif
+#include "environment/observe/area_resize_rows.hpp"
 
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kSlots = 32;  // reduced rows in the ring: more than a target has taps
 constexpr int kMostShrinking = static_cast<int>(kSlots) - 3;
-
-// Rounds half to even, as the processor does: from 1.5 * 2^23 on, a float's last bit is worth 1.
-std::uint8_t rounded(float value) {
-  return static_cast<std::uint8_t>(std::bit_cast<std::uint32_t>(value + 12582912.0F));
-}
-
-[[gnu::always_inline]] inline bool same(const std::uint8_t* a, const std::uint8_t* b, std::size_t size) {
-  std::uint64_t difference = 0, left, right;
-  for (; size >= 8; size -= 8, a += 8, b += 8) {
-    std::memcpy(&left, a, 8);
-    std::memcpy(&right, b, 8);
-    difference |= left ^ right;
-  }
-  return difference == 0 && std::memcmp(a, b, size) == 0;
-}
 
 void check(int width, int height, int to_width, int to_height) {
   if (to_width > 0 && to_height > 0 && to_width <= width && to_height <= height &&
@@ -75,7 +55,7 @@ AreaResize::AreaResize(int width, int height, int to_width, int to_height, Simd 
     : width_((check(width, height, to_width, to_height), static_cast<std::size_t>(width))),
       columns_(width, to_width),
       rows_(height, to_height) {
-  if (form >= Simd::kAvx2 && fits_octets()) make_octets();
+  if (form != Simd::kPlain && fits_octets()) make_octets();
 }
 
 // The taps of four targets must be within 16 bytes of a row.
@@ -118,40 +98,6 @@ void AreaResize::reduce_plain(const std::uint8_t* row, float* to) const {
   }
 }
 
-// Each source row is reduced to the targets' width, then rows are added. Repeated rows are common.
-template <typename Reduce>
-[[gnu::always_inline]] inline void AreaResize::run(const std::uint8_t* in, std::uint8_t* out,
-                                                   std::span<const std::uint8_t> rows, Reduce reduce) const {
-  alignas(32) std::array<std::array<float, kWidest>, kSlots> slots;
-  alignas(32) std::array<float, kWidest> sum;
-  std::array<const float*, kSlots> reduced{};  // source row y: reduced[y % kSlots]
-  std::size_t end = 0, begin = 0, slot = 0;    // the rows from `begin` to `end` are reduced
-  const std::size_t targets = columns_.first.size();
-  for (std::size_t y = 0; y < rows_.first.size(); ++y, out += targets) {
-    if (!rows.empty() && rows[y] == 0) continue;
-    const std::size_t first = rows_.first[y];
-    if (end < first) end = begin = first;
-    std::fill_n(sum.data(), targets, 0.0F);
-    for (std::size_t tap = 0; tap < rows_.taps; ++tap) {
-      const float weight = rows_.weights[y * rows_.taps + tap];
-      if (weight == 0) continue;
-      for (; end <= first + tap; ++end) {
-        const std::uint8_t* row = in + end * width_;
-        if (end > begin && same(row, row - width_, width_)) {
-          reduced[end % kSlots] = reduced[(end - 1) % kSlots];
-        } else {
-          reduced[end % kSlots] = slots[slot].data();
-          reduce(row, slots[slot].data());
-          slot = (slot + 1) % kSlots;
-        }
-      }
-      const float* const row = reduced[(first + tap) % kSlots];
-      for (std::size_t x = 0; x < targets; ++x) sum[x] += weight * row[x];
-    }
-    for (std::size_t x = 0; x < targets; ++x) out[x] = rounded(sum[x]);
-  }
-}
-
 void AreaResize::depending(std::span<const std::uint8_t> changed, std::span<std::uint8_t> rows) const {
   for (std::size_t y = 0; y < rows_.first.size(); ++y) {
     const auto sources = changed.subspan(rows_.first[y], rows_.taps);
@@ -164,33 +110,14 @@ void AreaResize::run_plain(const std::uint8_t* in, std::uint8_t* out,
   run(in, out, rows, [this](const std::uint8_t* row, float* to) { reduce_plain(row, to); });
 }
 
-#if RACEBEAM_HAS_AVX
-[[gnu::target("avx2")]] void AreaResize::reduce_avx2(const std::uint8_t* row, float* to) const {
-  for (const Octet& octet : octets_) {
-    const __m256i cells = _mm256_loadu2_m128i(reinterpret_cast<const __m128i*>(row + octet.from[1]),
-                                              reinterpret_cast<const __m128i*>(row + octet.from[0]));
-    __m256 sum = _mm256_setzero_ps();
-    for (std::size_t tap = 0; tap < octet.places.size(); ++tap) {
-      const __m256i places = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(octet.places[tap].data()));
-      const __m256 cell = _mm256_cvtepi32_ps(_mm256_shuffle_epi8(cells, places));
-      sum = _mm256_add_ps(sum, _mm256_mul_ps(cell, _mm256_loadu_ps(octet.weights[tap].data())));
-    }
-    _mm256_storeu_ps(to, sum);
-    to += 8;
-  }
-}
-
-[[gnu::target("avx2")]] void AreaResize::run_avx2(const std::uint8_t* in, std::uint8_t* out,
-                                                  std::span<const std::uint8_t> rows) const {
-  run(in, out, rows, [this](const std::uint8_t* row, float* to) { reduce_avx2(row, to); });
-}
-#endif
-
 void AreaResize::operator()(std::span<const std::uint8_t> in, std::span<std::uint8_t> out,
                             std::span<const std::uint8_t> rows) const {
-#if RACEBEAM_HAS_AVX
-  if (!octets_.empty()) return run_avx2(in.data(), out.data(), rows);
-#endif
+  if constexpr (kHasAvx) {
+    if (!octets_.empty()) return run_avx2(in.data(), out.data(), rows);
+  }
+  if constexpr (kHasNeon) {
+    if (!octets_.empty()) return run_neon(in.data(), out.data(), rows);
+  }
   run_plain(in.data(), out.data(), rows);
 }
 

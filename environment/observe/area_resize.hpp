@@ -40,8 +40,8 @@ class AreaResize {
   void depending(std::span<const std::uint8_t> changed, std::span<std::uint8_t> rows) const;
 
  private:
-  // Eight target columns for AVX2. The source bytes of the first four, and those of the others, are within 16
-  // bytes.
+  // Eight target columns, for vectors. The source bytes of the first four, and those of the others, are
+  // within 16 bytes.
   struct Octet {
     std::array<std::size_t, 2> from;
     std::vector<std::array<std::uint8_t, 32>>
@@ -56,8 +56,10 @@ class AreaResize {
            Reduce reduce) const;
   void run_plain(const std::uint8_t* in, std::uint8_t* out, std::span<const std::uint8_t> rows) const;
   void run_avx2(const std::uint8_t* in, std::uint8_t* out, std::span<const std::uint8_t> rows) const;
+  void run_neon(const std::uint8_t* in, std::uint8_t* out, std::span<const std::uint8_t> rows) const;
   void reduce_plain(const std::uint8_t* row, float* to) const;
   void reduce_avx2(const std::uint8_t* row, float* to) const;
+  void reduce_neon(const std::uint8_t* row, float* to) const;
 
   std::size_t width_;
   AreaAxis columns_, rows_;

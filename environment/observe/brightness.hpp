@@ -15,11 +15,9 @@ using BrightnessTable = GreyTable;
 
 class Brightness {
  public:
-  // `table` must outlive it.
+  // `table` must outlive it. Simd::kAvx512 has a form of its own only with AVX512_VBMI (has_vbmi()); without
+  // that, it is as kAvx2.
   explicit Brightness(const BrightnessTable& table, Simd form = simd());
-
-  // Whether Simd::kAvx512 has a form of its own here. It takes AVX512_VBMI; without that, it is as kAvx2.
-  static bool has_vbmi();
 
   std::uint8_t of(std::uint8_t pixel) const { return (*table_)[pixel]; }
   // Each takes 160 palette indices, and gives 160 bytes.
@@ -29,13 +27,17 @@ class Brightness {
   }
 
  private:
-  struct Forms;
+  struct Plain;  // brightness_plain.hpp; the others: brightness_x86.cpp, brightness_neon.cpp
+  struct X86;
+  struct Neon;
   template <std::size_t pictures>
   using Rows = std::array<const std::uint8_t*, pictures>;
   template <std::size_t pictures>
   using Make = void (*)(const Brightness&, const Rows<pictures>& rows, std::uint8_t* to);
 
-  void make_steps(const BrightnessTable& table);
+  void use_x86(Simd form);
+  void make_steps();
+  void use_neon();
 
   const BrightnessTable* table_;
   Make<1> make_;

@@ -7,24 +7,14 @@
 #include <bit>
 #include <cstring>
 
-#include "protocol/encoding/hex_pairs.hpp"
 #include "protocol/encoding/text.hpp"
-
-#if RACEBEAM_HAS_AVX
-#include <immintrin.h>
-#endif
+#include "protocol/encoding/text_forms.hpp"
 
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kRow = 160;
 constexpr std::size_t kRowsAtOnce = 64;
 constexpr std::int32_t kLongestRun = 255;
-
-struct RowFacts {
-  std::array<std::uint32_t, 5> begins;  // bit i of all words: pixel i differs from the one before it
-  std::uint32_t repeats;                // 1: the row equals the one above
-};
 
 // Bit i: byte i of `word` is not zero.
 std::uint32_t nonzero_bytes(std::uint64_t word) {
@@ -58,28 +48,13 @@ void find_plain(const std::uint8_t* row, std::size_t count, RowFacts* facts) {
   }
 }
 
-#if RACEBEAM_HAS_AVX
-[[gnu::target("avx2")]] void find_avx2(const std::uint8_t* row, std::size_t count, RowFacts* facts) {
-  for (; count > 0; --count, row += kRow, ++facts) {
-    __m256i differences = _mm256_setzero_si256();
-    for (std::size_t i = 0; i < kRow; i += 32) {
-      const auto* const here = reinterpret_cast<const __m256i*>(row + i);
-      const auto* const before = reinterpret_cast<const __m256i*>(row + i - 1);
-      const auto* const above = reinterpret_cast<const __m256i*>(row + i - kRow);
-      const __m256i pixels = _mm256_loadu_si256(here);
-      const __m256i same = _mm256_cmpeq_epi8(pixels, _mm256_loadu_si256(before));
-      facts->begins[i / 32] = ~static_cast<std::uint32_t>(_mm256_movemask_epi8(same));
-      differences = _mm256_or_si256(differences, _mm256_xor_si256(pixels, _mm256_loadu_si256(above)));
-    }
-    facts->repeats = static_cast<std::uint32_t>(_mm256_testz_si256(differences, differences));
-  }
-}
-#endif
-
 void find_facts(const std::uint8_t* row, std::size_t count, RowFacts* facts, [[maybe_unused]] Simd form) {
-#if RACEBEAM_HAS_AVX
-  if (form >= Simd::kAvx2) return find_avx2(row, count, facts);
-#endif
+  if constexpr (kHasAvx) {
+    if (form >= Simd::kAvx2) return find_avx2(row, count, facts);
+  }
+  if constexpr (kHasNeon) {
+    if (form == Simd::kNeon) return find_neon(row, count, facts);
+  }
   find_plain(row, count, facts);
 }
 

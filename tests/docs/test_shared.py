@@ -14,7 +14,7 @@ CACHE = (BUILD / "CMakeCache.txt").read_text() if (BUILD / "CMakeCache.txt").exi
 LISTED = ROOT / "docs/architecture.md"
 
 # Functions and objects that hold values which are computed once, and then only read.
-CONSTANTS = {"PixelMask::kBelow", "blend", "simd", "executable_memory_error"}
+CONSTANTS = {"PixelMask::kBelow", "blend", "simd", "supported_simd", "executable_memory_error"}
 
 MEMBER = re.compile(r"^(?P<file>\S+\.cpp)\.o: +file format")
 OBJECT = re.compile(r"^[0-9a-f]+ .{6}O \.(?:bss|data|tm_clone)\S*\s+[0-9a-f]+\s+(?:\.hidden )?(?P<name>.*)$")

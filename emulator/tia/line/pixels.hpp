@@ -1,4 +1,4 @@
-// Converts a line's layers to bytes of the picture: portable, with AVX2, and with AVX-512.
+// Converts a line's layers to bytes of the picture: portable, with NEON, with AVX2, and with AVX-512.
 #pragma once
 
 #include <cstdint>
