@@ -19,6 +19,7 @@ namespace {
 constexpr DWORD kShared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
 constexpr DWORD kMark = FILE_ATTRIBUTE_TEMPORARY;  // also keeps small files in memory, which these are
 constexpr int kTries = 100;
+constexpr DWORD kPause = 10;  // milliseconds between tries to replace a file
 
 bool did(BOOL succeeded) {
   if (succeeded == 0) errno = reason_of(GetLastError());
@@ -136,9 +137,16 @@ void open_folder_to_all(const std::string&) {}
 bool remove_folder(const std::string& path) { return did(RemoveDirectoryW(name_of(path).c_str())); }
 
 bool rename_anew(const std::string& from, const std::string& to) { return rename(from, to, 0); }
+
+// The system replaces no file that a reader has open. A reader soon closes it.
 bool rename_over(const std::string& from, const std::string& to) {
-  return rename(from, to, MOVEFILE_REPLACE_EXISTING);
+  for (int tries = 1; !rename(from, to, MOVEFILE_REPLACE_EXISTING); ++tries) {
+    if (errno != EACCES || tries == kTries) return false;
+    Sleep(kPause);
+  }
+  return true;
 }
+
 bool remove_file(const std::string& path) { return did(DeleteFileW(name_of(path).c_str())); }
 
 FileMark mark_of(const std::string& path) {
