@@ -20,7 +20,7 @@ constexpr std::size_t kSize = 5000;
 
 std::string text_of(char letter) { return std::string(kSize, letter); }
 
-// What a reader sees who lets others rename the file meanwhile; empty if there is none.
+// What a reader sees who lets others rename the file meanwhile; empty if the file is missing.
 std::string seen(const std::string& path) {
   const int file = open_own_file(path);
   if (file < 0) return {};
@@ -40,7 +40,7 @@ TEST_CASE("A file that is renamed over another replaces it") {
   CHECK_FALSE(std::filesystem::exists(next));
 }
 
-TEST_CASE("A reader of a file that is replaced again and again sees one of them whole, and never none") {
+TEST_CASE("A reader of a file that is replaced again and again always sees a whole one") {
   const Scratch folder;
   const std::string path = folder.write("file", text_of('a')), next = folder.path("next");
   int replaced = 0;
@@ -65,7 +65,7 @@ TEST_CASE("A reader of a file that is replaced again and again sees one of them 
   CHECK(seen(path) == text_of('z'));
 }
 
-TEST_CASE("A file that is to be new replaces none") {
+TEST_CASE("A file that is to be new does not replace another") {
   const Scratch folder;
   const std::string path = folder.write("file", text_of('a')), next = folder.write("next", text_of('b'));
   CHECK_FALSE(rename_anew(next, path));
