@@ -15,6 +15,7 @@ constexpr std::size_t kMost = 1 << 14;
 
 struct Key {
   ByteSet counts = 0, sets = 0;
+  // NOLINTNEXTLINE(modernize-use-nullptr): a fault of clang-tidy 14
   auto operator<=>(const Key&) const = default;
 };
 
