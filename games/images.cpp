@@ -27,30 +27,30 @@ void Images::add_built_in(const std::vector<std::shared_ptr<const Game>>& own) {
   for (const BuiltInImage& one : builtin_images()) {
     auto image = load_image("builtin:" + std::string(one.name));
     const Recognition recognition = recognise_among(*image, own);
-    add(std::move(image), recognition, {});
+    add(image, recognition, {});
   }
 }
 
 void Images::add_file(const std::string& path, const std::optional<std::string>& game,
                       const std::optional<std::string>& game_file, const GivenProperties& console) {
-  auto image = load_image(path);
+  const auto image = load_image(path);
   const Recognition recognition = recognise(*image, game, game_file);
-  add(std::move(image), recognition, console);
+  add(image, recognition, console);
 }
 
 void Images::add_folder(const std::string& folder, const std::vector<std::shared_ptr<const Game>>& own) {
   for (const std::string& path : image_files(folder)) {
     try {
-      auto image = load_image(path);
+      const auto image = load_image(path);
       const Recognition recognition = recognise_among(*image, own);
-      add(std::move(image), recognition, {});
+      add(image, recognition, {});
     } catch (const InvalidInput&) {
       continue;  // `racebeam roms` reports the error
     }
   }
 }
 
-void Images::add(std::shared_ptr<const Image> image, const Recognition& recognition,
+void Images::add(const std::shared_ptr<const Image>& image, const Recognition& recognition,
                  const GivenProperties& console) {
   const int certainty = certainty_of(recognition.how);
   const Cartridge cartridge{image, with_given(recognition.game, *image, console)};

@@ -41,7 +41,7 @@ class Images {
   std::vector<std::string> warnings() const;  // a warning for each image that another image's rule scores
 
  private:
-  void add(std::shared_ptr<const Image> image, const Recognition& recognition,
+  void add(const std::shared_ptr<const Image>& image, const Recognition& recognition,
            const GivenProperties& console);
 
   struct Entry {

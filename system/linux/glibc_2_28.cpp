@@ -56,8 +56,8 @@ int fstat(int file, struct stat* to) noexcept { return static_cast<int>(syscall(
 int fstat64(int file, struct stat64* to) noexcept { return static_cast<int>(syscall(SYS_fstat, file, to)); }
 
 // 2.32: whether counters of references need no atomic instructions, since the process has one thread.
-extern char __libc_single_threaded;
-char __libc_single_threaded = 0;
+extern char __libc_single_threaded;  // NOLINT(bugprone-reserved-identifier): the library's name
+char __libc_single_threaded = 0;     // NOLINT(bugprone-reserved-identifier)
 
 // 2.30: wait until a time of this clock. The wait is by the clock of the day; it goes on if somebody has set
 // that forward.
