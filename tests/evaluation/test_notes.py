@@ -7,10 +7,10 @@ import package
 package.require()
 
 import pandas as pd
+from made_scores import curves_of, results_of
 from racebeam_evaluation import notes, paired
 from racebeam_evaluation.normalise import Ranges
 from racebeam_evaluation.scores import Group, scores_of
-from test_statistics import curves_of, results_of
 
 BOTH = Group("learning", ("basic", "bass"))
 
