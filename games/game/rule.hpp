@@ -79,7 +79,7 @@ class Rule {
   // The last step() changed no variable, and read these bytes. With the same bytes, the next one changes
   // none.
   bool is_settled_ = false;
-  RamMask settled_ram_{};
+  std::array<std::uint8_t, kRamBytes> settled_ram_{};
 };
 
 }  // namespace racebeam

@@ -22,6 +22,7 @@ namespace racebeam {
     facts->repeats = static_cast<std::uint32_t>(_mm256_testz_si256(differences, differences));
   }
 }
+
 // Nibbles are looked up, then the digits of both nibbles are interleaved. AVX2 does that in each 128 bits
 // separately, so the four groups of eight bytes are first brought into the order 0 2 1 3.
 [[gnu::target("avx2")]] void write_hex_avx2(char* to, const std::uint8_t* bytes, std::size_t count) {

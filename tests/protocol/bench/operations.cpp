@@ -89,18 +89,34 @@ void with_pictures(Player& player, int times, Operation operation) {
   for (int i = 0; i < times; ++i) operation(pictures[static_cast<std::size_t>(i) % pictures.size()]);
 }
 
-void planes(Player& player, int times, bool reduced) {
-  const auto height = static_cast<std::size_t>(player.machine().height());
-  const Brightness brightness(grey_table(player.machine().format()));
+// Makes the brighter of a picture and the one before it.
+class PlaneMaker {
+ public:
+  explicit PlaneMaker(Environment& machine)
+      : brightness_(grey_table(machine.format())), stale_(static_cast<std::size_t>(machine.height()), 1) {}
+
+  void make(const Pictures& of, Screen& plane) const {
+    make_brighter_plane(of.screen, of.previous, brightness_, stale_, plane);
+  }
+
+ private:
+  Brightness brightness_;
+  Screen stale_;  // all rows
+};
+
+void planes(Player& player, int times) {
+  const PlaneMaker maker(player.machine());
+  Screen plane(player.machine().screen().size());
+  with_pictures(player, times, [&](const Pictures& of) { maker.make(of, plane); });
+}
+
+void resizes(Player& player, int times) {
+  const PlaneMaker maker(player.machine());
   const AreaResize resize(kScreenWidth, player.machine().height(), kSmallSide, kSmallSide);
-  Screen plane(height * kScreenWidth), small(kSmallSide * kSmallSide);
-  const Screen stale(height, 1);
-  std::vector<Screen> made;
-  with_pictures(player, reduced ? 60 : times, [&](const Pictures& of) {
-    make_brighter_plane(of.screen, of.previous, brightness, stale, plane);
-    if (reduced) made.push_back(plane);
-  });
-  for (int i = 0; reduced && i < times; ++i) resize(made[static_cast<std::size_t>(i) % made.size()], small);
+  std::vector<Screen> planes;
+  for (const Pictures& of : pictures_of(player)) maker.make(of, planes.emplace_back(of.screen.size()));
+  Screen small(kSmallSide * kSmallSide);
+  for (int i = 0; i < times; ++i) resize(planes[static_cast<std::size_t>(i) % planes.size()], small);
 }
 
 template <typename Append>
@@ -116,8 +132,8 @@ int run(std::string_view operation, int times, std::string_view game) {
   Player player(game);
   if (operation == "frame") return frames(player, times), 0;
   if (operation == "step") return steps(player, times), 0;
-  if (operation == "brighter") return planes(player, times, false), 0;
-  if (operation == "resize") return planes(player, times, true), 0;
+  if (operation == "brighter") return planes(player, times), 0;
+  if (operation == "resize") return resizes(player, times), 0;
   if (operation == "runs")
     return texts(player, times, [](std::string& out, const Screen& of) { append_run_length(out, of); }), 0;
   if (operation == "hex")
