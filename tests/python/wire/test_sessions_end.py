@@ -155,7 +155,10 @@ def await_system_call(thread):
     futex = {"x86_64": "202", "aarch64": "98"}[platform.machine()]
     until = time.monotonic() + PATIENCE
     while thread.is_alive() and time.monotonic() < until:
-        call = pathlib.Path(f"/proc/self/task/{thread.native_id}/syscall").read_text().split()[0]
+        try:
+            call = pathlib.Path(f"/proc/self/task/{thread.native_id}/syscall").read_text().split()[0]
+        except (FileNotFoundError, ProcessLookupError):  # it has just ended
+            return
         if call not in ("running", futex):
             return
         time.sleep(0.001)

@@ -41,6 +41,7 @@ describe("the view Play", () => {
     await page.locator("#replay-this").click();
     await page.locator("#decks").getByText(`score 0 of ${score} `).waitFor();
     await page.getByRole("link", { name: "Play", exact: true }).click();
+    await page.locator("#stage").waitFor(); // while it is hidden, it takes no focus
     await page.locator("#stage").focus();
   }
 
