@@ -1,4 +1,4 @@
-// The x86-64 assembler of one batch of blocks, and what Host needs of it. Registers:
+// What Host needs of the assembler. Registers:
 //   rbx   Board*
 //   ebp   the cycle, without those that are to be added (BlockEmitter::elapsed_)
 //   r8d   N and Z as one number, see Context::nz
@@ -9,39 +9,11 @@
 //   eax   address, SP or byte; ecx offset or latch; esi the data bus that is kept; edx, rsi pages and blocks
 #pragma once
 
-#include <xbyak/xbyak.h>
-
 #include <cstdint>
-#include <unordered_map>
 
-#include "emulator/translator/layout.hpp"
-#include "emulator/translator/window.hpp"
+#include "emulator/translator/x86_64/assembler.hpp"
 
 namespace racebeam::translator::x86_64 {
-
-using Label = Xbyak::Label;
-using AssemblyError = Xbyak::Error;  // the memory is full
-
-class Assembler : public Xbyak::CodeGenerator {
- public:
-  // Writes to `memory`. out: the exit stub, which translated code jumps to when it ends. eax then holds the
-  // PC, and kInterpretNext if the interpreter must execute the next instruction.
-  Assembler(void* memory, std::size_t size, const Layout& places, const Window& seen, const void* out)
-      : CodeGenerator(size, memory), layout(places), window(seen), exit_stub(out) {}
-
-  const Layout& layout;
-  const Window& window;
-  const void* exit_stub;
-  std::unordered_map<std::uint16_t, Label> blocks;  // of this batch, by address
-
-  std::size_t size() const { return getSize(); }
-  const void* address_of(std::uint16_t block) { return blocks[block].getAddress(); }
-
-  using CodeGenerator::byte;
-  using CodeGenerator::word;
-  Xbyak::Address byte_of(std::int32_t place) { return byte[rbx + place]; }
-  Xbyak::Address dword_of(std::int32_t place) { return dword[rbx + place]; }
-};
 
 class Processor {
  public:
