@@ -48,7 +48,7 @@ RACEBEAM_TUNED(int, kMostBlockCycles, 300, "cycles", "frames");
 
 // What a machine has when it starts. Most games have then translated the code that they begin with before
 // they have run for a few frames.
-RACEBEAM_TUNED(std::int64_t, kCredit, 800'000, "ns", "start");
+RACEBEAM_TUNED(std::int64_t, kCredit, 750'000, "ns", "start");
 // The part of the credit that pays for what the system does for the memory of the code, which is not charged:
 // pages of short-lived machines.
 RACEBEAM_TUNED(std::int64_t, kStartCost, 200'000, "ns", "start");
@@ -106,6 +106,8 @@ RACEBEAM_TUNED(std::int64_t, kTrialMargin, 4, "parts", "frames");
 RACEBEAM_TUNED(int, kShortestPause, 4, "steps", "frames");
 // The same while it wins; the pause doubles up to this.
 RACEBEAM_TUNED(int, kLongestPause, 1024, "steps", "frames");
+// Where the other way takes more than twice as long, the pause grows by this factor instead.
+RACEBEAM_TUNED(int, kFastGrowth, 8, "times", "start");
 // The same while steps are interpreted: code that pays is soon found again.
 RACEBEAM_TUNED(int, kLongestTried, 64, "steps", "frames");
 // Steps before the first trial: translation of a game's inner loops needs some of them.

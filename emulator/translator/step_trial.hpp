@@ -45,7 +45,8 @@ class StepTrial {
     const bool other_wins = other + other / tuning::kTrialMargin < present;
     lost_ = other_wins ? lost_ + 1 : 0;
     const int longest = interprets_ ? tuning::kLongestTried : tuning::kLongestPause;
-    pause_ = other_wins ? tuning::kShortestPause : std::min(2 * pause_, longest);
+    const int growth = other > 2 * present ? tuning::kFastGrowth : 2;
+    pause_ = other_wins ? tuning::kShortestPause : std::min(growth * pause_, longest);
     if (lost_ == tuning::kRoundsToLose) interprets_ = !interprets_, lost_ = 0;
     trials_ = kTrialsOfRound;
     if (lost_ == 0) least_ = kUnknown;

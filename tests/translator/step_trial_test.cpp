@@ -67,6 +67,10 @@ TEST_CASE("The first trial comes after 128 steps, and four of them are a round, 
         std::vector{129, 136, 143, 150, 161, 172, 183, 194, 213, 232, 251});
 }
 
+TEST_CASE("Pauses grow eightfold where the other way takes more than twice as long") {
+  CHECK(interpreted_steps(700, 100, 201) == std::vector{129, 136, 143, 150, 185, 220, 255, 290, 549});
+}
+
 TEST_CASE("Pauses between trials are no longer than 1024 steps") {
   CHECK(interpreted_steps(50000, 100, 200).size() - interpreted_steps(50000 - 10 * 1027, 100, 200).size() ==
         10);
