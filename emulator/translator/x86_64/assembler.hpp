@@ -1,5 +1,5 @@
-// The x86-64 assembler of one batch of blocks: Xbyak, with labels of our own. Those of Xbyak allocate memory for
-// each label and for each jump.
+// The x86-64 assembler of one batch of blocks: Xbyak, with labels of our own. Those of Xbyak allocate memory
+// for each label and for each jump.
 #pragma once
 
 #include <xbyak/xbyak.h>
@@ -78,7 +78,8 @@ class Assembler : public Xbyak::CodeGenerator {
 
   Target& target(Label& label);
   void jump_if(unsigned condition, Label& to, LabelType type) {
-    jump({static_cast<std::uint8_t>(0x70 | condition), static_cast<std::uint8_t>(0x80 | condition), true}, to, type);
+    jump({static_cast<std::uint8_t>(0x70 | condition), static_cast<std::uint8_t>(0x80 | condition), true}, to,
+         type);
   }
   void jump(const Opcodes& opcodes, Label& to, LabelType type);
   void write_jump(const Opcodes& opcodes, bool is_short);
