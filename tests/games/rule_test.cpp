@@ -7,7 +7,6 @@
 #include "tests/games/game_text.hpp"
 
 using namespace racebeam;
-using Catch::Contains;
 
 static_assert(std::is_trivially_copyable_v<RuleState>);
 
