@@ -156,11 +156,22 @@ constexpr auto lower_bound(Range&& range, const Value& value, Order order = {}, 
   return std::lower_bound(std::begin(range), std::end(range), value, is_before);
 }
 
+template <typename Range, typename Value>
+constexpr auto upper_bound(Range&& range, const Value& value) {
+  return std::upper_bound(std::begin(range), std::end(range), value);
+}
+
 template <typename Range, typename Out>
 constexpr auto copy(Range&& range, Out out) {
   auto at = std::begin(range);
   for (; at != std::end(range); ++at, ++out) *out = *at;
   return in_out_result<decltype(at), Out>{at, out};
+}
+
+template <typename In, typename Size, typename Out>
+constexpr auto copy_n(In in, Size count, Out out) {
+  for (; count > 0; --count, ++in, ++out) *out = *in;
+  return in_out_result<In, Out>{in, out};
 }
 
 template <typename Range, typename Out, typename Function>
