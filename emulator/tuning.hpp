@@ -106,10 +106,10 @@ RACEBEAM_TUNED(std::int64_t, kTrialMargin, 4, "parts", "frames");
 RACEBEAM_TUNED(int, kShortestPause, 4, "steps", "frames");
 // The same while it wins; the pause doubles up to this.
 RACEBEAM_TUNED(int, kLongestPause, 1024, "steps", "frames");
-// Where the other way takes more than twice as long, the pause grows by this factor instead.
-RACEBEAM_TUNED(int, kFastGrowth, 8, "times", "start");
 // The same while steps are interpreted: code that pays is soon found again.
 RACEBEAM_TUNED(int, kLongestTried, 64, "steps", "frames");
+// Where the other way takes more than twice as long, pauses grow by this factor instead of doubling.
+RACEBEAM_TUNED(int, kFastGrowth, 8, "times", "start");
 // Steps before the first trial: translation of a game's inner loops needs some of them.
 RACEBEAM_TUNED(int, kFirstPause, 128, "steps", "frames");
 
