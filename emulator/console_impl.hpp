@@ -9,7 +9,7 @@
 #include "emulator/base/stopwatch.hpp"
 #include "emulator/board/board.hpp"
 #include "emulator/console.hpp"
-#include "emulator/deferred_render_policy.hpp"
+#include "emulator/policies/deferred_render_policy.hpp"
 #include "emulator/translator/translator.hpp"
 
 namespace racebeam {

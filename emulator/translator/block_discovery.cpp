@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "emulator/policies/tuning.hpp"
 #include "emulator/tia/registers/registers.hpp"
-#include "emulator/tuning.hpp"
 
 namespace racebeam::translator {
 namespace {

@@ -51,7 +51,7 @@ namespace target = x86_64;
 
 namespace racebeam::translator {
 
-using target::Assembler, target::AssemblyError, target::Label;
+using target::Assembler, target::AssemblyError;
 
 class Host : private target::Processor {
  public:

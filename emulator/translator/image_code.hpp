@@ -10,11 +10,11 @@
 
 #include "emulator/cartridge/cartridge.hpp"
 #include "emulator/cartridge/memory_map.hpp"
+#include "emulator/policies/profitability.hpp"
 #include "emulator/state/state.hpp"
 #include "emulator/translator/calling_convention.hpp"
 #include "emulator/translator/code_memory.hpp"
 #include "emulator/translator/host.hpp"
-#include "emulator/translator/profitability.hpp"
 
 namespace racebeam {
 struct WriteLog;

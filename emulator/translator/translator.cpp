@@ -10,13 +10,13 @@
 #include "emulator/base/stopwatch.hpp"
 #include "emulator/board/board.hpp"
 #include "emulator/cpu/cpu.hpp"
+#include "emulator/policies/interpreted_run.hpp"
+#include "emulator/policies/step_backoff.hpp"
+#include "emulator/policies/step_trial.hpp"
+#include "emulator/policies/translation_budget.hpp"
+#include "emulator/policies/tuning.hpp"
 #include "emulator/translator/block_discovery.hpp"
 #include "emulator/translator/image_code.hpp"
-#include "emulator/translator/interpreted_run.hpp"
-#include "emulator/translator/step_backoff.hpp"
-#include "emulator/translator/step_trial.hpp"
-#include "emulator/translator/translation_budget.hpp"
-#include "emulator/tuning.hpp"
 
 namespace racebeam {
 
@@ -82,7 +82,7 @@ struct Translator::Impl {
   // where none can be made.
   struct Entry {
     const void* start = nullptr;
-    translator::Profitability* profitability = nullptr;
+    Profitability* profitability = nullptr;
   };
 
   static std::shared_ptr<translator::ImageCode> code_of(Board& board, bool make);
@@ -97,10 +97,10 @@ struct Translator::Impl {
   std::shared_ptr<translator::ImageCode> code;  // null: none was there, and the budget covers no first batch
   const translator::Layout layout;
   std::array<CachedView, 32> views{};
-  translator::TranslationBudget budget;
-  translator::InterpretedRun interpreted_run;
-  translator::StepBackoff step_backoff;
-  translator::StepTrial trial;
+  TranslationBudget budget;
+  InterpretedRun interpreted_run;
+  StepBackoff step_backoff;
+  StepTrial trial;
   std::optional<Stopwatch> trial_watch;  // in steps of a trial
   std::int64_t interpreted_cycles = 0;
 };
@@ -114,7 +114,7 @@ std::shared_ptr<translator::ImageCode> Translator::Impl::code_of(Board& board, b
 bool Translator::Impl::has_code(Board& board) {
   const bool is_useful = code != nullptr && !code->is_full();
   if (is_useful || !budget.covers_batch()) return code != nullptr;
-  const translator::TranslationBudget::Charge charge(budget);
+  const TranslationBudget::Charge charge(budget);
   try {
     if (auto image_code = code_of(board, true)) {
       code = std::move(image_code);
@@ -143,7 +143,7 @@ translator::View* Translator::Impl::current_view(Board& board) {
 translator::View* Translator::Impl::find_view(const CodeWindow& window, const Rom& rom) {
   translator::View* const view = code->view(window, rom, false);
   if (view != nullptr || !budget.covers_batch()) return view;
-  const translator::TranslationBudget::Charge charge(budget);
+  const TranslationBudget::Charge charge(budget);
   return code->view(window, rom, true);
 }
 
@@ -153,11 +153,11 @@ Translator::Impl::Entry Translator::Impl::find_entry(Board& board) {
   if (view == nullptr) return {};
   const std::uint16_t pc = board.state.cpu.PC;
   if (!translator::contains(view->code, pc)) return {};
-  translator::Profitability* const profitability =
+  Profitability* const profitability =
       &view->profitability[static_cast<std::uint16_t>(pc - view->code.first)];
   if (const void* block = view->entry(pc)) return {block, profitability};
   if (code->is_full() || !budget.covers_batch()) return {nullptr, profitability};
-  const translator::TranslationBudget::Charge charge(budget);
+  const TranslationBudget::Charge charge(budget);
   return {code->translate(*view, pc, layout), profitability};
 }
 

@@ -1,6 +1,6 @@
 """Measures what the numbers of the ledgers are worth: each at half and at double, and each policy switched off.
 
-The ledgers are emulator/tuning.hpp, protocol/tuning.hpp, server/tuning.hpp and system/tuning.hpp. The program is built
+The ledgers are emulator/policies/tuning.hpp, protocol/tuning.hpp, server/tuning.hpp and system/tuning.hpp. The program is built
 with the preset `tunable`, in which a row of a ledger is a variable. A row says what it is measured by:
 
   frames   games in the middle of play: the screen of every frame, and rewards only
@@ -32,7 +32,7 @@ import processor
 from bench_settings import SETTINGS, draw_actions
 
 BUILD = cartridges.ROOT / "build/tunable"
-LEDGERS = ("emulator/tuning.hpp", "protocol/tuning.hpp", "server/tuning.hpp", "system/tuning.hpp")
+LEDGERS = ("emulator/policies/tuning.hpp", "protocol/tuning.hpp", "server/tuning.hpp", "system/tuning.hpp")
 PAGE = cartridges.ROOT / "docs/performance/tuning.md"
 GAMES = ("asteroids", "beam_rider", "breakout", "elevator_action", "pitfall2", "pong", "seaquest", "video_pinball")
 CHUNK, WARM_UP = 500, 4  # frames; chunks that are not measured

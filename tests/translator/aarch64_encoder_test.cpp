@@ -118,7 +118,7 @@ TEST_CASE("Jumps of AArch64 lead forward and back, to labels bound before and af
   const Words expected = {0x14000008, 0x17FFFFFF, 0x540000CA, 0x54FFFFA0, 0x34000083,
                           0xB5FFFF65, 0x36600041, 0x373FFF39, 0xD65F03C0};
   CHECK(encoded([](Encoder& e) {
-          Label back, ahead;
+          racebeam::translator::Label back, ahead;
           e.bind(back);
           e.b(ahead);
           e.b(back);

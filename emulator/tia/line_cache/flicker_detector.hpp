@@ -6,8 +6,8 @@
 // later, with the same content, the second set is tried. It is kept until fewer rows are drawn without it.
 #pragma once
 
+#include "emulator/policies/tuning.hpp"
 #include "emulator/tia/line_cache/line_record.hpp"
-#include "emulator/tuning.hpp"
 
 namespace racebeam {
 

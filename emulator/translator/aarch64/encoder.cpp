@@ -39,22 +39,14 @@ void Encoder::emit(std::uint32_t word) {
   words_[count_++] = word;
 }
 
-Encoder::Target& Encoder::target(Label& label) {
-  if (label.id < 0) {
-    label.id = static_cast<int>(targets_.size());
-    targets_.emplace_back();
-  }
-  return targets_[static_cast<std::size_t>(label.id)];
-}
-
 void Encoder::bind(Label& label) {
-  Target& bound = target(label);
+  Target& bound = targets_[label];
   bound.place = static_cast<std::ptrdiff_t>(count_);
   for (const std::size_t at : bound.jumps) set_distance(at, bound.place - static_cast<std::ptrdiff_t>(at));
   bound.jumps.clear();
 }
 
-const void* Encoder::address_of(Label& label) { return words_ + target(label).place; }
+const void* Encoder::address_of(Label& label) { return words_ + targets_[label].place; }
 
 bool Encoder::is_immediate(unsigned value) { return value < 0x1000 || (value & 0xFF000FFF) == 0; }
 
@@ -195,7 +187,7 @@ void Encoder::set_distance(std::size_t at, std::ptrdiff_t words) {
 }
 
 void Encoder::jump(std::uint32_t word, Label& label) {
-  Target& to = target(label);
+  Target& to = targets_[label];
   emit(word);
   if (to.place < 0)
     to.jumps.push_back(count_ - 1);

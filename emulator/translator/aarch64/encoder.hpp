@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "emulator/translator/label.hpp"
+
 namespace racebeam::translator::aarch64 {
 
 // A register as an instruction names it: 32 bits wide (w0-w30), or 64 (x0-x30). Number 31 is zero, or SP
@@ -24,12 +26,6 @@ constexpr Register wzr = w(31), xzr = x(31), sp = x(31);
 
 // NOLINTNEXTLINE(readability-identifier-naming): named as in Arm's language
 enum class Condition : std::uint8_t { eq, ne, hs, lo, mi, pl, vs, vc, hi, ls, ge, lt, gt, le };
-
-// A place in the code. It may be used before it is bound; copies of a label that has been used are the same
-// label.
-struct Label {
-  int id = -1;
-};
 
 // The memory is full, or a place is too far away for the instruction.
 class AssemblyError : public std::length_error {
@@ -125,11 +121,10 @@ class Encoder {
     std::ptrdiff_t place = -1;  // in words; -1: not bound
     std::vector<std::size_t> jumps;
   };
-  Target& target(Label& label);
 
   std::uint32_t* words_;
   std::size_t capacity_, count_ = 0;
-  std::vector<Target> targets_;
+  LabelTable<Target> targets_;
 };
 
 }  // namespace racebeam::translator::aarch64

@@ -2,16 +2,8 @@
 
 namespace racebeam::translator::x86_64 {
 
-Assembler::Target& Assembler::target(Label& label) {
-  if (label.id < 0) {
-    label.id = static_cast<int>(targets_.size());
-    targets_.emplace_back();
-  }
-  return targets_[static_cast<std::size_t>(label.id)];
-}
-
 void Assembler::L(Label& label) {
-  Target& target = this->target(label);
+  Target& target = targets_[label];
   target.place = static_cast<std::int64_t>(getSize());
   for (std::int32_t jump = target.jumps; jump >= 0; jump = jumps_[static_cast<std::size_t>(jump)].next) {
     const Jump& each = jumps_[static_cast<std::size_t>(jump)];
@@ -22,7 +14,7 @@ void Assembler::L(Label& label) {
 // A jump back is short where a byte holds the distance.
 void Assembler::jump(const Opcodes& opcodes, Label& to, LabelType type) {
   constexpr std::int64_t kShortSize = 2, kFarthestBack = 128;
-  Target& target = this->target(to);
+  Target& target = targets_[to];
   const bool is_known = target.place >= 0;
   const auto here = static_cast<std::int64_t>(getSize());
   const bool is_short = type != T_NEAR && (!is_known || here + kShortSize - target.place <= kFarthestBack);

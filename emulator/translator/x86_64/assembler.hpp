@@ -8,16 +8,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "emulator/translator/label.hpp"
 #include "emulator/translator/layout.hpp"
 #include "emulator/translator/window.hpp"
 
 namespace racebeam::translator::x86_64 {
-
-// A place in the code. It may be used before it is bound; copies of a label that has been used are the same
-// label.
-struct Label {
-  int id = -1;
-};
 
 using AssemblyError = Xbyak::Error;  // the memory is full
 
@@ -34,7 +29,7 @@ class Assembler : public Xbyak::CodeGenerator {
   std::unordered_map<std::uint16_t, Label> blocks;  // of this batch, by address
 
   std::size_t size() const { return getSize(); }
-  const void* address_of(std::uint16_t block) { return getCode() + target(blocks[block]).place; }
+  const void* address_of(std::uint16_t block) { return getCode() + targets_[blocks[block]].place; }
 
   using CodeGenerator::byte;
   using CodeGenerator::word;
@@ -76,7 +71,6 @@ class Assembler : public Xbyak::CodeGenerator {
     std::int32_t jumps = -1;  // the last of them, in jumps_
   };
 
-  Target& target(Label& label);
   void jump_if(unsigned condition, Label& to, LabelType type) {
     jump({static_cast<std::uint8_t>(0x70 | condition), static_cast<std::uint8_t>(0x80 | condition), true}, to,
          type);
@@ -85,7 +79,7 @@ class Assembler : public Xbyak::CodeGenerator {
   void write_jump(const Opcodes& opcodes, bool is_short);
   void resolve(std::size_t end, bool is_short, std::int64_t place);
 
-  std::vector<Target> targets_;  // by the label's id
+  LabelTable<Target> targets_;
   std::vector<Jump> jumps_;
 };
 

@@ -1,10 +1,10 @@
-#include "emulator/translator/translation_budget.hpp"
+#include "emulator/policies/translation_budget.hpp"
 
 #include <catch2/catch.hpp>
 #include <utility>
 
 using racebeam::Clocks;
-using racebeam::translator::TranslationBudget;
+using racebeam::TranslationBudget;
 
 namespace {
 

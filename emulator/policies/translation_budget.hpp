@@ -7,9 +7,9 @@
 #include <cstdint>
 
 #include "emulator/base/stopwatch.hpp"
-#include "emulator/tuning.hpp"
+#include "emulator/policies/tuning.hpp"
 
-namespace racebeam::translator {
+namespace racebeam {
 
 // All times are nanoseconds. Other programs can lengthen both a step and a batch. Of either, no more counts
 // than the longest takes on a quiet machine.
@@ -72,4 +72,4 @@ class TranslationBudget {
   bool unlimited_, earns_ = false;
 };
 
-}  // namespace racebeam::translator
+}  // namespace racebeam

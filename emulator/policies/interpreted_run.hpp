@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "emulator/tuning.hpp"
+#include "emulator/policies/tuning.hpp"
 
-namespace racebeam::translator {
+namespace racebeam {
 
 // The count doubles each time that no profitable code is found, because a search costs as much as
 // interpreting a few instructions.
@@ -24,4 +24,4 @@ class InterpretedRun {
   std::int32_t length_ = 1;
 };
 
-}  // namespace racebeam::translator
+}  // namespace racebeam

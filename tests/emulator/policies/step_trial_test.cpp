@@ -1,10 +1,10 @@
-#include "emulator/translator/step_trial.hpp"
+#include "emulator/policies/step_trial.hpp"
 
 #include <catch2/catch.hpp>
 #include <functional>
 #include <vector>
 
-using racebeam::translator::StepTrial;
+using racebeam::StepTrial;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "emulator/tuning.hpp"
+#include "emulator/policies/tuning.hpp"
 
 namespace racebeam {
 

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "emulator/tuning.hpp"
+#include "emulator/policies/tuning.hpp"
 
-namespace racebeam::translator {
+namespace racebeam {
 
 // Steps run in one way, translated or interpreted. A trial has three steps: the usual way, the other way, and
 // the usual way. Four trials make a round. The usual way changes when the other has won three rounds in turn.
@@ -71,4 +71,4 @@ class StepTrial {
   Round least_ = kUnknown;                   // costs in the rounds in turn
 };
 
-}  // namespace racebeam::translator
+}  // namespace racebeam

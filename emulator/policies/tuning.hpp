@@ -24,7 +24,7 @@ RACEBEAM_TUNED(unsigned, kLongestPeriod, 4096, "frames", "frames");
 // Observed frames in turn that are measured; more belong to another use of the machine.
 RACEBEAM_TUNED(unsigned, kMostObserved, 2, "frames", "frames");
 
-// Two sets of line records, for games that flicker (tia/line_cache/flicker_detector.hpp).
+// Two sets of line records, for games that flicker (emulator/tia/line_cache/flicker_detector.hpp).
 
 // Frames from one try to the next, if the last one changed the answer.
 RACEBEAM_TUNED(int, kShortestFlickerPeriod, 64, "frames", "frames");
@@ -33,7 +33,7 @@ RACEBEAM_TUNED(int, kLongestFlickerPeriod, 512, "frames", "frames");
 // Rows in two frames that are drawn again with the same content; fewer are not worth a second set.
 RACEBEAM_TUNED(int, kFlickeringRows, 16, "rows", "frames");
 
-// What is translated at once (translator/block_discovery.cpp).
+// What is translated at once (emulator/translator/block_discovery.cpp).
 
 // The most work of a batch, where an instruction counts 1: some 50 microseconds. With less, less code is
 // translated that seldom runs.
@@ -44,7 +44,7 @@ RACEBEAM_TUNED(int, kWorkOfBlock, 3, "instructions", "start");
 // limit, and a hundred more.
 RACEBEAM_TUNED(int, kMostBlockCycles, 300, "cycles", "frames");
 
-// How much time a machine may spend on translation (translator/translation_budget.hpp).
+// How much time a machine may spend on translation (translation_budget.hpp).
 
 // What a machine has when it starts. Most games have then translated the code that they begin with before
 // they have run for a few frames.
@@ -67,7 +67,7 @@ RACEBEAM_TUNED(std::int64_t, kLongestStep, 400'000, "ns", "start");
 // The most of a batch that counts.
 RACEBEAM_TUNED(std::int64_t, kLongestBatch, 400'000, "ns", "start");
 
-// Whether an entry into translated code saves time (translator/profitability.hpp).
+// Whether an entry into translated code saves time (profitability.hpp).
 
 // An entry that runs this many cycles takes about as long as interpreting them, if some access devices.
 RACEBEAM_TUNED(std::int32_t, kBreakEvenCycles, 32, "cycles", "frames");
@@ -76,7 +76,8 @@ RACEBEAM_TUNED(std::int32_t, kMostBalance, 128, "cycles", "frames");
 // Searches, one of which enters all the same: another scene may differ.
 RACEBEAM_TUNED(std::uint8_t, kRetry, 64, "searches", "frames");
 
-// How long the interpreter runs before the next search (translator/translator.cpp).
+// How long the interpreter runs before the next search (interpreted_run.hpp,
+// emulator/translator/translator.cpp).
 
 // At least this where nothing can be translated: short routines in RAM.
 RACEBEAM_TUNED(std::int32_t, kOutsideImage, 8, "instructions", "frames");
@@ -87,14 +88,14 @@ RACEBEAM_TUNED(std::int32_t, kShortRun, 32, "instructions", "frames");
 // So much later others end, at a jump or branch.
 RACEBEAM_TUNED(std::int32_t, kRunSlack, 4096, "instructions", "frames");
 
-// Steps that are interpreted after one that was too long for translated code (translator/translator.cpp).
+// Steps that are interpreted after one that was too long for translated code (step_backoff.hpp).
 
 // The most of them.
 RACEBEAM_TUNED(int, kLongestBackoff, 63, "steps", "frames");
 // Steps that translated code completed; so many halve the count.
 RACEBEAM_TUNED(int, kCalmSteps, 4, "steps", "frames");
 
-// Whether steps are faster translated (translator/step_trial.hpp). Pauses are multiples of four, so that a
+// Whether steps are faster translated (step_trial.hpp). Pauses are multiples of four, so that a
 // round tries each of four successive steps. Games do different work in even and odd frames, and frame skip
 // shows one frame of several.
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "emulator/tuning.hpp"
+#include "emulator/policies/tuning.hpp"
 
-namespace racebeam::translator {
+namespace racebeam {
 
 // After such a step, the next ones are interpreted at once: one, then three, up to kLongestBackoff. The count
 // halves after kCalmSteps steps that translated code completed, so that a game that thinks for some frames is
@@ -28,4 +28,4 @@ class StepBackoff {
   int length_ = 0, left_ = 0, calm_ = 0;  // steps
 };
 
-}  // namespace racebeam::translator
+}  // namespace racebeam

@@ -3,16 +3,15 @@
 // so that no clock is read. scripts/bench tune measures the same in time.
 #include <catch2/catch.hpp>
 
-#include "emulator/deferred_render_policy.hpp"
+#include "emulator/policies/deferred_render_policy.hpp"
+#include "emulator/policies/interpreted_run.hpp"
+#include "emulator/policies/profitability.hpp"
+#include "emulator/policies/step_backoff.hpp"
+#include "emulator/policies/step_trial.hpp"
+#include "emulator/policies/translation_budget.hpp"
 #include "emulator/tia/line_cache/line_cache.hpp"
-#include "emulator/translator/interpreted_run.hpp"
-#include "emulator/translator/profitability.hpp"
-#include "emulator/translator/step_backoff.hpp"
-#include "emulator/translator/step_trial.hpp"
-#include "emulator/translator/translation_budget.hpp"
 
 using namespace racebeam;
-using namespace racebeam::translator;
 
 namespace {
 

@@ -1,10 +1,10 @@
-#include "emulator/translator/profitability.hpp"
+#include "emulator/policies/profitability.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "emulator/tuning.hpp"
+#include "emulator/policies/tuning.hpp"
 
-using racebeam::translator::Profitability;
+using racebeam::Profitability;
 
 namespace {
 

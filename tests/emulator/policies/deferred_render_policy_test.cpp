@@ -1,4 +1,4 @@
-#include "emulator/deferred_render_policy.hpp"
+#include "emulator/policies/deferred_render_policy.hpp"
 
 #include <catch2/catch.hpp>
 #include <functional>

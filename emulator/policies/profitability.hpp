@@ -6,9 +6,9 @@
 #include <atomic>
 #include <cstdint>
 
-#include "emulator/tuning.hpp"
+#include "emulator/policies/tuning.hpp"
 
-namespace racebeam::translator {
+namespace racebeam {
 
 // Statistics of one block, shared by all machines that run the image. They affect speed only.
 class Profitability {
@@ -42,4 +42,4 @@ class Profitability {
   std::atomic<std::uint8_t> length_ = 1;
 };
 
-}  // namespace racebeam::translator
+}  // namespace racebeam
