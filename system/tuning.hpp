@@ -9,7 +9,7 @@
 // the middle of play and from power-on; "replies" are those of a server. "none": no command measures it.
 //
 // A row is a constant. In a build with RACEBEAM_TUNABLE, which only that command makes, a row takes another
-// value from the environment variable RACEBEAM_TUNING, as in "kMostWork=50 kShortRun=64".
+// value from the environment variable RACEBEAM_TUNING, as in "kMostWork=50 kLongestRun=64".
 #pragma once
 
 #ifdef RACEBEAM_TUNABLE

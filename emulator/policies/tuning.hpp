@@ -48,7 +48,7 @@ RACEBEAM_TUNED(int, kMostBlockCycles, 300, "cycles", "frames");
 
 // What a machine has when it starts. Most games have then translated the code that they begin with before
 // they have run for a few frames.
-RACEBEAM_TUNED(std::int64_t, kCredit, 750'000, "ns", "start");
+RACEBEAM_TUNED(std::int64_t, kCredit, 900'000, "ns", "start");
 // The part of the credit that pays for what the system does for the memory of the code, which is not charged:
 // pages of short-lived machines.
 RACEBEAM_TUNED(std::int64_t, kStartCost, 200'000, "ns", "start");
@@ -71,10 +71,12 @@ RACEBEAM_TUNED(std::int64_t, kLongestBatch, 400'000, "ns", "start");
 
 // An entry that runs this many cycles takes about as long as interpreting them, if some access devices.
 RACEBEAM_TUNED(std::int32_t, kBreakEvenCycles, 32, "cycles", "frames");
-// Cycles beyond break-even that a block's balance holds, on either side.
-RACEBEAM_TUNED(std::int32_t, kMostBalance, 128, "cycles", "frames");
+// Cycles below break-even that a machine's balance holds.
+RACEBEAM_TUNED(std::int32_t, kMostDebt, 128, "cycles", "frames");
+// Cycles beyond break-even that it holds: entries that pay make up for so many that do not.
+RACEBEAM_TUNED(std::int32_t, kMostSurplus, 4096, "cycles", "frames");
 // Searches, one of which enters all the same: another scene may differ.
-RACEBEAM_TUNED(std::uint8_t, kRetry, 64, "searches", "frames");
+RACEBEAM_TUNED(std::uint32_t, kRetry, 64, "searches", "frames");
 
 // How long the interpreter runs before the next search (interpreted_run.hpp,
 // emulator/translator/translator.cpp).
@@ -83,9 +85,7 @@ RACEBEAM_TUNED(std::uint8_t, kRetry, 64, "searches", "frames");
 RACEBEAM_TUNED(std::int32_t, kOutsideImage, 8, "instructions", "frames");
 // The count doubles up to this.
 RACEBEAM_TUNED(std::int32_t, kLongestRun, 128, "instructions", "frames");
-// Runs below this end exactly.
-RACEBEAM_TUNED(std::int32_t, kShortRun, 32, "instructions", "frames");
-// So much later others end, at a jump or branch.
+// So much later a run of several instructions ends, at a jump or branch.
 RACEBEAM_TUNED(std::int32_t, kRunSlack, 4096, "instructions", "frames");
 
 // Steps that are interpreted after one that was too long for translated code (step_backoff.hpp).

@@ -140,7 +140,6 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
   for (const Block& block : blocks) {
     const auto offset = static_cast<std::uint16_t>(block.pc - view.code.first);
     view.known[offset] = true;
-    view.profitability[offset].set_length(block.instructions.size() + 1);
     const void* start = assembler.address_of(block.pc);
     std::atomic_ref(view.entries[offset]).store(start, std::memory_order_release);
   }

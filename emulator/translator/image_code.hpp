@@ -10,7 +10,6 @@
 
 #include "emulator/cartridge/cartridge.hpp"
 #include "emulator/cartridge/memory_map.hpp"
-#include "emulator/policies/profitability.hpp"
 #include "emulator/state/state.hpp"
 #include "emulator/translator/calling_convention.hpp"
 #include "emulator/translator/code_memory.hpp"
@@ -24,17 +23,15 @@ namespace racebeam::translator {
 
 // A window of the image at the addresses where the CPU sees it, with its blocks.
 struct View {
-  explicit View(const CodeWindow& window)
-      : code(window), entries(window.span), profitability(window.span), known(window.span) {}
+  explicit View(const CodeWindow& window) : code(window), entries(window.span), known(window.span) {}
 
   const CodeWindow code;  // in the ImageCode's copy of the image
   std::vector<const void*>
-      entries;  // by offset: the code of the block that starts there; read by other threads
-  std::vector<Profitability> profitability;  // by offset: of the block that starts there
-  std::vector<bool> known;                   // by offset: whether a block starts there; guarded by the lock
+      entries;              // by offset: the code of the block that starts there; read by other threads
+  std::vector<bool> known;  // by offset: whether a block starts there; guarded by the lock
 
   static std::size_t bytes_of(const CodeWindow& window) {
-    return sizeof(View) + window.span * (sizeof(const void*) + sizeof(Profitability)) + window.span / 8;
+    return sizeof(View) + window.span * sizeof(const void*) + window.span / 8;
   }
 
   const void* entry(std::uint16_t pc) {

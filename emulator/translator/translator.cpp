@@ -11,6 +11,7 @@
 #include "emulator/board/board.hpp"
 #include "emulator/cpu/cpu.hpp"
 #include "emulator/policies/interpreted_run.hpp"
+#include "emulator/policies/profitability.hpp"
 #include "emulator/policies/step_backoff.hpp"
 #include "emulator/policies/step_trial.hpp"
 #include "emulator/policies/translation_budget.hpp"
@@ -78,11 +79,10 @@ struct Translator::Impl {
     translator::View* view = nullptr;
   };
 
-  // Translated code of the instruction at PC. `start` is null if it does not exist, and so is `profitability`
-  // where none can be made.
+  // Translated code of the instruction at PC: null if it does not exist. Outside the image, none can be made.
   struct Entry {
     const void* start = nullptr;
-    Profitability* profitability = nullptr;
+    bool is_in_image = false;
   };
 
   static std::shared_ptr<translator::ImageCode> code_of(Board& board, bool make);
@@ -92,12 +92,13 @@ struct Translator::Impl {
   Entry find_entry(Board& board);
   bool interprets_step();
   bool enter(Board& board, const void* start);
-  std::int32_t run_block(Board& board, const Entry& entry);
+  std::int32_t run_block(Board& board, const void* start);
 
   std::shared_ptr<translator::ImageCode> code;  // null: none was there, and the budget covers no first batch
   const translator::Layout layout;
   std::array<CachedView, 32> views{};
   TranslationBudget budget;
+  Profitability profitability;
   InterpretedRun interpreted_run;
   StepBackoff step_backoff;
   StepTrial trial;
@@ -153,12 +154,10 @@ Translator::Impl::Entry Translator::Impl::find_entry(Board& board) {
   if (view == nullptr) return {};
   const std::uint16_t pc = board.state.cpu.PC;
   if (!translator::contains(view->code, pc)) return {};
-  Profitability* const profitability =
-      &view->profitability[static_cast<std::uint16_t>(pc - view->code.first)];
-  if (const void* block = view->entry(pc)) return {block, profitability};
-  if (code->is_full() || !budget.covers_batch()) return {nullptr, profitability};
+  if (const void* block = view->entry(pc)) return {block, true};
+  if (code->is_full() || !budget.covers_batch()) return {nullptr, true};
   const TranslationBudget::Charge charge(budget);
-  return {code->translate(*view, pc, layout), profitability};
+  return {code->translate(*view, pc, layout), true};
 }
 
 // Returns whether the interpreter must execute the next instruction.
@@ -171,16 +170,16 @@ bool Translator::Impl::enter(Board& board, const void* start) {
   return (exit & translator::kInterpretNext) != 0;
 }
 
-// Runs translated code from `entry` on. Returns how many instructions the interpreter must execute next.
-std::int32_t Translator::Impl::run_block(Board& board, const Entry& entry) {
-  if (!budget.is_unlimited() && entry.profitability->is_unprofitable())
-    return interpreted_run.next(entry.profitability->length());
+// Runs translated code from `start` on, if that pays. Returns how many instructions the interpreter must
+// execute next.
+std::int32_t Translator::Impl::run_block(Board& board, const void* start) {
+  if (!budget.is_unlimited() && profitability.is_unprofitable()) return interpreted_run.next(1);
   const std::int32_t first = board.state.cycle;
   const std::uint32_t waited_before = board.translated.waited;
-  const bool interpret_next = enter(board, entry.start);
+  const bool interpret_next = enter(board, start);
   const auto waited = static_cast<std::int32_t>(board.translated.waited - waited_before);
   const std::int32_t cycles = board.state.cycle - first - waited;
-  if (!board.stop) entry.profitability->record(cycles);
+  if (!board.stop) profitability.record(cycles);
   if (cycles >= tuning::kBreakEvenCycles) interpreted_run.reset();
   return interpret_next ? 1 : 0;
 }
@@ -231,12 +230,11 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
       return board.stop || board.state.cpu.jammed || first_cycle >= limit;
     }
     const Impl::Entry entry = impl_->find_entry(board);
-    const std::int32_t run =
-        entry.start != nullptr
-            ? impl_->run_block(board, entry)
-            : impl_->interpreted_run.next(entry.profitability != nullptr ? 1 : tuning::kOutsideImage);
+    const std::int32_t run = entry.start != nullptr
+                                 ? impl_->run_block(board, entry.start)
+                                 : impl_->interpreted_run.next(entry.is_in_image ? 1 : tuning::kOutsideImage);
     if (run == 0 || board.stop) continue;
-    const bool ends_exactly = run < tuning::kShortRun || remaining < run + tuning::kRunSlack;
+    const bool ends_exactly = run == 1 || remaining < run + tuning::kRunSlack;
     const std::int32_t enough = std::min(run, remaining);
     interpret_some(board, ends_exactly ? enough : run + tuning::kRunSlack, enough);
   }

@@ -158,7 +158,7 @@ TEST_CASE("A bit is tested across at most 32 KiB, and a label found within them"
   for (const int distance : {8191, 8192}) {
     Words words(9000);
     Encoder encoder(words.data(), words.size() * 4);
-    Label far;
+    racebeam::translator::Label far;
     encoder.tbz(w(0), 0, far);
     for (int i = 1; i < distance; ++i) encoder.ret();
     if (distance < 8192)
