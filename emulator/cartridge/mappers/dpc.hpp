@@ -78,16 +78,19 @@ constexpr std::array<std::uint8_t, 256> kNextRandom = [] {
 
 inline void clock_random(Chip& chip) { chip.random = kNextRandom[chip.random]; }
 
+// All bits or none. Flags are set without branches: these would depend on the notes, and be predicted badly.
+constexpr unsigned mask_of(bool condition) { return 0U - static_cast<unsigned>(condition); }
+
 // A music fetcher wraps from 0 to its top. Its output is high from the top down to the bottom.
 inline void count_down(Fetcher& fetcher, int clocks) {
   const int period = fetcher.top + 1;
   if (clocks >= period) [[unlikely]]
     clocks %= period;  // slow: a division
   int low = fetcher.top == 0 ? 0 : fetcher.low() - clocks;
-  if (low < 0) low += period;
+  low += static_cast<int>(mask_of(low < 0)) & period;
   fetcher.set_low(static_cast<unsigned>(low));
-  const std::uint8_t flag = low <= fetcher.top ? 0xFF : fetcher.flag;
-  fetcher.flag = low <= fetcher.bottom ? 0x00 : flag;
+  fetcher.flag =
+      static_cast<std::uint8_t>((fetcher.flag | mask_of(low <= fetcher.top)) & mask_of(low > fetcher.bottom));
 }
 
 // Music clocks in a number of cycles. A table avoids the division for the usual ones.
@@ -135,10 +138,9 @@ std::uint8_t fetch(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycl
   clock_random(chip);
   const unsigned number = address & 7;
   Fetcher& fetcher = chip.fetcher[number];
-  if (fetcher.low() == fetcher.top)
-    fetcher.flag = 0xFF;
-  else if (fetcher.low() == fetcher.bottom)
-    fetcher.flag = 0x00;
+  const unsigned not_at_bottom = mask_of(fetcher.low() != fetcher.bottom);
+  fetcher.flag =
+      static_cast<std::uint8_t>((fetcher.flag & not_at_bottom) | mask_of(fetcher.low() == fetcher.top));
 
   const auto displayed = [&] { return slot.rom[kDisplay + kDisplaySize - 1 - fetcher.counter]; };
   std::uint8_t result = 0;
