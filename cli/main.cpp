@@ -1,6 +1,7 @@
 // The program racebeam, with its subcommands.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -161,9 +162,11 @@ int run(int argc, char** argv) {
   }
 }
 
-// Output that a full disk has not taken is a failure, also of a command that has succeeded.
+// Output that a full disk has not taken is a failure, also of a command that has succeeded. The C library of
+// Windows forgets output that it could not write, and then only ferror() tells.
 int after_output(int status) {
-  if (std::cout.flush() || status != 0) return status;
+  const bool whole = std::cout.flush() && std::ferror(stdout) == 0;
+  if (whole || status != 0) return status;
   std::cerr << "racebeam: cannot write to standard output: its disk is full, or its reader is gone\n";
   return racebeam::kExitFailure;
 }

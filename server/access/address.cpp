@@ -175,8 +175,9 @@ std::string to_string(const Endpoint& endpoint) {
 
 bool is_ip_address(const std::string& host) {
   boost::system::error_code error;
-  boost::asio::ip::make_address(host, error);
-  return !error;
+  const auto address = boost::asio::ip::make_address(host, error);
+  // Windows also reads short forms of IPv4, such as 127.1. Other systems refuse them.
+  return !error && (address.is_v6() || address.to_string() == host);
 }
 
 bool is_stream(const Address& address) {
