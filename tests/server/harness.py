@@ -144,8 +144,16 @@ class Server:
     def alive(self):
         return self.process.poll() is None
 
+    def program(self):
+        """The number of the process that runs the program. In Wine, it is a child of what the test has started."""
+        if not WINDOWS:
+            return self.process.pid
+        with open(f"/proc/{self.process.pid}/task/{self.process.pid}/children") as children:
+            return int(children.read().split()[0])
+
     def processor_seconds(self):
-        with open(f"/proc/{self.process.pid}/stat") as stat:
+        """What the program has used of a processor."""
+        with open(f"/proc/{self.program()}/stat") as stat:
             fields = stat.read().rsplit(")", 1)[1].split()
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 

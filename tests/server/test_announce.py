@@ -11,7 +11,8 @@ import subprocess
 import tempfile
 import time
 
-from harness import BINARY, PATIENCE, Server, ask, connect_tcp, connect_unix, run, serve
+import pytest
+from harness import BINARY, PATIENCE, WINDOWS, Server, ask, connect_tcp, connect_unix, run, serve
 
 FIRST_BYTES = '{"racebeam_announce": 1,'
 
@@ -32,14 +33,15 @@ def port_of(announced):
 
 class TestAnnounced:
     def test_it_says_what_a_client_needs(self):
+        second = "tcp://127.0.0.1:0" if WINDOWS else 'unix:a "quoted" name'
         with Server(
             "serve",
             "--listen",
             "tcp://127.0.0.1:0",
             "--listen",
-            'unix:a "quoted" name',
+            second,
             "--listen",
-            "classic+unix:classic",
+            "classic+tcp://127.0.0.1:0",
             "--rom",
             "builtin:beamfall",
             "--announce",
@@ -47,15 +49,15 @@ class TestAnnounced:
         ) as server:
             text = wait_for(server.path("announce"))
             announcement = json.loads(text)
-            tcp, local = announcement["addresses"]
+            tcp, other = announcement["addresses"]
             assert re.search(r"^tcp://127\.0\.0\.1:\d+$", tcp)
-            assert local == 'unix:a "quoted" name'
+            assert WINDOWS or other == second
             version = run("--version")[1].decode().split()[1]
             assert {**announcement, "addresses": [], "token": ""} == {
                 "racebeam_announce": 1,
                 "addresses": [],
                 "host": socket.gethostname(),
-                "process": server.process.pid,
+                "process": announcement["process"] if WINDOWS else server.process.pid,
                 "version": version,
                 "games": ["beamfall", "updraft"],
                 "token": "",
@@ -67,6 +69,7 @@ class TestAnnounced:
             assert f'  "{tcp}",' in lines
             assert lines[-1] == f' "token": "{announcement["token"]}"}}'
 
+    @pytest.mark.needs_posix
     def test_its_owner_alone_can_read_it(self):
         before = os.umask(0)
         try:
@@ -76,6 +79,7 @@ class TestAnnounced:
         finally:
             os.umask(before)
 
+    @pytest.mark.needs_posix
     def test_its_token_is_needed_over_TCP_and_not_on_a_Unix_socket(self):
         with serve("--listen", "unix:s", "--announce", "announce") as server:
             announcement = json.loads(wait_for(server.path("announce")))
@@ -90,7 +94,8 @@ class TestAnnounced:
             wire.close()
             local.close()
 
-    def test_tokens_of_a_file_are_admitted_as_well_and_survive_a_reload(self):
+    @pytest.mark.parametrize("reload", (False, pytest.param(True, marks=pytest.mark.needs_posix)))
+    def test_tokens_of_a_file_are_admitted_as_well_and_survive_a_reload(self, reload):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "tokens")
             with open(path, "w") as tokens:
@@ -98,8 +103,9 @@ class TestAnnounced:
             os.chmod(path, 0o600)
             with serve("--token-file", path, "--announce", "announce") as server:
                 announcement = json.loads(wait_for(server.path("announce")))
-                server.process.send_signal(signal.SIGHUP)
-                server.wait_for("read the token file again")
+                if reload:
+                    server.process.send_signal(signal.SIGHUP)
+                    server.wait_for("read the token file again")
                 for token in ("0123456789abcdef", announcement["token"]):
                     wire = connect_tcp(port_of(announcement))
                     assert b" admitted=1 " in ask(wire, b"hello token=" + token.encode())
@@ -138,7 +144,7 @@ class TestLife:
                 server.process.kill()
                 server.wait()
             assert os.path.exists(path)
-            status, _, errors = run("serve", "--listen", "unix:s", "--roms", "/nowhere", "--announce", path)
+            status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--roms", "/nowhere", "--announce", path)
             assert (status, os.listdir(folder)) == (4, []), errors
 
     def test_the_file_of_a_running_server_is_replaced_with_a_warning(self):
@@ -166,6 +172,7 @@ class TestLife:
                 with open(path) as file:
                     assert file.read() == text
 
+    @pytest.mark.needs_posix
     def test_a_full_disk_leaves_nothing_half_written(self, subtests):
         def limit():  # a write beyond it fails, as on a full disk
             resource.setrlimit(resource.RLIMIT_FSIZE, (64, 64))
@@ -183,7 +190,7 @@ class TestLife:
                 assert done.stderr.decode() == f"racebeam: cannot write the {name} file: File too large\n"
 
     def test_it_needs_a_socket_with_the_line_protocol(self):
-        for words in (["--stdio"], ["--listen", "classic+unix:s", "--rom", "builtin:beamfall"]):
+        for words in (["--stdio"], ["--listen", "classic+tcp://127.0.0.1:0", "--rom", "builtin:beamfall"]):
             with tempfile.TemporaryDirectory() as folder:
                 status, _, errors = run("serve", *words, "--announce", "announce", cwd=folder)
                 assert (status, os.listdir(folder)) == (2, []), errors

@@ -14,7 +14,7 @@ import time
 import urllib.request
 
 import pytest
-from harness import PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, open_pipes, serve
+from harness import PATIENCE, WINDOWS, Server, Wire, ask, connect_tcp, connect_unix, open_pipes, serve
 
 ENDLESS = (
     b"load beamfall as=tetris seed=1 system_seed=1 sticky=0 "
@@ -168,6 +168,9 @@ class TestLimits(Case):
         assert ask(wire, b"look ram reward lives") == before
 
 
+unnoticed = pytest.mark.skipif(WINDOWS, reason="it is not noticed there (server/README.md, On Windows)")
+
+
 class TestDeparture(Case):
     """A request that would take an hour."""
 
@@ -180,15 +183,18 @@ class TestDeparture(Case):
         time.sleep(0.5)  # the subject: it does nothing meanwhile
         assert self.server.processor_seconds() - seconds < 0.2
 
+    @unnoticed
     def test_a_request_of_a_client_that_left_over_tcp_is_given_up(self):
         self.start(serve("--grace", "0", *MANY_FRAMES))
         self.check_that_it_is_given_up(self.connect(), [ENDLESS], HOUR)
 
+    @pytest.mark.needs_posix
     def test_a_request_of_a_client_that_left_over_a_unix_socket_is_given_up(self):
         server = self.start(Server("serve", "--listen", "unix:s", "--grace", "0", *MANY_FRAMES))
         server.wait_for("listening on unix:s")
         self.check_that_it_is_given_up(connect_unix(server.path("s")), [ENDLESS], HOUR)
 
+    @unnoticed
     def test_machines_of_a_client_that_left_are_given_up(self):
         self.start(serve("--grace", "0", *MANY_FRAMES))
         self.check_that_it_is_given_up(self.connect(), [ENDLESS + b" frame_skip=1000 noop_max=1000"], b"open 256")
@@ -268,6 +274,7 @@ class TestEnd:
     def test_over_tcp(self):
         self.check_that_it_ends("--listen", "tcp://127.0.0.1:0", connect=lambda server: connect_tcp(server.port()))
 
+    @pytest.mark.needs_posix
     def test_over_a_unix_socket(self):
         def connect(server):
             server.wait_for("listening on unix:s")
@@ -275,6 +282,7 @@ class TestEnd:
 
         self.check_that_it_ends("--listen", "unix:s", connect=connect)
 
+    @pytest.mark.needs_posix
     def test_over_pipes(self):
         def connect(server):
             server.wait_for("for a client that opens")

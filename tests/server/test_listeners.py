@@ -3,6 +3,7 @@
 import contextlib
 import fcntl
 import os
+import re
 import resource
 import signal
 import socket
@@ -10,7 +11,7 @@ import tempfile
 import threading
 
 import pytest
-from harness import GAME, Server, connect_tcp, connect_unix, open_pipes, run, sanitized
+from harness import GAME, LISTEN, Server, connect_nearby, connect_tcp, connect_unix, open_pipes, run, sanitized
 
 SERVE = ("serve", "--classic", "--rom", GAME, "--seed", "1", "--sticky", "0", "--grace", "0")
 WHOLE = b"0,1,0,1\n" + b"1,18\n" * 20
@@ -58,11 +59,13 @@ class TestAddresses:
             self.refuse(f"tcp://127.0.0.1:{server.port()}", 3, "in use")
             assert play(connect_tcp(server.port())).endswith(b"DIE\n")
 
+    @pytest.mark.needs_posix
     def test_two_servers_cannot_have_one_path(self):
         with listening("unix:s") as server:
             self.refuse("unix:" + server.path("s"), 3, "in use")
             assert play(connect_unix(server.path("s"))).endswith(b"DIE\n")
 
+    @pytest.mark.needs_posix
     def test_a_live_socket_whose_queue_is_full_is_not_waited_for(self):
         path = os.path.join(self.folder(), "s")
         with contextlib.ExitStack() as stack:
@@ -76,6 +79,7 @@ class TestAddresses:
                     client.connect(path)
             self.refuse("unix:" + path, 3, "in use")
 
+    @pytest.mark.needs_posix
     def test_a_server_that_has_bound_its_socket_and_does_not_listen_yet_keeps_it(self, cleanup):
         folder = self.folder()
         path = os.path.join(folder, "s")
@@ -89,10 +93,12 @@ class TestAddresses:
             assert "in use" in server.log()[-1]
             assert os.path.exists(path)
 
+    @pytest.mark.needs_posix
     def test_one_address_cannot_be_given_twice(self):
         ended, _, errors = run(*SERVE, "--listen", "unix:s", "--listen", "unix:s", cwd=self.folder())
         assert (ended, len(errors)) == (3, 1), errors
 
+    @pytest.mark.needs_posix
     def test_the_socket_file_of_a_dead_server_is_replaced(self):
         with listening("unix:s") as server:
             server.stop(signal.SIGKILL)
@@ -101,6 +107,7 @@ class TestAddresses:
                 heir.wait_for("listening on")
                 assert play(connect_unix(server.path("s"))).endswith(b"DIE\n")
 
+    @pytest.mark.needs_posix
     def test_a_file_that_is_not_a_socket_is_left_alone(self):
         with listening("unix:s") as server:
             with open(server.path("notes"), "w") as notes:
@@ -128,12 +135,16 @@ class TestAddresses:
     def test_an_invalid_address_is_refused(self, address):
         self.refuse(address, 2, "is not an address")
 
-    def test_addresses_that_cannot_be_had_are_refused(self):
+    @pytest.mark.needs_posix
+    def test_paths_that_cannot_be_had_are_refused(self):
         self.refuse("unix:" + "x" * 200, 3, "too long")
         self.refuse("unix:nowhere/s", 3, "No such file")
+
+    def test_hosts_that_cannot_be_had_are_refused(self):
         self.refuse("tcp://192.0.2.1:1", 3, "cannot listen")
         self.refuse("tcp://" + "x" * 64 + ":1", 3, "the host of tcp://" + "x" * 64 + ":1 is unknown: ")
 
+    @pytest.mark.needs_posix
     def test_nothing_is_left_behind_when_one_of_several_fails(self):
         with listening("tcp://127.0.0.1:0") as server:
             folder = self.folder()
@@ -143,14 +154,21 @@ class TestAddresses:
 
 
 class TestClients:
+    @pytest.mark.needs_posix
     def test_several_addresses_are_served_at_once(self):
         with listening("tcp://127.0.0.1:0", "unix:a", "unix:b") as server:
             wires = [connect_tcp(server.port()), connect_unix(server.path("a")), connect_unix(server.path("b"))]
             assert len({play(wire) for wire in wires}) == 1
 
+    def test_several_ports_are_served_at_once(self):
+        with listening("tcp://127.0.0.1:0", "tcp://127.0.0.1:0") as server:
+            ports = set(re.findall(r"listening on tcp://127\.0\.0\.1:(\d+)", "\n".join(server.log())))
+            assert len(ports) == 2
+            assert len({play(connect_tcp(int(port))) for port in ports}) == 1
+
     def test_everyone_has_a_machine_of_their_own(self):
-        with listening("unix:s") as server:
-            wires = [connect_unix(server.path("s")) for _ in range(30)]
+        with Server(*SERVE, *LISTEN) as server:
+            wires = [connect_nearby(server) for _ in range(30)]
             for wire in wires:
                 assert wire.line() == b"160-210\n"
                 wire.send(b"0,1,0,1\n")
@@ -191,6 +209,7 @@ class TestClients:
             wire.close()
             assert play(connect_tcp(server.port())).endswith(b"DIE\n")
 
+    @pytest.mark.needs_posix
     @pytest.mark.skipif(sanitized(), reason="the sanitizer's own checks fail without free descriptors")
     def test_a_server_that_has_too_many_clients_takes_others_later(self):
         with listening("unix:s") as server:
@@ -205,8 +224,8 @@ class TestClients:
 class TestSignals:
     @pytest.mark.parametrize("number", (signal.SIGTERM, signal.SIGINT))
     def test_a_server_that_is_told_to_stop_ends_sessions_and_removes_its_socket(self, number):
-        with listening("unix:s", "tcp://127.0.0.1:0") as server:
-            wires = [connect_unix(server.path("s")), connect_tcp(server.port())]
+        with Server(*SERVE, *LISTEN) as server:
+            wires = [connect_nearby(server), connect_tcp(server.port())]
             for wire in wires:
                 wire.line()
             assert server.stop(number) == 0
@@ -215,6 +234,7 @@ class TestSignals:
                 assert wire.rest() == b""
                 wire.close()
 
+    @pytest.mark.needs_posix
     @pytest.mark.parametrize("is_private, end", ((True, "signal"), (True, "client"), (False, "signal")))
     def test_pipes_that_the_server_has_made_are_removed_at_its_end(self, is_private, end):
         with Server(*SERVE, "--pipes", "p", before=None if is_private else self.make_pipes) as server:
@@ -232,6 +252,7 @@ class TestSignals:
         for name in ("p_out", "p_in"):
             os.mkfifo(name)
 
+    @pytest.mark.needs_posix
     def test_a_hangup_early_in_the_start_does_no_harm(self):
         with tempfile.TemporaryDirectory() as folder:
             for number in range(300):  # the server reads them all before it handles signals
@@ -249,6 +270,7 @@ class TestSignals:
                 server.wait_for("listening on unix:s")
                 assert server.stop() == 0
 
+    @pytest.mark.needs_posix
     def test_the_socket_of_a_successor_is_left_alone(self):
         with listening("unix:s") as server:
             os.unlink(server.path("s"))
@@ -258,7 +280,11 @@ class TestSignals:
                 assert play(connect_unix(server.path("s"))).endswith(b"DIE\n")
 
     @pytest.mark.parametrize(
-        "transport, ready", ((["--stdio"], "on standard input"), (["--pipes", "p"], "for a client that opens"))
+        "transport, ready",
+        (
+            (["--stdio"], "on standard input"),
+            pytest.param(["--pipes", "p"], "for a client that opens", marks=pytest.mark.needs_posix),
+        ),
     )
     @pytest.mark.parametrize("number", (signal.SIGTERM, signal.SIGINT))
     def test_sessions_on_streams_stop_when_told_to(self, transport, ready, number):

@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 
 import pytest
-from harness import BINARY, GAME, PATIENCE, SOURCE, run, sanitized
+from harness import BINARY, GAME, PATIENCE, SOURCE, WINDOWS, run, sanitized
 
 SERVE = ("serve", "--classic", "--stdio", "--rom", GAME)
 HOMEBREW = os.path.join(SOURCE, "games", "homebrew", GAME.split(":")[1] + ".bin")
@@ -23,6 +23,7 @@ class Refusals:
             assert hint in errors[0]
 
 
+@pytest.mark.needs_posix
 class TestPipeNames(Refusals):
     def test_two_endpoints_cannot_have_the_same_pipes(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -52,7 +53,10 @@ class TestImages(Refusals):
             assert os.listdir(folder) == ["pong.bin"]
 
     def check_path(self, path, *hints):
-        for transport in (["--stdio"], ["--pipes", path + "-pipe"], ["--listen", "tcp://127.0.0.1:0"]):
+        transports = [["--stdio"], ["--listen", "tcp://127.0.0.1:0"]]
+        if not WINDOWS:
+            transports.append(["--pipes", path + "-pipe"])
+        for transport in transports:
             with self.subtests.test(transport=transport[0]):
                 self.check(["serve", "--classic", *transport, "--rom", path], 1, *hints)
         with self.subtests.test(transport="classic"):
@@ -161,6 +165,7 @@ class TestCommandLine(Refusals):
     def test_memory_has_to_be_enough(self):
         self.check(["serve", "--stdio", "--max-memory", "1M"], 5, "--max-memory 1048576 is too little")
 
+    @pytest.mark.needs_posix
     @pytest.mark.skipif(sanitized(), reason="a sanitizer needs more address space")
     def test_memory_that_the_system_does_not_give_has_the_same_status(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -181,6 +186,7 @@ class TestCommandLine(Refusals):
             )
             assert (done.returncode, done.stderr) == (5, b"racebeam: the system gives no more memory\n")
 
+    @pytest.mark.needs_posix
     @pytest.mark.skipif(sanitized(), reason="a sanitizer needs more address space")
     def test_a_thread_that_the_system_does_not_give_has_the_same_status(self, subtests):
         reason = "the system gives no more memory"  # for a thread, or for what a thread begins with
@@ -277,6 +283,7 @@ class TestFolders:
         assert loaded.startswith("ok game=my_own__game__1_ md5="), loaded
 
 
+@pytest.mark.needs_posix  # Wine's own files take the place of those that are closed
 class TestDescriptors:
     @pytest.mark.parametrize("redirection, status", (("<&-", 0), (">&-", 1), ("2>&-", 0), ("<&- >&- 2>&-", 0)))
     def test_standard_ones_that_are_closed_are_not_taken_by_others(self, redirection, status):
