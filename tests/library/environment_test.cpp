@@ -7,6 +7,7 @@
 
 #include "tests/games/scratch.hpp"
 #include "tests/library/beamfall.hpp"
+#include "tests/library/counter.hpp"
 
 using racebeam::Action;
 using racebeam::Environment;
@@ -86,6 +87,27 @@ TEST_CASE("A step takes its own number of frames, and both players") {
   CHECK(environment.episode_frames() == 11);
 }
 
+TEST_CASE("A step lasts one frame where it asks for one, and those of the settings where it asks for 0") {
+  auto environment = beamfall::environment();
+  environment.step({.frames = 1});
+  CHECK(environment.episode_frames() == 1);
+  environment.step({.frames = 0});
+  CHECK(environment.episode_frames() == 5);
+}
+
+TEST_CASE("Each player moves their own joystick, with the frames of the settings or of the step") {
+  Environment environment(racebeam::Image::from_bytes(counter::bytes(), "counter"), beamfall::settings());
+  const auto ports = [&](const racebeam::Controls& controls) {
+    environment.step(controls);
+    return int{environment.ram()[1]};  // a bit is 0 while its direction is held: player A's four, then B's
+  };
+  for (const int frames : {0, 3}) {
+    CHECK(ports({.a = Action::kRight, .frames = frames}) == 0x7F);
+    CHECK(ports({.b = Action::kRight, .frames = frames}) == 0xF7);
+    CHECK(ports({.a = Action::kUp, .b = Action::kDownLeft, .frames = frames}) == 0xE9);
+  }
+}
+
 TEST_CASE("Rewards are limited, and the raw ones are not") {
   racebeam::Settings settings = beamfall::settings();
   settings.reward_max = 1;
@@ -133,11 +155,80 @@ TEST_CASE("RAM can be read and written, and sound is made on request") {
   CHECK(environment.audio().size() == 512);
 }
 
+TEST_CASE("The first byte of RAM can be written, and the last") {
+  auto environment = beamfall::environment();
+  for (const int index : {0, racebeam::kRamSize - 1}) {
+    environment.set_ram(index, 99);
+    CHECK(environment.ram()[static_cast<std::size_t>(index)] == 99);
+  }
+}
+
 TEST_CASE("An environment moves, and keeps what it shows") {
   auto environment = beamfall::environment();
   const int score = beamfall::score_of(environment, 50);
   Environment moved = std::move(environment);
   CHECK(score + beamfall::score_of(moved, 50) == 82);
+}
+
+namespace {
+
+// A game with these modes, of which 1 cannot be reached.
+racebeam::Game game_with_modes(const std::string& modes) {
+  const racebeam::Scratch scratch;
+  return racebeam::Game::load(
+      scratch.write("own.toml", "title = 'Own'\nmodes = " + modes +
+                                    "\ndifficulties = [0, 3]\n"
+                                    "[rule]\nstep = \"\"\"\nscore = 0\nterminal = 0\n\"\"\"\n"
+                                    "[mode]\nsetup = 'if mode == 1 { fail \"no such screen\" }'\n"));
+}
+
+racebeam::Settings sticky_settings() {
+  racebeam::Settings settings = beamfall::settings();
+  settings.sticky = 0.5F;
+  settings.seed = 3;
+  return settings;
+}
+
+}  // namespace
+
+TEST_CASE("A reset with a seed is a new environment with that seed, with the mode and the difficulty") {
+  const auto game = game_with_modes("[0, 2]");
+  Environment environment(beamfall::image(), game, beamfall::settings());
+  beamfall::score_of(environment, 5);
+  for (const int mode : {0, 2})
+    for (const int difficulty : {0, 3}) {
+      CAPTURE(mode, difficulty);
+      environment.set_mode(mode);
+      environment.set_difficulty(difficulty);
+      environment.reset(3);
+      Environment anew(beamfall::image(), game, beamfall::settings());
+      if (mode != 0 || difficulty != 0) {
+        anew.set_mode(mode);
+        anew.set_difficulty(difficulty);
+        anew.reset();
+      }
+      CHECK(environment.state_hash() == anew.state_hash());
+      CHECK(environment.frames() == anew.frames());
+      CHECK(std::ranges::equal(environment.ram(), anew.ram()));
+    }
+}
+
+TEST_CASE("A reset that does not reach the mode changes nothing, with or without a seed") {
+  const auto game = game_with_modes("[0, 1]");
+  Environment environment(beamfall::image(), game, sticky_settings());
+  Environment undisturbed(beamfall::image(), game, sticky_settings());
+  for (auto* each : {&environment, &undisturbed}) {
+    beamfall::score_of(*each, 30);
+    each->set_mode(1);
+  }
+  CHECK_THROWS_AS(environment.reset(3), racebeam::Error);
+  CHECK(environment.state_hash() == undisturbed.state_hash());
+  CHECK(environment.frames() == undisturbed.frames());
+  CHECK_THROWS_AS(environment.reset(), racebeam::Error);
+  CHECK(environment.frames() == undisturbed.frames());
+  for (auto* each : {&environment, &undisturbed})
+    for (int step = 0; step < 40; ++step) each->step(step % 2 ? Action::kLeft : Action::kRight);
+  CHECK(environment.state_hash() == undisturbed.state_hash());
 }
 
 TEST_CASE("A reset with a seed keeps the mode and the difficulty") {

@@ -71,6 +71,35 @@ TEST_CASE("A game file of the user gives an image its rewards") {
   CHECK(environment.game().name() == "my_game");
 }
 
+TEST_CASE("The corrected rule of a game is played on request") {
+  const racebeam::Scratch scratch;
+  const auto path = scratch.write("my_game.toml", R"(
+title = "My game"
+[rule]
+step = """
+reward = 1
+terminal = 0
+"""
+[fixed]
+reference = "Rewards are too small."
+correction = "They are larger."
+evidence = "This test."
+step = """
+reward = 5
+terminal = 0
+"""
+)");
+  const Game game = Game::load(path);
+  const auto reward = [&](racebeam::Rules rules) {
+    racebeam::Settings settings = beamfall::settings();
+    settings.frame_skip = 1;
+    settings.rules = rules;
+    return racebeam::Environment(beamfall::image(), game, settings).step(Action::kNoop);
+  };
+  CHECK(reward(racebeam::Rules::kAle012) == 1);
+  CHECK(reward(racebeam::Rules::kFixed) == 5);
+}
+
 TEST_CASE("A game file that names controllers gives the players their actions") {
   const racebeam::Scratch scratch;
   const auto path = scratch.write("keys.toml",

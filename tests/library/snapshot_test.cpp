@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -45,6 +46,12 @@ TEST_CASE("The bytes of a snapshot restore it in another environment") {
   CHECK(observation(other) == observation(environment));
   CHECK(other.state_hash() == environment.state_hash());
   CHECK(beamfall::score_of(other, 50) == beamfall::score_of(environment, 50));
+}
+
+TEST_CASE("A snapshot of an environment has the portable form of a state") {
+  auto environment = beamfall::environment();
+  const auto bytes = environment.save().to_bytes();
+  CHECK(std::string(bytes.begin(), bytes.begin() + 8) == "RBSTATE\n");  // docs/states.md
 }
 
 TEST_CASE("A snapshot has the generator of sticky actions on request") {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "racebeam/error.hpp"
@@ -17,6 +19,25 @@ namespace {
 VectorEnvironment environments(std::size_t count, const VectorSettings& settings = {}) {
   const auto image = beamfall::image();
   return {image, racebeam::Game::recognise(image), count, settings};
+}
+
+// Episodes begin as those of a single machine do, and screens are its screens.
+VectorSettings as_single() {
+  VectorSettings settings;
+  settings.machine = beamfall::settings();
+  settings.noop_max = 0;
+  settings.fire_at_reset = false;
+  settings.stack = 1;
+  settings.width = settings.height = 0;
+  settings.rgb = true;
+  settings.max_pool = false;
+  return settings;
+}
+
+std::vector<std::uint8_t> rgb(racebeam::Environment& environment) {
+  std::vector<std::uint8_t> out(environment.observation_size(racebeam::Pixels::kRgb));
+  environment.observe(racebeam::Pixels::kRgb, out);
+  return out;
 }
 
 int fire(const VectorEnvironment& vector) {
@@ -58,6 +79,108 @@ TEST_CASE("Arrays that are left empty are not written, and others must have the 
   CHECK_THROWS_AS(vector.step(std::vector<int>{0}, {}), racebeam::Error);
   CHECK_THROWS_AS(vector.actions(2), racebeam::Error);
   CHECK_THROWS_AS(vector.save(2), racebeam::Error);
+}
+
+TEST_CASE("An array of a wrong size is refused by name, and nothing is run") {
+  auto vector = environments(2);
+  const VectorResults before = [&] {
+    VectorResults results = vector.make_results();
+    vector.reset(results);
+    return results;
+  }();
+  const std::vector<int> actions(2, 0);
+  const auto refused = [&](const std::string& name, auto VectorResults::*array) {
+    VectorResults wrong = vector.make_results();
+    wrong.final_observations = wrong.observations;  // which only Autoreset::kSameStep makes
+    const std::size_t size = (wrong.*array).size();
+    (wrong.*array).pop_back();
+    const std::string sentence = name + " has " + std::to_string(size - 1) + " elements; it must have " +
+                                 std::to_string(size) + ", or none";
+    CHECK_THROWS_WITH(vector.step(actions, wrong), sentence);
+    CHECK_THROWS_WITH(vector.reset(wrong), sentence);
+    CHECK_THROWS_WITH(vector.observe(wrong), sentence);
+    CHECK_THROWS_WITH(vector.receive(wrong), sentence);
+  };
+  refused("observations", &VectorResults::observations);
+  refused("final_observations", &VectorResults::final_observations);
+  refused("ram", &VectorResults::ram);
+  refused("rewards", &VectorResults::rewards);
+  refused("lives", &VectorResults::lives);
+  refused("episode_frames", &VectorResults::episode_frames);
+  refused("terminated", &VectorResults::terminated);
+  refused("truncated", &VectorResults::truncated);
+  refused("machines", &VectorResults::machines);
+  VectorResults now = vector.make_results();
+  vector.observe(now);
+  CHECK(now.ram == before.ram);
+}
+
+TEST_CASE("A machine that the vector does not have is refused by number") {
+  auto vector = environments(2);
+  const auto snapshot = vector.save(1);
+  CHECK(vector.actions(1) == vector.actions(0));
+  for (const std::size_t number : {2, 9}) {
+    const std::string sentence = "machine " + std::to_string(number) + " is out of range; accepted: 0 to 1";
+    CHECK_THROWS_WITH(vector.actions(number), sentence);
+    CHECK_THROWS_WITH(vector.save(number), sentence);
+    CHECK_THROWS_WITH(vector.restore(number, snapshot), sentence);
+  }
+}
+
+TEST_CASE("A machine of a vector has the results of a single one") {
+  auto vector = environments(2, as_single());
+  auto single = beamfall::environment();
+  VectorResults results = vector.make_results();
+  vector.reset(results);
+  const std::vector<int> actions = {fire(vector), 0};
+  for (int step = 0; step < 20; ++step) {
+    vector.step(actions, results);
+    CHECK(results.rewards[0] == single.step(racebeam::Action::kFire));
+    CHECK(results.episode_frames[0] == single.episode_frames());
+    CHECK(results.lives[0] == single.lives());
+  }
+  CHECK(std::ranges::equal(single.ram(), std::span(results.ram).first(racebeam::kRamSize)));
+  CHECK(std::ranges::equal(rgb(single), std::span(results.observations).first(vector.observation_size())));
+  CHECK_FALSE(std::ranges::equal(std::span(results.ram).first(racebeam::kRamSize),
+                                 std::span(results.ram).last(racebeam::kRamSize)));
+}
+
+TEST_CASE("A limit of frames truncates a step, which gives what was seen last and the next beginning") {
+  VectorSettings settings = as_single();
+  settings.machine.max_episode_frames = 8;
+  settings.autoreset = racebeam::Autoreset::kSameStep;
+  auto vector = environments(1, settings);
+  VectorResults results = vector.make_results();
+  vector.reset(results);
+  const auto beginning = results.observations;
+  const std::vector<int> fires = {fire(vector)};
+  vector.step(fires, results);
+  CHECK(results.truncated == std::vector<std::uint8_t>{0});
+  const auto seen_last = results.observations;
+  vector.step(fires, results);
+  CHECK(results.truncated == std::vector<std::uint8_t>{1});
+  CHECK(results.terminated == std::vector<std::uint8_t>{0});
+  CHECK(std::ranges::equal(results.final_observations, seen_last));
+  CHECK(std::ranges::equal(results.observations, beginning));
+  CHECK_FALSE(std::ranges::equal(seen_last, beginning));
+}
+
+TEST_CASE("A lost life terminates the step in which it is lost, and the game continues") {
+  VectorSettings settings = as_single();
+  settings.life_loss = racebeam::LifeLoss::kReported;
+  auto vector = environments(1, settings);
+  VectorResults results = vector.make_results();
+  vector.reset(results);
+  const std::vector<int> fires = {fire(vector)};
+  int lost = 0;
+  for (int step = 0, lives = results.lives[0]; step < 100; ++step) {
+    vector.step(fires, results);
+    CHECK(results.terminated[0] == (results.lives[0] < lives ? 1 : 0));
+    lost += lives - results.lives[0];
+    lives = results.lives[0];
+  }
+  CHECK(lost > 0);
+  CHECK(results.episode_frames[0] == 400);
 }
 
 TEST_CASE("One machine goes back to a snapshot, in memory and as bytes") {
@@ -114,6 +237,28 @@ TEST_CASE("Those that finish first are received first") {
     vector.send(std::vector<int>(2, 0), results.machines);
   }
   CHECK(std::ranges::all_of(received, [](int count) { return count > 0; }));
+}
+
+TEST_CASE("A single machine's snapshot brings the random numbers of sticky actions on request") {
+  VectorSettings settings = as_single();
+  settings.machine.sticky = 0.5F;
+  settings.stack = 0;
+  auto vector = environments(1, settings);
+  racebeam::Environment single(beamfall::image(), settings.machine);
+  beamfall::score_of(single, 10);
+  const auto futures = [&](bool with_random) {
+    const auto snapshot = single.save(with_random);
+    VectorResults results = vector.make_results();
+    std::vector<std::vector<std::uint8_t>> memories;
+    for (int time = 0; time < 4; ++time) {
+      vector.restore(0, snapshot);
+      for (int step = 0; step < 40; ++step) vector.step(std::vector{step % 2 * fire(vector)}, results);
+      memories.push_back(results.ram);
+    }
+    return std::ranges::count(memories, memories[0]);
+  };
+  CHECK(futures(true) == 4);
+  CHECK(futures(false) < 4);
 }
 
 TEST_CASE("Two games play in one vector") {
