@@ -247,6 +247,16 @@ TEST_CASE("A reply that would be too long is refused before anything is done") {
   CHECK(code(client.ask("branch a NOOP*140000")) == "limit");
 }
 
+TEST_CASE("A reply of exactly the longest length is given") {
+  LineLimits limits;
+  limits.reply = 1'075'328;
+  LineClient client(line_service(limits));
+  client.ask(kLoad);
+  client.ask("observe screen:hex");
+  CHECK(code(client.ask("open 16")) == "");
+  CHECK(code(client.ask("open 17")) == "limit");
+}
+
 TEST_CASE("Limits are reported and enforced") {
   LineLimits limits;
   limits.machines = 2;

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "protocol/encoding/base64.hpp"
+#include "protocol/line/action.hpp"
 #include "protocol/request_error.hpp"
 #include "tests/protocol/line_client.hpp"
 
@@ -239,6 +240,61 @@ TEST_CASE("A line of very many words is refused where memory does not suffice fo
   for (int n = 0; n < 100'000; ++n) line += " 0";
   CHECK(code(client.ask(line)) == "limit");
   CHECK(code(client.ask("act 0")) == "");
+}
+
+TEST_CASE("The words of a request count until the session rests") {
+  const LineService service = service_with(64 * kMiB);
+  LineClient client(service);
+  client.ask("load beamfall");
+  const std::uint64_t before = service.memory->taken();
+  std::string line = "drop";
+  for (int n = 0; n < 100'000; ++n) line += " a";
+  CHECK(code(client.ask(line)) == "no-state");
+  CHECK(service.memory->taken() > before + 100'000 * sizeof(std::string_view));
+  CHECK(service.memory->taken() < before + 8 * kMiB);
+  client.ask("help act");  // the reader of lines has shrunk when it has read the next one
+  client.session.rest();
+  CHECK(service.memory->taken() <= before);
+}
+
+TEST_CASE("The actions of a request count until the session rests") {
+  LineService service = service_with(64 * kMiB);
+  service.limits.request_frames = 1000;
+  LineClient client(service);
+  client.ask("load beamfall");
+  std::string line = "act";
+  for (int n = 0; n < 20'000; ++n) line += " 0";
+  CHECK(code(client.ask(line)) == "limit");
+  const std::uint64_t held = service.memory->taken();
+  client.session.rest();
+  CHECK(held - service.memory->taken() > 20'000 * (sizeof(std::string_view) + sizeof(Action)));
+}
+
+TEST_CASE("Machines that rest hold less, and play on") {
+  const LineService service = service_with(64 * kMiB);
+  LineClient client(service), without_rest;
+  for (LineClient* each : {&client, &without_rest}) each->say("load beamfall seed=7\nopen 20\nstep FIRE\n");
+  const std::uint64_t played = service.memory->taken();
+  client.session.rest();
+  CHECK(played - service.memory->taken() > 20 * 200 * sizeof(std::uint64_t));
+  CHECK(client.ask("step FIRE*9") == without_rest.ask("step FIRE*9"));
+}
+
+TEST_CASE("A share counts with two copies of a screen, and a watcher with what it compares") {
+  constexpr std::int64_t kScreen = 210 * 160;
+  const LineService service = service_with(64 * kMiB);
+  LineClient player(service), watcher(service);
+  player.ask("load beamfall");
+  const auto more_after = [&](LineClient& client, const std::string& request) {
+    const std::uint64_t before = service.memory->taken();
+    CHECK(code(client.ask(request)) == "");
+    return static_cast<std::int64_t>(service.memory->taken() - before);
+  };
+  const auto share = more_after(player, "share room");
+  CHECK(share >= 2 * kScreen);
+  CHECK(share < 3 * kScreen);
+  CHECK(more_after(watcher, "watch room screen:delta") >= kScreen);
+  CHECK(more_after(player, "unshare") == -share);
 }
 
 TEST_CASE("A branch is refused where memory does not suffice for its lists, or for its reply") {
