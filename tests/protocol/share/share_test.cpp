@@ -2,11 +2,13 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "protocol/line/watching.hpp"
+#include "tests/protocol/duel.hpp"
 #include "tests/protocol/line_client.hpp"
 
 using namespace racebeam;
@@ -121,6 +123,16 @@ TEST_CASE("A watcher without news gets no picture") {
   CHECK_THAT(server.watcher.ask("watch room screen:raw"), Contains(" screen=33600 raw=33600\n"));
 }
 
+TEST_CASE("A watcher sees the colours of the game's television standard") {
+  Server server(duel_service());
+  for (const std::string game : {"duel", "duel_pal"}) {
+    server.player.ask("load " + game);
+    server.player.ask("share " + game);
+    CHECK(value(server.watcher.ask("watch " + game + " palette:hex"), "palette") ==
+          value(server.player.ask("look palette:hex"), "palette"));
+  }
+}
+
 TEST_CASE("Delta is relative to the last reply with the same fields") {
   Server server;
   server.share();
@@ -226,6 +238,50 @@ TEST_CASE("A shared session has as many watchers as its client allows") {
   server.player.ask("share room2 watchers=1");
   LineClient other(server.service);
   CHECK_THAT(other.ask("watch room2"), StartsWith("ok "));
+}
+
+TEST_CASE("A shared session may have one watcher to a million") {
+  Server server;
+  server.share();
+  CHECK(server.player.ask("share room watchers=1") == "ok share=room watchers=1");
+  CHECK(server.player.ask("share room watchers=1000000") == "ok share=room watchers=1000000");
+  CHECK(server.player.ask("share room watchers=1000001") ==
+        "error bad-value watchers is '1000001'; it takes a whole number from 1 to 1000000");
+}
+
+TEST_CASE("A session may watch 256 shared sessions, and one that has ended leaves room for another") {
+  Server server;
+  std::vector<std::unique_ptr<Sharing>> shared;
+  const auto watch = [&](int number) {
+    return server.watcher.say("watch s" + std::to_string(number) + "\n");
+  };
+  for (int number = 0; number <= 256; ++number) {
+    shared.push_back(Sharing::open(server.service.shares, "s" + std::to_string(number), 1));
+    shared.back()->share().publish({}, 0);
+    if (number < 256) REQUIRE_THAT(watch(number), StartsWith("ok "));
+  }
+  CHECK(watch(256) == "error limit a session may watch 256 shared sessions\n");
+  CHECK_THAT(watch(0), StartsWith("ok "));
+  shared[7].reset();
+  CHECK_THAT(watch(256), StartsWith("ok "));
+  CHECK_THAT(watch(7), StartsWith("error bad-value unknown shared session 's7';"));
+}
+
+TEST_CASE("The list of shared sessions has their frames a second, as whole numbers") {
+  Server server;
+  const auto shared = Sharing::open(server.service.shares, "room", 1);
+  Share& share = shared->share();
+  share.publish({}, 0);
+  while (share.newest()->fps == 0) share.publish({}, 1000);
+  std::string fps;
+  const auto limit = std::chrono::steady_clock::now() + 60s;
+  const auto expected = [&] { return std::to_string(std::llround(share.newest()->fps)); };
+  do {  // once more where the processor was away for longer than a session pauses
+    share.publish({}, 1000);
+    fps = value(server.watcher.say("shared\n"), "fps", 1);
+    fps = fps.substr(0, fps.find('\n'));
+  } while (fps != expected() && std::chrono::steady_clock::now() < limit);
+  CHECK(fps == expected());
 }
 
 TEST_CASE("A server can share all sessions") {
