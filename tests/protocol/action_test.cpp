@@ -93,6 +93,20 @@ TEST_CASE("A place on the screen is written X,Y") {
   }
 }
 
+TEST_CASE("Each place on the screen, number of times and letter is taken up to its limit") {
+  CHECK(parse_action("FIRE@0,1", kAll).act.strength_a == 256);
+  CHECK(parse_action("FIRE@0,255", kAll).act.strength_a == 256 * 255);
+  CHECK(parse_action("FIRE@159,1", kAll).act.strength_a == 159 + 256);
+  CHECK(parse_action("FIRE*1", kAll).times == 1);
+  CHECK(parse_action("FIRE*1000000000", kAll).times == 1'000'000'000);
+  CHECK(parse_action("left_a", kConsole).act.a == 20);
+}
+
+TEST_CASE("An action that was misspelt is suggested from the player's set") {
+  CHECK_THAT(refusal("fier"), Contains("did you mean FIRE?"));
+  CHECK_THAT(refusal("NOOP/fier"), Contains("did you mean FIRE?"));
+}
+
 TEST_CASE("Player B, strengths and repetition") {
   const Action action = parse_action("RIGHT@0.5/UPFIRE@0.25*30", kAll);
   CHECK(action.act.a == 3);
