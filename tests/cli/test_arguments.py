@@ -129,6 +129,28 @@ class TestOptions(Case):
     def test_numbers_that_are_out_of_range(self, option, value):
         self.check_refusal(2, option, "trace", "--rom", GAME, "--actions", "-", option + "=" + value)
 
+    @pytest.mark.parametrize(
+        "words",
+        (
+            ("--frame-skip", "1"),
+            ("--sticky", "0"),
+            ("--sticky", "1"),
+            ("--seed", str((1 << 32) - 1)),
+            ("--system-seed", "0"),
+            ("--mode", "0"),
+            ("--difficulty", "0"),
+            ("--max-frames", "0"),
+        ),
+    )
+    def test_numbers_at_their_limits(self, words):
+        status, printed, errors = run("trace", "--rom", GAME, "--actions", "-", *words, data=b"0 1 2")
+        assert (status, len(printed.splitlines()), errors) == (0, 4, [])
+
+    def test_what_is_accepted_is_named(self):
+        trace = ("trace", "--rom", GAME, "--actions", "-")
+        self.check_refusal(2, "--sticky.*'1.5' is not a number from 0 to 1", *trace, "--sticky", "1.5")
+        self.check_refusal(2, "'fast'; accepted: auto, interpreter and translator", *trace, "--cpu", "fast")
+
     def test_what_the_console_of_an_image_does_not_take(self, subtests):
         for command, *words in MACHINES:
             for option, value, reason in (

@@ -51,6 +51,48 @@ class TestConfig:
         assert default > 1 << 26
         assert self.run_racebeam("config", "--stdio", "--max-memory", "much").returncode == 2
 
+    @pytest.mark.parametrize(
+        "text, size",
+        (
+            ("0", 0),
+            ("1b", 1),
+            ("3k", 3 << 10),
+            ("3 KB", 3 << 10),
+            ("3  kiB", 3 << 10),
+            ("5MiB", 5 << 20),
+            ("7g", 7 << 30),
+            ("9TB", 9 << 40),
+            ("1023P", 1023 << 50),
+            ("1024p", 1 << 60),
+            ("1E", 1 << 60),
+            (str(1 << 60), 1 << 60),
+        ),
+    )
+    def test_a_size_has_any_unit_up_to_the_largest_size(self, text, size):
+        value, source = self.settings("--max-memory", text)["max_memory"]
+        assert (value.strip('"'), source) == (str(size), "command line")  # large numbers are written as texts
+
+    @pytest.mark.parametrize(
+        "text", ("K", "1x", "1kk", "1ib", "1 k b", "k1", "-1", "1.5k", "2E", "1025P", str((1 << 60) + 1), "1 kibi")
+    )
+    def test_what_is_not_a_size_is_refused(self, text):
+        done = self.run_racebeam("config", "--max-memory=" + text)
+        assert (done.returncode, done.stdout) == (2, b"")
+        accepted = "is not a size; accepted: bytes, or 512M, 2G and the like, up to 1152921504606846976 "
+        assert f"--max-memory: '{text}' {accepted}" in done.stderr.decode()
+
+    @pytest.mark.parametrize(
+        "option, least, most",
+        (("--max-states", 1, (1 << 31) - 1), ("--seed", 0, (1 << 32) - 1), ("--frame-skip", 1, (1 << 31) - 1)),
+    )
+    def test_a_whole_number_reaches_from_its_least_to_its_most(self, option, least, most):
+        key = option[2:].replace("-", "_")
+        for number in (least, most):
+            assert self.settings(option, str(number))[key] == (str(number), "command line")
+        for text in (str(least - 1), str(most + 1), "-0", "+1", "1.0", "0x1", ""):
+            done = self.run_racebeam("config", f"{option}={text}")
+            assert (done.returncode, done.stdout) == (2, b""), text
+
     def test_options_win_over_variables_over_the_file_over_defaults(self):
         path = self.file("max_states = 1\nmax_machines = 2\nmax_sessions = 3\n")
         found = self.settings("--config", path, "--max-states", "9", RACEBEAM_MAX_STATES="8", RACEBEAM_MAX_MACHINES="7")

@@ -56,6 +56,15 @@ class TestOwnGames:
                 games = re.findall(r"^ok game=(\w+)", output.decode(), re.MULTILINE)
                 assert games == ["listed", "listed", "beamfall"]
 
+    def test_a_folder_of_files_needs_an_image_for_one_of_them(self):
+        folder = self.place / "files"
+        folder.mkdir()
+        os.link(self.file, folder / "mine.toml")
+        os.link(self.game_file("0" * 32, "other"), folder / "other.toml")
+        status, output, errors = self.serve("--roms", str(self.roms), "--game-file", str(folder))
+        assert status == 0, errors
+        assert output.startswith(b"ok game=mine ")
+
     def test_a_file_for_no_image_is_refused(self, subtests):
         other = self.game_file("0" * 32, "other")
         for options in (["--roms", str(self.roms)], []):
@@ -64,7 +73,8 @@ class TestOwnGames:
                     status, output, errors = run(*words, *options, "--game-file", other)
                     assert (status, output) == (1, b""), errors
                     assert f"--game-file {other}: no image has an MD5 that it lists" in errors[-1]
-                    assert "the program's own games" in errors[-1]
+                    places = "".join(f", --roms {path}" for path in options[1:])
+                    assert f", in the program's own games{places}" in errors[-1]
 
     def test_play_begins_with_the_game_of_the_file(self):
         variables = ("DISPLAY", "WAYLAND_DISPLAY")

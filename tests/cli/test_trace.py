@@ -137,6 +137,10 @@ class TestWrites:
         assert second == first[:127] + bytes([3])
         assert lines[3].startswith("M 5 200 ") and lines[4].startswith("M 127 3 ")
 
+    def test_the_first_byte_and_the_largest_value_can_be_written(self):
+        lines = play("--ram", data=b"M 0 255\n0\nM 0 0\n0\n")
+        assert [line.split()[:3] for line in lines if line[0] == "M"] == [["M", "0", "255"], ["M", "0", "0"]]
+
     def test_writes_and_strengths_are_taken_from_a_trace(self):
         lines = play("--ram", data=b"3@0.5 4@-0.25 3@1 3@0.333 3@1e-5\nM 9 7\n0\n")
         assert [line.split()[1] for line in lines if line[0] == "A"] == [
@@ -196,6 +200,17 @@ class TestRefusals:
         for word in (b"3@", b"3@x", b"3@nan", b"3@inf", b"3@1001"):
             self.check_refusal("line 1: .* is not a strength from -1000 to 1000", 0, word)
         self.check_refusal("line 1: '' is not a number", 0, b"@1")
+
+    def test_a_strength_has_its_limits(self):
+        lines = play(data=b"3@1000 3@-1000")
+        assert [line.split()[1] for line in lines if line[0] == "A"] == ["3@1000", "3@-1000"]
+        for word in (b"3@1000.5", b"3@-1000.5"):
+            self.check_refusal("line 1: .* is not a strength from -1000 to 1000", 0, word)
+
+    def test_a_word_is_shown_with_its_first_40_characters(self):
+        self.check_refusal(f"line 1: '{'y' * 39}~' is not a number$", 0, b"y" * 39 + b"~")
+        self.check_refusal(f"line 1: '{'y' * 40}' is not a number$", 0, b"y" * 41)
+        self.check_refusal(r"line 1: '\?~!\?' is not a number$", 0, b"\x1b~!\x7f")
 
     def test_bytes_that_are_not_text(self):
         self.check_refusal("line 1: '.*' is not a number", 0, bytes(range(128, 160)))
