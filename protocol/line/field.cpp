@@ -5,6 +5,7 @@
 
 #include "emulator/tia/palette.hpp"
 #include "environment/settings/play_settings.hpp"
+#include "games/game/given_properties.hpp"
 #include "protocol/description/tables.hpp"
 #include "protocol/request_error.hpp"
 #include "system/named_rows.hpp"
@@ -136,7 +137,7 @@ std::size_t bytes_of(const StackSettings& stack) {
          static_cast<std::size_t>(pictures);
 }
 
-constexpr std::size_t kTallScreen = 250 * std::size_t{kScreenWidth}, kRgbScreen = 3 * kTallScreen;
+constexpr std::size_t kTallScreen = std::size_t{kMostHeight} * kScreenWidth, kRgbScreen = 3 * kTallScreen;
 
 // The most bytes of a field of bytes, on any machine.
 std::size_t most_bytes(const Field& field) {

@@ -34,9 +34,19 @@ std::string refusal(const std::string& text) {
 
 StackSettings stack_of(const std::string& word) { return fields_of(word).at(0).stack.value(); }
 
+Cartridge with_height(const std::string& height) {
+  const auto image = load_image("builtin:beamfall");
+  GivenProperties console;
+  console.give("height", height);
+  return {image, with_given(find_game("beamfall"), *image, console)};
+}
+
 // A machine that shows these fields.
 struct Shown {
-  explicit Shown(const std::string& text) : fields(fields_of(text)) { observe(slot, fields); }
+  explicit Shown(const std::string& text, const std::string& height = "210")
+      : fields(fields_of(text)), slot(with_height(height), slot_settings({})) {
+    observe(slot, fields);
+  }
 
   // The fields of the next reply, after one act.
   std::string next() {
@@ -47,7 +57,7 @@ struct Shown {
   }
 
   std::vector<Field> fields;
-  Slot slot{{load_image("builtin:beamfall"), find_game("beamfall")}, slot_settings({})};
+  Slot slot;
   View view{fields};
 };
 
@@ -161,6 +171,14 @@ TEST_CASE("A reply has the estimated length where the encoding fixes it, and els
       CHECK(length <= View::longest_text(shown.fields) + name.size() + 2);
       CHECK(View::longest_text(shown.fields) < 8'000'000);
     }
+}
+
+TEST_CASE("The longest text has room for the tallest screen") {
+  for (const std::string name : {"screen", "grey", "rgb"}) {
+    Shown shown(name + ":hex", "256");
+    CHECK(shown.slot.environment().height() == 256);
+    CHECK(shown.next().size() <= View::longest_text(shown.fields) + name.size() + 2);
+  }
 }
 
 TEST_CASE("A view holds at most the estimated bytes, which are less than some megabytes") {
