@@ -172,14 +172,25 @@ TEST_CASE("An environment moves, and keeps what it shows") {
 
 namespace {
 
-// A game with these modes, of which 1 cannot be reached.
+// A game with these modes. It looks for mode 1 at random, and does not reach it.
 racebeam::Game game_with_modes(const std::string& modes) {
   const racebeam::Scratch scratch;
-  return racebeam::Game::load(
-      scratch.write("own.toml", "title = 'Own'\nmodes = " + modes +
-                                    "\ndifficulties = [0, 3]\n"
-                                    "[rule]\nstep = \"\"\"\nscore = 0\nterminal = 0\n\"\"\"\n"
-                                    "[mode]\nsetup = 'if mode == 1 { fail \"no such screen\" }'\n"));
+  const std::string rules = R"(
+difficulties = [0, 3]
+[rule]
+step = """
+score = 0
+terminal = 0
+"""
+[mode]
+setup = """
+if mode == 1 {
+  select 1 + (rng() & 1)
+  fail "no such screen"
+}
+"""
+)";
+  return racebeam::Game::load(scratch.write("own.toml", "title = 'Own'\nmodes = " + modes + rules));
 }
 
 racebeam::Settings sticky_settings() {
