@@ -7,6 +7,7 @@ import contextlib
 import importlib.util
 import os
 import pathlib
+import platform
 import shutil
 import sys
 
@@ -34,6 +35,7 @@ NEEDS = {
     "needs_roms": _missing_roms,
     "needs_program": lambda _: [] if os.path.exists(harness.BINARY) else ["the program racebeam"],
     "needs_posix": lambda _: [] if os.name == "posix" and not harness.WINDOWS else ["POSIX"],
+    "needs_glibc": lambda _: [] if platform.libc_ver()[0] == "glibc" else ["the GNU C library"],
     "needs_jax": lambda _: [] if _has_module("jax") else ["JAX"],
     "needs_modules": lambda names: [name for name in names if not _has_module(name)],
     "needs_programs": lambda names: [name for name in names if shutil.which(name) is None],

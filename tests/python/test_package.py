@@ -105,19 +105,19 @@ class TestFiles:
         )
         assert {line.split()[2].split("@")[0] for line in symbols.stdout.splitlines()} == {"PyInit__core"}
 
-    @pytest.mark.needs_posix
+    @pytest.mark.needs_glibc
     def test_what_is_linked_is_on_every_Linux(self):
         libraries = {"libc.so.6", "libm.so.6", "libgcc_s.so.1", "ld-linux-x86-64.so.2", "libpthread.so.0"}
         assert needed(racebeam._core.__file__) <= libraries
         assert needed(pathlib.Path(sys.executable).parent / "racebeam") == set()
 
-    @pytest.mark.needs_posix
+    @pytest.mark.needs_glibc
     def test_it_runs_on_the_systems_that_the_document_names(self):
         claim = re.search(r"`manylinux_2_(\d+)_x86_64`", (package.SOURCE / "docs/python/reference.md").read_text())[1]
         versions = output("readelf", "--version-info", racebeam._core.__file__)
         assert max(map(int, re.findall(r"GLIBC_2\.(\d+)", versions))) <= int(claim)
 
-    @pytest.mark.needs_posix
+    @pytest.mark.needs_glibc
     def test_each_function_of_the_C_library_has_a_version(self):
         symbols = output("nm", "-D", "--undefined-only", racebeam._core.__file__).splitlines()
         names = [line.split()[-1] for line in symbols if line.split()[-2] == "U"]

@@ -5,6 +5,7 @@ import ctypes
 import importlib.util
 import os
 import pathlib
+import platform
 import sys
 
 SKIPPED = 77  # the exit status that ctest reads as "skipped"
@@ -27,12 +28,12 @@ def require(*modules):
 
 
 def zero_new_memory():
-    """Has the C library of Linux fill new memory with zeros, in this process and those that it starts.
+    """Has the GNU C library fill new memory with zeros, in this process and those that it starts.
 
     The reference reads memory that it never set: averaging looks up an unset entry of its table wherever an index is
     odd, as in PAL pictures that lost their colour (docs/spec/palette.md, "Colour averaging"). Fresh memory happens to
     be zero, reused memory is not.
     """
-    if os.name == "posix" and os.environ.get("MALLOC_PERTURB_") != ZEROS:
+    if platform.libc_ver()[0] == "glibc" and os.environ.get("MALLOC_PERTURB_") != ZEROS:
         os.environ["MALLOC_PERTURB_"] = ZEROS
         ctypes.CDLL(None).mallopt(M_PERTURB, int(ZEROS))

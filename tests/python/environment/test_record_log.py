@@ -224,7 +224,8 @@ class TestSubmissions:
             resource.setrlimit(resource.RLIMIT_FSIZE, limits)
         play_games(env, 1)
         assert (env.logged, env.unlogged, len(self.rows())) == (1, 1, 1)
-        assert self.verify()[0] == 0
+        if os.path.exists(harness.BINARY):
+            assert self.verify()[0] == 0
 
     def test_a_program_that_keeps_the_lock_of_the_table_costs_an_episode_its_log(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
