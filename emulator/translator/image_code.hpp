@@ -26,9 +26,10 @@ struct View {
   explicit View(const CodeWindow& window) : code(window), entries(window.span), known(window.span) {}
 
   const CodeWindow code;  // in the ImageCode's copy of the image
-  std::vector<const void*>
-      entries;              // by offset: the code of the block that starts there; read by other threads
-  std::vector<bool> known;  // by offset: whether a block starts there; guarded by the lock
+  // By offset: the code of the block that starts there, which other threads read, and whether one starts
+  // there, which the lock guards.
+  std::vector<const void*> entries;
+  std::vector<bool> known;
 
   static std::size_t bytes_of(const CodeWindow& window) {
     return sizeof(View) + window.span * sizeof(const void*) + window.span / 8;
