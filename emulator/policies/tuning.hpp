@@ -48,7 +48,7 @@ RACEBEAM_TUNED(int, kMostBlockCycles, 300, "cycles", "frames");
 
 // What a machine has when it starts. Most games have then translated the code that they begin with before
 // they have run for a few frames.
-RACEBEAM_TUNED(std::int64_t, kCredit, 900'000, "ns", "start");
+RACEBEAM_TUNED(std::int64_t, kCredit, 750'000, "ns", "start");
 // The part of the credit that pays for what the system does for the memory of the code, which is not charged:
 // pages of short-lived machines.
 RACEBEAM_TUNED(std::int64_t, kStartCost, 200'000, "ns", "start");

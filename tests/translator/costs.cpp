@@ -6,7 +6,7 @@
 //
 // Both print the distribution of the ratio and the worst. They end with 1 if a program takes more than 1.5
 // times as long translated, or as many times as the variable RACEBEAM_COST_BOUND says, and 1.5 ms more. A
-// machine starts with a credit of 0.9 ms (TranslationBudget), and code that was made on credit may not pay.
+// machine starts with a credit of 0.75 ms (TranslationBudget), and code that was made on credit may not pay.
 // They also end with 1 if a program that must gain by translation does not: nothing is translated then, and
 // the ratios say nothing.
 #include <algorithm>

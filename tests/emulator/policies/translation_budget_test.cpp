@@ -73,7 +73,7 @@ TEST_CASE("Pauses in steps do not add to the budget of a program that translates
   CHECK(run(busy, 1000) <= undisturbed + 5);
 }
 
-constexpr std::int64_t kCredit = 700 * kMicrosecond;  // without what the system takes
+constexpr std::int64_t kCredit = 550 * kMicrosecond;  // without what the system takes
 
 // Spends the credit, and the little that the steps meanwhile add.
 void spend_credit(TranslationBudget& budget) { run(budget, 100); }
@@ -134,9 +134,9 @@ int steps_until_covered(TranslationBudget& budget, std::int64_t time) {
   return steps;
 }
 
-TEST_CASE("The credit covers 28 batches of the usual cost") {
+TEST_CASE("The credit covers 22 batches of the usual cost") {
   TranslationBudget budget(false, kClocks);
-  CHECK(drain(budget) == 28);
+  CHECK(drain(budget) == 22);
   CHECK_FALSE(budget.covers_batch());
 }
 
