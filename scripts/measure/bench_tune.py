@@ -1,7 +1,7 @@
 """Measures what the numbers of the ledgers are worth: each at half and at double, and each policy switched off.
 
-The ledgers are emulator/policies/tuning.hpp, protocol/tuning.hpp, server/tuning.hpp and system/tuning.hpp. The program is built
-with the preset `tunable`, in which a row of a ledger is a variable. A row says what it is measured by:
+The ledgers are emulator/policies/tuning.hpp, protocol/tuning.hpp, server/tuning.hpp and system/tuning.hpp. The program
+is built with the preset `tunable`, in which a row of a ledger is a variable. A row says what it is measured by:
 
   frames   games in the middle of play: the screen of every frame, and rewards only
   start    the first frames of games from power-on, in a new process each
