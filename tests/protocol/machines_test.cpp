@@ -222,6 +222,14 @@ TEST_CASE("A state that has ended has ended in machines of other kinds, too") {
   CHECK(client.ask("step 0") == "ok machines=1 | reward=1 terminated=0 truncated=0 frames=4");
 }
 
+TEST_CASE("A reply about a restored machine has the rewards and frames of no earlier step") {
+  LineClient client;
+  ask_all(client, {"load beamfall seed=7 sticky=0 reward_min=1", "observe reward frames",
+                   "open 1 steps=frames", "save begun machine=0"});
+  CHECK(client.ask("step FIRE") == "ok machines=1 | reward=1 frames=1");
+  CHECK(client.ask("restore begun machine=0") == "ok reward=0 frames=0");
+}
+
 TEST_CASE("Frames of acts count against the limit of an episode of steps") {
   LineClient client;
   ask_all(client, {"load beamfall seed=7 sticky=0 frame_skip=4 max_episode_frames=20", "act 0*3",

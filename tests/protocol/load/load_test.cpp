@@ -194,3 +194,11 @@ TEST_CASE("What is given twice is refused") {
   }
   CHECK(value(client.ask("settings"), "seed") == "7");
 }
+
+TEST_CASE("The names of a game's memory are in a reply, and those of the TIA in each one") {
+  LineClient client;
+  client.ask(kLoad);
+  const std::string names = client.ask("names");
+  CHECK_THAT(value(names, "ram_names"), Contains("1:lives,2:score"));
+  CHECK_THAT(value(names, "tia_names"), StartsWith("VSYNC,VBLANK,"));
+}
