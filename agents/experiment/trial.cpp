@@ -17,7 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr SealedKind kCheckpoint = {
-    .what = "checkpoint", .magic = "RBCHECKP", .version = 2, .most = std::size_t{8} << 30, .level = 1};
+    .what = "checkpoint", .magic = "RBCHECKP", .version = 3, .most = std::size_t{8} << 30, .level = 1};
 
 AgentContext context_of(const Plan& plan, const Unit& unit, const AgentValues& values,
                         const Cartridge& cartridge, GameFacts* facts, const PlaySettings& play) {

@@ -10,7 +10,7 @@ namespace racebeam {
 
 LocalityHash::LocalityHash(int vectors, int ones, int buckets, std::uint64_t seed)
     : buckets_(static_cast<std::uint32_t>(buckets)),
-      first_(kFeaturePixels * kBitsOfColour + 1),
+      first_(kScreenBits + 1),
       sums_(static_cast<std::size_t>(vectors)) {
   struct One {
     std::uint32_t bit;
@@ -18,14 +18,15 @@ LocalityHash::LocalityHash(int vectors, int ones, int buckets, std::uint64_t see
   };
   Random random(seed);
   std::vector<One> all;
-  std::vector<std::uint32_t> owner(kFeaturePixels * kBitsOfColour);  // the last vector that has a bit, from 1
+  std::vector<std::uint32_t> owner(kVectorBits);  // the last vector that has a bit, from 1
   for (std::size_t vector = 0; vector < sums_.size(); ++vector) {
     for (int remaining = ones; remaining > 0;) {
       const std::size_t bit = random.below(owner.size());
       if (owner[bit] == vector + 1) continue;  // the ones of a vector are distinct
       owner[bit] = static_cast<std::uint32_t>(vector + 1);
       const auto hash = static_cast<std::uint16_t>(random.below(buckets_));
-      all.push_back({static_cast<std::uint32_t>(bit), {static_cast<std::uint16_t>(vector), hash}});
+      if (bit < kScreenBits)
+        all.push_back({static_cast<std::uint32_t>(bit), {static_cast<std::uint16_t>(vector), hash}});
       --remaining;
     }
   }
@@ -35,21 +36,29 @@ LocalityHash::LocalityHash(int vectors, int ones, int buckets, std::uint64_t see
     ++first_[one.bit + 1];
   }
   for (std::size_t bit = 1; bit < first_.size(); ++bit) first_[bit] += first_[bit - 1];
+  forget();
 }
 
 void LocalityHash::forget() {
-  std::ranges::fill(sums_, 0);
   before_.fill(0);
+  owners_.fill(0);
+  std::ranges::fill(sums_, 0);
+  for (std::size_t pixel = 0; pixel < kFeaturePixels; ++pixel) {
+    owners_[pixel] = 1;
+    add(pixel, 1);
+  }
 }
 
-// The hashes of the pixel's bits that are set now are added, and those of bits that were set are taken away.
+// A bit of the screen that is set adds its hashes; with a sign of -1, one that was set takes them away.
+void LocalityHash::add(std::size_t bit, std::int32_t sign) {
+  for (std::uint32_t at = first_[bit]; at < first_[bit + 1]; ++at)
+    sums_[entries_[at].vector] += sign * entries_[at].hash;
+}
+
 void LocalityHash::apply(const Change& change) {
-  for (unsigned bits = change.before ^ change.now; bits != 0; bits &= bits - 1) {
-    const std::size_t bit = change.pixel * kBitsOfColour + static_cast<std::size_t>(std::countr_zero(bits));
-    const std::int32_t sign = (change.now & bits & -bits) != 0 ? 1 : -1;
-    for (std::uint32_t at = first_[bit]; at < first_[bit + 1]; ++at)
-      sums_[entries_[at].vector] += sign * entries_[at].hash;
-  }
+  const std::size_t before = change.pixel + change.before, now = change.pixel + change.now;
+  if (--owners_[before] == 0) add(before, -1);
+  if (owners_[now]++ == 0) add(now, 1);
 }
 
 void LocalityHash::find_changes(Screen screen) {
@@ -73,18 +82,9 @@ void LocalityHash::find_changes(Screen screen) {
   }
 }
 
-// The entries of a pixel's seven bits lie in a row, in four of the processor's lines.
-void LocalityHash::fetch_entries(const Change& change) const {
-  const Entry* const entries = entries_.data() + first_[change.pixel * kBitsOfColour];
-  for (std::size_t line = 0; line < 4; ++line) __builtin_prefetch(entries + line * kEntriesOfLine);
-}
-
 void LocalityHash::extract(Screen screen, ActiveFeatures& active) {
   find_changes(screen);
-  for (std::size_t i = 0; i < changes_.size(); ++i) {
-    if (i + kFetchAhead < changes_.size()) fetch_entries(changes_[i + kFetchAhead]);
-    apply(changes_[i]);
-  }
+  for (const Change& change : changes_) apply(change);
   active.clear();
   for (std::size_t vector = 0; vector < sums_.size(); ++vector)
     active.indices.push_back(static_cast<std::uint32_t>(vector * buckets_) +

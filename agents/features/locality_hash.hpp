@@ -20,20 +20,22 @@ class LocalityHash final : public FeatureSet {
   // Only pixels that changed since the screen before are looked at.
   void extract(Screen screen, ActiveFeatures& active);
 
-  // Forgets the screen before: the next sums are computed from nothing. The features are the same.
+  // Forgets the screen before: the next sums are computed from a screen of colour 0. The features are the
+  // same.
   void forget();
 
  private:
-  static constexpr std::size_t kBitsOfColour = 7;
+  // The screen's bit of a pixel is the one at the pixel's number plus its colour. Pixels may share one. Few
+  // of the vectors' bits are such: the paper has seven times as many as there are pixels.
+  static constexpr std::size_t kColours = 128;
+  static constexpr std::size_t kScreenBits = kFeaturePixels + kColours - 1;
+  static constexpr std::size_t kVectorBits = 7 * kFeaturePixels;
 
   // A vector that has a certain bit, and the bit's hash in it.
   struct Entry {
     std::uint16_t vector;
     std::uint16_t hash;
   };
-
-  static constexpr std::size_t kEntriesOfLine = 64 / sizeof(Entry);  // of the processor's cache
-  static constexpr std::size_t kFetchAhead = 8;                      // changes
 
   // A pixel with another colour than on the screen before.
   struct Change {
@@ -42,14 +44,15 @@ class LocalityHash final : public FeatureSet {
   };
 
   void find_changes(Screen screen);
-  void fetch_entries(const Change& change) const;
   void apply(const Change& change);
+  void add(std::size_t bit, std::int32_t sign);
 
   const std::uint32_t buckets_;
-  HugeTable<std::uint32_t> first_;  // per bit: its entries; one more for the end
+  HugeTable<std::uint32_t> first_;  // per bit of the screen: its entries; one more for the end
   HugeTable<Entry> entries_;
   std::vector<Change> changes_;
   std::vector<std::int32_t> sums_;                     // per vector: hashes of the bits that both have
+  std::array<std::uint16_t, kScreenBits> owners_{};    // pixels that set this bit of the screen
   std::array<std::uint8_t, kFeaturePixels> before_{};  // colours
   FeatureScreen screen_;
 };

@@ -41,7 +41,7 @@ std::string random_checkpoint(std::int32_t trained, std::int32_t evaluated, std:
   out.put(std::array<std::int64_t, 6>{0, frames});
   for (const std::string_view table : {"", ""}) out.put(table);
   out.put(Random(1));
-  return seal({.what = "checkpoint", .magic = "RBCHECKP", .version = 2, .most = 1000, .level = 1},
+  return seal({.what = "checkpoint", .magic = "RBCHECKP", .version = 3, .most = 1000, .level = 1},
               out.bytes());
 }
 

@@ -45,7 +45,7 @@ const std::vector<Case> kCases = {
       {"grid_width", "8"},
       {"grid_height", "7"}}},
     {"disco", kLength, {{"tilings", "2"}, {"grid", "3"}, {"count_instances", "0"}}},
-    {"lsh", kLength, {{"vectors", "2"}, {"ones", "2000"}, {"buckets", "7"}}},
+    {"lsh", kLength, {{"vectors", "2"}, {"ones", "2000"}, {"buckets", "2"}}},
     {"blob_prost",
      std::string(kLength) + "clear_other_traces = 1\n",
      {{"blob_distance", "210"}, {"most_features", "50"}}},

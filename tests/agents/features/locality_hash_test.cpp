@@ -63,6 +63,31 @@ TEST_CASE("The more pixels change, the fewer features are shared") {
   CHECK(features(set, screen) == first);
 }
 
+TEST_CASE("LSH has the sums that its definition has") {
+  // Bits are drawn as documented: for each vector, distinct bits, each with a hash.
+  constexpr std::size_t kVectors = 20, kOnes = 1000, kBuckets = 50;
+  LocalityHash set(kVectors, kOnes, kBuckets, 9);
+  Random draws(9), colours(4);
+  Pixels screen;
+  for (auto& pixel : screen) pixel = static_cast<std::uint8_t>(colours.next());
+  std::vector<bool> is_set(7 * kFeaturePixels);
+  for (std::size_t pixel = 0; pixel < screen.size(); ++pixel) is_set[pixel + (screen[pixel] >> 1)] = true;
+  const auto active = features(set, screen);
+  for (std::size_t vector = 0; vector < kVectors; ++vector) {
+    std::vector<bool> drawn(is_set.size());
+    std::size_t sum = 0;
+    for (std::size_t count = 0; count < kOnes;) {
+      const std::size_t bit = draws.below(drawn.size());
+      if (drawn[bit]) continue;
+      drawn[bit] = true;
+      ++count;
+      const std::size_t hash = draws.below(kBuckets);
+      if (is_set[bit]) sum += hash;
+    }
+    REQUIRE(active[vector] == vector * kBuckets + sum % kBuckets);
+  }
+}
+
 TEST_CASE("Each seed has its own vectors") {
   LocalityHash one(100, 1000, 50, 1), other(100, 1000, 50, 2);
   Pixels screen;
