@@ -1,7 +1,7 @@
 """The sections of docs/results.md about the logs of episodes."""
 
 from .learners import LEARNERS
-from .parts import Part, number, rows_of, share_of_bench
+from .parts import Part, episodes, number, rows_of, share_of_bench
 
 
 class Logs(Part):
@@ -38,6 +38,10 @@ class Logs(Part):
         unverified = [self.title(name) for name, found in self.figures.items() if not found["verified"]]
         if unverified:
             self.say(f"Not verified yet: {', '.join(unverified)}.")
+        for name, found in self.figures.items():
+            if found["verified"] and (more := found["verified"]["confirmed"] - episodes(found)) > 0:
+                self.say(f"""The figures of {self.title(name)} include {more:,} rows that the tables no longer have: an
+                    agent was mended, and its units were run again.""")
         self.add(
             rows_of(
                 [
