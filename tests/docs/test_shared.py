@@ -13,8 +13,8 @@ LIBRARIES = [BUILD / f"{name}/libracebeam_{name}.a" for name in ("emulator", "en
 CACHE = (BUILD / "CMakeCache.txt").read_text() if (BUILD / "CMakeCache.txt").exists() else ""
 LISTED = ROOT / "docs/architecture.md"
 
-# Functions and objects that hold values which are computed once, and then only read.
-CONSTANTS = {"PixelMask::kBelow", "blend", "simd", "supported_simd", "executable_memory_error"}
+# Functions and objects that hold values which are computed once or by the compiler, and then only read.
+CONSTANTS = {"PixelMask::kBelow", "blend", "kSettings", "simd", "supported_simd", "executable_memory_error"}
 
 MEMBER = re.compile(r"^(?P<file>\S+\.cpp)\.o: +file format")
 OBJECT = re.compile(r"^[0-9a-f]+ .{6}O \.(?:bss|data|tm_clone)\S*\s+[0-9a-f]+\s+(?:\.hidden )?(?P<name>.*)$")
