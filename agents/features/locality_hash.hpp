@@ -25,8 +25,8 @@ class LocalityHash final : public FeatureSet {
   void forget();
 
  private:
-  // The screen's bit of a pixel is the one at the pixel's number plus its colour. Pixels may share one. Few
-  // of the vectors' bits are such: the paper has seven times as many as there are pixels.
+  // A pixel sets the bit at its number plus its colour. Pixels may share a bit. The vectors have seven bits
+  // for each pixel, as in the paper, so that most of theirs are never set.
   static constexpr std::size_t kColours = 128;
   static constexpr std::size_t kScreenBits = kFeaturePixels + kColours - 1;
   static constexpr std::size_t kVectorBits = 7 * kFeaturePixels;
