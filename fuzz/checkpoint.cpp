@@ -13,16 +13,10 @@
 #include "fuzz/support/folder.hpp"
 #include "fuzz/support/keep_code.hpp"
 #include "fuzz/support/target.hpp"
-#include "recording/sealed_file.hpp"
-#include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam::fuzz {
 namespace {
-
-// As in agents/experiment/trial.cpp, which refuses other kinds.
-constexpr SealedKind kCheckpoint = {
-    .what = "checkpoint", .magic = "RBCHECKP", .version = 2, .most = std::size_t{1} << 24, .level = 1};
 
 constexpr std::uint8_t kWhole = 0x80;
 constexpr std::chrono::hours kNever{1};
@@ -71,8 +65,7 @@ struct Experiment {
     std::filesystem::create_directories(folder.work());
     int episodes = 0;
     trial(unit, folder).run(std::chrono::milliseconds(0), [&] { return episodes++ == 1; });
-    const std::string bytes = read_input_file("checkpoint", folder.checkpoint(unit.name), kCheckpoint.most);
-    return unseal(kCheckpoint, "checkpoint", bytes);
+    return read_sealed(kCheckpoint, folder.checkpoint(unit.name));
   }
 
   Images images;

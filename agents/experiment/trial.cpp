@@ -6,7 +6,6 @@
 
 #include "agents/experiment/cost.hpp"
 #include "recording/atomic_file.hpp"
-#include "recording/sealed_file.hpp"
 #include "recording/sha256.hpp"
 #include "system/clock.hpp"
 #include "system/invalid_input.hpp"
@@ -15,9 +14,6 @@ namespace racebeam {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr SealedKind kCheckpoint = {
-    .what = "checkpoint", .magic = "RBCHECKP", .version = 3, .most = std::size_t{8} << 30, .level = 1};
 
 AgentContext context_of(const Plan& plan, const Unit& unit, const AgentValues& values,
                         const Cartridge& cartridge, GameFacts* facts, const PlaySettings& play) {

@@ -11,8 +11,12 @@
 #include "agents/experiment/play.hpp"
 #include "agents/experiment/results.hpp"
 #include "agents/kinds/agent_table.hpp"
+#include "recording/sealed_file.hpp"
 
 namespace racebeam {
+
+inline constexpr SealedKind kCheckpoint = {
+    .what = "checkpoint", .magic = "RBCHECKP", .version = 3, .most = std::size_t{8} << 30, .level = 1};
 
 class Trial {
  public:
