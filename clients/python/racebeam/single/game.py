@@ -147,6 +147,9 @@ class EnvWithGame(EnvWithActions):
             state: A state that `clone_state` returned.
 
         Raises:
+            TypeError: If `state` is not an ALEState.
             InvalidInput: If the state belongs to another game.
         """
+        if not isinstance(state, ALEState):
+            raise TypeError(f"state has the type {type(state).__name__}; it takes an ALEState, as of clone_state()")
         self.ale.restoreState(state)

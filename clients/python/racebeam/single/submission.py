@@ -66,7 +66,9 @@ class Submission:
         about: dict[str, str] | None = None,
     ) -> None:
         if not NAME.fullmatch(agent):
-            raise InvalidInput(f"agent is {agent!r}; it takes 1 to 64 letters, digits, '_', '.' and '-'")
+            raise InvalidInput(
+                f"agent is {agent!r}; it takes 1 to 64 letters, digits, '-', '_' and '.', a letter or a digit first"
+            )
         words: dict[str, object] = {
             "agent": agent,
             "version": version,
