@@ -92,7 +92,8 @@ def _check_shape(path: pathlib.Path, content: bytes, columns: dict[str, Kind], f
     header = lines[0].decode().split(",") if lines else []
     lacking = [name for name in columns if name not in header]
     if lacking:
-        raise BadInput(f"{path} lacks the columns {', '.join(lacking)}; expected at least {','.join(columns)}")
+        what = "column" if len(lacking) == 1 else "columns"
+        raise BadInput(f"{path} lacks the {what} {', '.join(lacking)}; expected at least {','.join(columns)}")
     for number, line in enumerate(lines, 1):
         fields = line.count(b",") + 1
         if fields != len(header):

@@ -40,6 +40,11 @@ class TestBadInput:
             "game,image_md5,agent,trial,episode,score,end"
         )
 
+    def test_one_column_is_missing(self):
+        header = "game,image_md5,agent,trial,episode,score"
+        self.lines("pong,aa11,basic,0,0,1", header=header)
+        self.check_refusal(f"results.csv lacks the column end; expected at least {header},end")
+
     def test_text_for_a_number(self):
         self.lines(result("pong", "basic", 0, 0, 1), result("pong", "basic", 0, 1, "high"))
         self.check_refusal("results.csv, line 3: score is 'high'; expected a decimal number")

@@ -346,7 +346,7 @@ class TestBadInput(Folder):
             (good + "colour = 1\n", "unknown key 'colour'; accepted: agent, version,"),
             (good.replace("version", "# version"), "agent.toml lacks the key 'version'; expected agent, version,"),
             (good.replace('"mine"', "5"), "agent is 5; expected a text"),
-            (good.replace('"mine"', '"../mine"'), "agent is '../mine'; expected letters, digits"),
+            (good.replace('"mine"', '"../mine"'), "agent is '../mine'; expected 1 to 100 letters, digits"),
             (good.replace("paper2013", "paper2014"), "preset is 'paper2014'; expected paper2013, machado2018"),
             (good.replace("https://example.org/agent", "javascript:alert(1)"), "expected https://... or http://..."),
             (good.replace("4000000", "true"), "training_frames is 'True'; expected a whole number from 0"),

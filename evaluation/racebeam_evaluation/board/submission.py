@@ -17,6 +17,7 @@ from .episode_log import EpisodeLog, read_log
 _MOST_BYTES = 2**16  # of agent.toml
 _MOST_LETTERS = 4000  # of a text in it
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,99}")
+_NAME_SAYS = "1 to 100 letters, digits, '-', '_' and '.', a letter or a digit first"
 _PRESETS = (*PRESETS, "other")
 _TEXTS = ("agent", "version", "preset", "words", "link", "role", "phrase")
 _REQUIRED = ("agent", "version", "preset", "training_frames")
@@ -95,7 +96,7 @@ def _about(path: pathlib.Path) -> About:
             raise BadInput(f"{path} lacks the key '{key}'; expected {', '.join(_REQUIRED)}")
     for key in _TEXTS:
         _check_text(path, key, found.get(key, ""))
-    _check(path, found, "agent", _NAME.fullmatch(found["agent"]), "letters, digits, '_', '.' and '-'")
+    _check(path, found, "agent", _NAME.fullmatch(found["agent"]), _NAME_SAYS)
     _check(path, found, "preset", found["preset"] in _PRESETS, ", ".join(_PRESETS))
     _check(path, found, "role", found.get("role", "learner") in ROLES, ", ".join(ROLES))
     _check(path, found, "link", re.match(r"https?://[^\s]+$|$", found.get("link", "")), "https://... or http://...")
@@ -120,7 +121,7 @@ def _episode(folder: pathlib.Path, line: int, row: dict[str, str], about: About)
     place = f"{folder / 'results.csv'}, line {line}"
     for column in ("unit", "episode"):
         if not _NAME.fullmatch(row[column]):
-            raise BadInput(f"{place}: {column} is '{row[column]}'; expected letters, digits, '_', '.' and '-'")
+            raise BadInput(f"{place}: {column} is '{row[column]}'; expected {_NAME_SAYS}")
     path = folder / "logs" / row["unit"] / f"{row['episode']}.episode"
     for above in (path.parent.parent, path.parent):
         if above.is_symlink():
