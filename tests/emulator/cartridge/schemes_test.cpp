@@ -277,5 +277,35 @@ TEST_CASE("3F: the last bank is fixed, numbers wrap, the mirrors of the TIA are 
   CHECK(int{console.peek(0x1005)} == 0x05);
 }
 
+TEST_CASE("3F and 3E: of an image that ends within a bank, that bank is selected, and the last 2K stay") {
+  const Rom rom = image_3f(5000);  // the third bank has 904 bytes, and the last 2K begin at 2952
+  for (const std::string_view scheme : {"3F", "3E"}) {
+    INFO(scheme);
+    Bench bench(rom, {.scheme = std::string(scheme)});
+    for (const auto& [value, bank] : {std::pair(0, 0), {1, 1}, {2, 2}, {3, 1}, {4, 0}, {255, 1}}) {
+      bench.write_at(0, 0x3F, static_cast<unsigned>(value));
+      CHECK(int{bench.see(0x1005)} == 16 * bank + 5);
+      CHECK(int{bench.see(0x1805)} == rom[2957]);
+      CHECK(int{bench.see(0x1FFF)} == rom[4999]);
+    }
+    bench.write_at(0, 0x3F, 2);
+    CHECK(int{bench.see(0x05)} == 0x25);
+    CHECK(int{bench.see(0x1387)} == rom[4999]);
+    CHECK(int{bench.see(0x1388)} == 0);
+    CHECK(int{bench.see(0x17FF)} == 0);
+    bench.write_at(0, 0x3F, 0);
+    CHECK(int{bench.see(0x17FF)} == rom[2047]);
+  }
+}
+
+TEST_CASE("3F: a bank of fewer than 64 bytes is read, and a state may have it") {
+  const Rom rom = image_3f(4096 + 63);
+  Bench bench(rom, {.scheme = "3F"});
+  bench.write_at(0, 0x3F, 2);
+  CHECK(int{bench.see(0x103E)} == rom[4096 + 62]);
+  CHECK(int{bench.see(0x103F)} == 0);
+  CHECK(int{bench.see(0x1800)} == rom[2048 + 63]);
+}
+
 }  // namespace
 }  // namespace racebeam::test
