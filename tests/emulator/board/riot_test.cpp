@@ -102,6 +102,15 @@ TEST_CASE("Case 6: T1024T, and TIM64T set to 0") {
               {{kINTIM, 3001, 0xFF}, {kINTIM, 3002, 0xFE}, {kINTIM, 3003, 0xFE}, {kINTIM, 3100, 0xFD}});
 }
 
+TEST_CASE("In the cycle in which it was set, INTIM has the value times the interval") {
+  check_timer(kTIM1T, 0x4B, 1000, {{kINTIM, 1000, 0x4B}, {kINSTAT, 1000, 0x00}, {kINTIM, 1001, 0x4A}});
+  check_timer(kTIM8T, 0x4B, 1000, {{kINTIM, 1000, 0x58}, {kINSTAT, 1000, 0x80}, {kINTIM, 1001, 0x4A}});
+  check_timer(kTIM64T, 0x4B, 1000, {{kINTIM, 1000, 0xC0}, {kINSTAT, 1000, 0x80}, {kINTIM, 1001, 0x4A}});
+  check_timer(kT1024T, 0x4B, 1000, {{kINTIM, 1000, 0x00}, {kINSTAT, 1000, 0x80}, {kINTIM, 1001, 0x4A}});
+  // Such a read is not the late one that decides how the timer goes on, and that INSTAT sees.
+  check_timer(kTIM64T, 2, 2000, {{kINTIM, 2000, 0x80}, {kINSTAT, 2129, 0x80}, {kINTIM, 2300, 0x52}});
+}
+
 TEST_CASE("Case 7: the ports") {
   Bench bench;
   bench.write_at(10, kSWACNT, 0xFF);
