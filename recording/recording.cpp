@@ -169,6 +169,13 @@ void Recording::close() {
   end();
 }
 
+// The first failure is kept, since later ones follow from it.
+void Recording::fail(Cut why, const std::exception& error) {
+  if (!result_.failure.empty()) return;
+  result_.failure = error.what();
+  change([this, why] { cut_ = why; });
+}
+
 void Recording::commit() {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < media_.size(); ++i) {
@@ -176,11 +183,9 @@ void Recording::commit() {
       media_[i]->commit();
       names.push_back(order_.file_names()[i]);
     } catch (const EncoderFailed& error) {
-      result_.failure = error.what();
-      change([this] { cut_ = Cut::kEncoder; });
+      fail(Cut::kEncoder, error);
     } catch (const std::exception& error) {
-      result_.failure = error.what();
-      change([this] { cut_ = Cut::kDisk; });
+      fail(Cut::kDisk, error);
     }
   }
   result_.names = listed(names);

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -82,6 +83,7 @@ class Recording : public std::enable_shared_from_this<Recording> {
   void write_next();
   void write(const RecordedFrame& frame);
   void cut_off(Cut why);
+  void fail(Cut why, const std::exception& error);
   void close();
   void commit();
   void end();

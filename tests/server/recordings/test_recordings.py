@@ -79,6 +79,21 @@ class TestLimits:
             else:
                 assert (len(film) - 39) % (6 + 3 * 320 * 210) == 0
 
+    @pytest.mark.needs_posix
+    def test_a_full_disk_is_named_as_the_reason_for_a_missing_picture(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run(
+                [BINARY, "serve", "--stdio", "--record-dir", folder],
+                input=b"load beamfall\nshot a\nact NOOP\n",
+                capture_output=True,
+                timeout=PATIENCE,
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (500, 500)),
+            )
+            _, shot, act = done.stdout.splitlines()[-3:]
+            assert re.fullmatch(rb"error recording cannot write .*a\.png.*: File too large", shot), shot
+            assert act.startswith(b"ok ")
+            assert os.listdir(folder) == []
+
     def test_where_nothing_fits_there_is_nothing(self):
         with tempfile.TemporaryDirectory() as folder:
             lines = run(
