@@ -14,6 +14,7 @@
 #include "recording/submission_folder.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
@@ -134,11 +135,14 @@ class SubmissionVerification {
   // What is wrong with a row without a look at its log; empty: nothing.
   std::string fault_of(const ResultRow& row) {
     const std::string& episode = field(row, "episode");
-    if (!is_plain(row[0]) || !is_plain(episode))
-      return "unit and episode are accepted with letters, digits, '_', '.' and '-'";
+    for (const std::string_view column : {"unit", "episode"})
+      if (!is_plain(field(row, column)))
+        return std::string(column) + " is " + quote(field(row, column)) + "; it takes 1 to " +
+               std::to_string(kLongestName) + " letters, digits, '-', '_' and '.', a letter or a digit first";
+    const bool is_first = logs_.insert(folder_.log(row[0], episode)).second;
     if (about_.agent && field(row, "agent") != *about_.agent)
       return "agent is '" + field(row, "agent") + "'; agent.toml has '" + *about_.agent + "'";
-    if (!logs_.insert(folder_.log(row[0], episode)).second) return "it stands twice";
+    if (!is_first) return "it stands twice";
     return phrase_ && !is_divergence(row) ? phrase_->fault(row) : "";
   }
 

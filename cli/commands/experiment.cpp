@@ -93,8 +93,10 @@ class ProgressLine {
   }
 
   bool changes() const { return terminal_; }
+  bool has_reported() const { return has_reported_; }
 
   void report(const Progress& at) {
+    has_reported_ = true;
     std::printf("%s%zu/%zu %s: %d episodes", terminal_ ? "\r\033[K" : "", at.finished, at.all,
                 at.unit.c_str(), at.episodes);
     if (at.unit_finished)
@@ -112,6 +114,7 @@ class ProgressLine {
  private:
   const bool terminal_ = is_terminal(kStandardOutput);
   bool is_open_ = false;  // the line has not ended
+  bool has_reported_ = false;
 };
 
 void print_units(const Plan& plan, const PlayRates& rates, Shard shard) {
@@ -183,6 +186,8 @@ void run(const ExperimentOptions& options) {
     std::fprintf(stderr, "racebeam: a signal ended the experiment; the same command goes on with it\n");
     throw;
   }
+  if (!line.has_reported())
+    std::printf("nothing is left to run: other commands have finished these units, or are running them\n");
 }
 
 }  // namespace

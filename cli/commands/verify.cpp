@@ -15,6 +15,7 @@
 #include "environment/settings/play_settings.hpp"
 #include "recording/sha256.hpp"
 #include "system/input_file.hpp"
+#include "system/invalid_input.hpp"
 #include "system/printable.hpp"
 #include "system/program/signals.hpp"
 
@@ -47,13 +48,14 @@ Examples:
 constexpr auto kProof =
     "a confirmed row proves that these actions give this score from this start, not who chose the actions";
 
+constexpr auto kRandomSeed = "random";
 constexpr std::size_t kMostTableBytes = std::size_t{1} << 30;
 
 struct VerifyOptions {
   std::string results;
   std::vector<std::string> tables;
   int rerun = 0;  // units
-  std::string rerun_seed = "random";
+  std::string rerun_seed = kRandomSeed;
   ImageOptions images;
 };
 
@@ -148,8 +150,22 @@ bool run_again(const VerifyOptions& options, const ResultsFolder& folder, const 
   return found.different == 0;
 }
 
+void check_folder(const std::string& path) {
+  if (!std::filesystem::is_directory(path)) {
+    const char* what = std::filesystem::exists(path) ? "this is not a folder" : "no such folder";
+    throw InvalidInput("results " + path + ": " + what +
+                       "; verify takes a folder, or a log whose name ends with .episode");
+  }
+  for (const char* name : {"/plan.toml", "/agent.toml"})
+    if (std::filesystem::exists(path + name)) return;
+  throw InvalidInput("results " + path +
+                     ": it has neither plan.toml, as of an experiment, nor agent.toml, as of a submission");
+}
+
 int run(const VerifyOptions& options) {
+  if (options.rerun == 0 && options.rerun_seed != kRandomSeed) throw UsageError("--rerun-seed needs --rerun");
   if (is_log(options.results)) return verify_log(options);
+  check_folder(options.results);
   const ResultsFolder folder(options.results);
   const auto start = Clock::now();
   const Images images = images_of(options.images);

@@ -66,7 +66,8 @@ class TestExperiment:
         status, printed, errors = run("verify", str(self.place / "results"))
         assert (status, errors) == (0, "")
         assert re.search(r"^68 rows confirmed, 0 wrong, 0 could not be checked; \d+ frames in ", printed)
-        assert self.experiment("results") == (0, "", "")  # nothing is run again
+        left = "nothing is left to run: other commands have finished these units, or are running them\n"
+        assert self.experiment("results") == (0, left, "")
 
     def test_killed_at_any_moment_the_end_is_the_same(self):
         assert self.experiment("whole", "--threads", "1")[0] == 0
@@ -188,9 +189,18 @@ class TestExperiment:
             assert found[2].startswith("racebeam: " + sentence), found[2]
             assert not (self.place / "bad").exists()
         assert run("experiment", "smoke")[0] == 2
-        status, _, errors = run("verify", str(self.place / "none"))
-        assert status == 1
-        assert re.search("^racebeam: plan .*/none/plan.toml: no such file\n$", errors)
+
+    def test_verify_names_what_is_no_results_folder(self):
+        (self.place / "empty").mkdir()
+        (self.place / "file").touch()
+        takes = "verify takes a folder, or a log whose name ends with .episode"
+        for name, sentence in (
+            ("none", f"no such folder; {takes}"),
+            ("file", f"this is not a folder; {takes}"),
+            ("empty", "it has neither plan.toml, as of an experiment, nor agent.toml, as of a submission"),
+        ):
+            path = self.place / name
+            assert run("verify", str(path)) == (1, "", f"racebeam: results {path}: {sentence}\n")
 
     def test_the_evaluation_knows_all_agents(self):
         self.plan.write_text('games = ["beamfall"]\nagents = ["none"]\n')
@@ -328,6 +338,8 @@ class TestExperiment:
         assert status == 2
         assert "--rerun-seed: seed is 'x'" in errors
         log = results / "logs/beamfall-random-1/1.episode"
+        status, _, errors = run("verify", str(results), "--rerun-seed", "3")
+        assert (status, errors) == (2, "racebeam: --rerun-seed needs --rerun (see racebeam verify --help)\n")
         status, _, errors = run("verify", str(log), "--rerun", "1")
         assert status == 2
         assert "--rerun needs the folder of the results, and this is one log" in errors

@@ -99,7 +99,10 @@ class TestFiles:
         assert run(*words, data=b"1\r\n0\r\n")[:2] == native(*words, data=b"1\n0\n")
 
     def test_a_word_that_begins_with_a_slash_is_a_path(self, tmp_path):
-        assert run("verify", str(tmp_path / "no"))[2] == [f"racebeam: plan {tmp_path}/no/plan.toml: no such file"]
+        assert run("verify", str(tmp_path / "no"))[2] == [
+            f"racebeam: results {tmp_path}/no: no such folder; "
+            "verify takes a folder, or a log whose name ends with .episode"
+        ]
 
     def test_a_recording_is_written_whole_and_replaces_nothing(self, tmp_path):
         with Server("serve", "--stdio", "--record-dir", str(tmp_path), streams=True) as server:

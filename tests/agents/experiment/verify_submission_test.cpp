@@ -103,11 +103,12 @@ TEST_CASE("A submission's rows are confirmed without a plan, and every alteratio
     CHECK(of_submission(folder).verdict.wrong == 0);
     write(about, "agent = \"yours\"\n");
     refused("not confirmed: agent is 'mine'; agent.toml has 'yours'");
+    CHECK_THAT(of_submission(folder).findings, !Catch::Contains("no row of results.csv has this log"));
   }
   SECTION("names that leave the folder") {
     for (const char* name : {"../mine-1", "..", "/etc", ""}) {
       write(folder.results(), altered_field(table, 1, 0, name));
-      refused("unit and episode are accepted with letters, digits, '_', '.' and '-'");
+      refused("not confirmed: unit is '" + std::string(name) + "'; it takes 1 to 100 letters, digits, ");
     }
   }
   SECTION("a row that stands twice, and a log that no row has") {
