@@ -59,8 +59,8 @@ ResultRow row_of_line(std::string_view line) {
   const auto fields = static_cast<std::size_t>(std::ranges::count(line, ',')) + 1;
   ResultRow row;
   if (fields != row.size())
-    throw InvalidInput("the row has " + std::to_string(fields) +
-                       " fields; accepted: " + std::to_string(row.size()) + " columns");
+    throw InvalidInput("the row has " + std::to_string(fields) + (fields == 1 ? " field" : " fields") +
+                       "; a row takes " + std::to_string(row.size()));
   for (std::string& value : row) {
     const std::string_view rest = cut_behind(line, ',');
     value = line;

@@ -113,7 +113,8 @@ std::string seal(const SealedKind& kind, std::string_view contents, const std::f
 std::string unseal(const SealedKind& kind, const std::string& name, std::string_view bytes) {
   if (bytes.size() < kHeadSize || !bytes.starts_with(kind.magic))
     refuse(kind, name,
-           std::string("it does not begin with ").append(kind.magic) + "; it is cut, or no such file");
+           std::string("it does not begin with ").append(kind.magic) +
+               "; it was cut, or is another kind of file");
   const auto version = get<std::uint32_t>(bytes, kVersionAt);
   const std::string_view deflated = bytes.substr(kHeadSize);
   if (version != kind.version)

@@ -107,7 +107,8 @@ std::vector<std::uint8_t> read_mask(const Context& context, std::string_view mas
   if (mask.find_first_not_of("01") != std::string_view::npos)
     throw RequestError(ErrorCode::kBadValue,
                        quote(mask) + " is not a mask; it takes a 0 or a 1 for each machine");
-  if (mask.size() != context.machines.size()) refuse_count(context, mask.size(), "digits in the mask");
+  if (mask.size() != context.machines.size())
+    refuse_count(context, mask.size(), mask.size() == 1 ? "digit in the mask" : "digits in the mask");
   std::vector<std::uint8_t> bytes;
   for (const char digit : mask) bytes.push_back(digit == '1');
   return bytes;

@@ -178,8 +178,9 @@ void run_poke(Context& context, Words arguments, Reply& reply) {
   const int index = ram_index(arguments[0]);
   const auto bytes = bytes_of_hex(arguments[1]);
   if (bytes.empty() || bytes.size() > static_cast<std::size_t>(kRamSize - index)) {
-    throw RequestError(ErrorCode::kBadValue, "HEX has " + std::to_string(bytes.size()) + " bytes; from " +
-                                                 std::to_string(index) + " on there is room for 1 to " +
+    throw RequestError(ErrorCode::kBadValue, "HEX has " + std::to_string(bytes.size()) +
+                                                 " bytes; from address " + std::to_string(index) +
+                                                 " on, RAM takes at least 1, and at most " +
                                                  std::to_string(kRamSize - index));
   }
   context.spoil_log("poke wrote RAM in it");
