@@ -30,6 +30,8 @@ class TestEdits:
         assert edits('  return "a < b";  // 7 && 8') == set()
         assert edits("  return std::vector<int>(a);") == set()
         assert mutations.mutants("#include <a>\n// a < 1\nstatic_assert(a < 1);\n") == []
+        source = 'auto a = R"(1\n2 < 3)";\nauto b = R"x(4)"\n5)x";\nreturn 6;\n'
+        assert [each.line for each in mutations.mutants(source)] == [5]
 
 
 class TestPython:

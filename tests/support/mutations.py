@@ -119,6 +119,15 @@ def docstring_lines(source):
     }
 
 
+def raw_text_lines(source):
+    """The lines of a source in C++ in which a raw string begins, goes on or ends."""
+    skipped = set()
+    for found in re.finditer(r'R"([^()\s]*)\(.*?\)\1"', source, re.DOTALL):
+        begin = source.count("\n", 0, found.start()) + 1
+        skipped.update(range(begin, begin + found.group().count("\n") + 1))
+    return skipped
+
+
 def compiles(source):
     try:
         compile(source, "mutant", "exec")
@@ -129,7 +138,7 @@ def compiles(source):
 
 def mutants(source, language=CPP):
     """All mutants of a source, in the order of its lines. Those in Python compile."""
-    skipped = docstring_lines(source) if language is PYTHON else ()
+    skipped = docstring_lines(source) if language is PYTHON else raw_text_lines(source)
     found = [
         Mutant(number, line, after)
         for number, line in enumerate(source.split("\n"), 1)
