@@ -29,7 +29,7 @@ class TerminalPlayer {
     while (!ended_) {
       for (const TerminalEvent& event : display_.wait(next_act_)) handle(event);
       if (Clock::now() >= next_act_) tick();
-      if (is_stale_ && display_.is_ready()) draw();
+      if ((is_stale_ || display_.is_resized()) && display_.is_ready()) draw();
     }
   }
 

@@ -63,7 +63,7 @@ class Watcher {
     bool ended = false;
     while (!ended) {
       if (display.is_ready()) {
-        const bool is_new = look();
+        const bool is_new = look() || (display.is_resized() && !picture_.pixels.empty());
         display.show(is_new ? &picture_ : nullptr, line_);
       }
       const auto next = Clock::now() + (name_.empty() ? kBetweenLists : kBetweenLooks);

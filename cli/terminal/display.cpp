@@ -39,6 +39,9 @@ void note(TerminalAbilities& abilities, const TerminalEvent& event) {
   }
 }
 
+// Whether two terminals have another size, in cells.
+bool differ(const Room& a, const Room& b) { return a.columns != b.columns || a.rows != b.rows; }
+
 }  // namespace
 
 // The attributes are asked for last, since all terminals answer that, in the order of the questions.
@@ -82,10 +85,12 @@ bool Display::is_ready() {
   return abilities_.answers ? under_way_ < kMostUnderWay : now >= last_time_ + kUnanswered;
 }
 
+bool Display::is_resized() const { return differ(tty_.room(), room_); }
+
 void Display::show(const TerminalPicture* picture, const std::string& line) {
   Room room = tty_.room();
   std::string text(kBegin);
-  if (room.columns != room_.columns || room.rows != room_.rows) {
+  if (differ(room, room_)) {
     text.append(kClear);
     painter_.forget();
     room_ = room;

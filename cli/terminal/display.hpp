@@ -40,8 +40,12 @@ class Display {
   // Whether the terminal takes another picture now.
   bool is_ready();
 
+  // Whether the terminal has another size than the last time that something was shown. The picture is then
+  // needed again, even if it is the same.
+  bool is_resized() const;
+
   // May only be called when it is_ready(). `line` stands below the picture. Without a picture, only the line
-  // is drawn.
+  // is drawn; in a terminal that is_resized(), nothing else is then left.
   void show(const TerminalPicture* picture, const std::string& line);
 
   // Waits until keys come, the terminal becomes ready, or the time has come. Returns keys. Ends the process

@@ -22,7 +22,8 @@ SEQUENCE = re.compile(rb"\x1b\[([0-9:;<=>?]*)([ -/]*[@-~])|\x1b([_P\]])(.*?)\x1b
 class Terminal:
     """`graphics`: of blocks, sixel and kitty. `answers`: whether it answers at all. `keyboard`: whether it has the
     keyboard protocol of kitty. `confirms` may be set to False: it then keeps the questions whether a picture has
-    arrived."""
+    arrived. `size`: of the last picture in pixels, or in cells with the graphics of kitty. `blocks`: the number of
+    half blocks that were drawn."""
 
     def __init__(
         self,
@@ -37,6 +38,7 @@ class Terminal:
     ):
         self.graphics, self.answers, self.keyboard, self.confirms = graphics, answers, keyboard, True
         self.rest, self.modes, self.cells, self.picture, self.pictures, self.chunks = b"", set(), {}, None, 0, []
+        self.size, self.blocks = None, 0
         self.row = self.column = self.unanswered = 0
         self.colours = ["", ""]
         self.decoder = codecs.getincrementaldecoder("utf-8")()
@@ -59,6 +61,9 @@ class Terminal:
         except (ProcessLookupError, ChildProcessError):
             pass
         os.close(self.master)
+
+    def resize(self, columns, rows):
+        fcntl.ioctl(self.master, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 8 * columns, 16 * rows))
 
     def type(self, data):
         os.write(self.master, data)
@@ -124,6 +129,7 @@ class Terminal:
                 self.column = 0
             else:
                 self.cells[self.row, self.column] = (character, *self.colours)
+                self.blocks += character == "\u2580"
                 self.column += 1
 
     def control(self, parameters, final):
@@ -169,13 +175,16 @@ class Terminal:
 
     def take_string(self, kind, string):
         if kind == b"P":
-            self.picture = sixel_picture(string.decode())
+            self.size, self.picture = sixel_picture(string.decode())
         elif kind == b"_" and b"a=q" in string:
             if self.graphics == "kitty" and self.answers:
                 self.type(b"\x1b_Gi=31;OK\x1b\\")
         elif kind == b"_" and b"a=d" not in string:
             keys, data = string[1:].split(b";")
+            assert len(data) <= 4096
             self.chunks.append(data)
+            if found := re.search(rb"c=(\d+),r=(\d+)", keys):
+                self.size = int(found[1]), int(found[2])
             if b"m=0" in keys:
                 pixels = zlib.decompress(base64.b64decode(b"".join(self.chunks)))
                 self.picture = [tuple(pixels[at : at + 3]) for at in range(0, len(pixels), 3)]
@@ -187,7 +196,7 @@ class Terminal:
 
 
 def sixel_picture(text):
-    """The picture of a sixel string, as 160 columns of colours in percent. The enlargement is undone."""
+    """The size of a sixel string's picture, and 160 columns of colours in percent. The enlargement is undone."""
     _, _, width, height = map(int, re.match(r'[0-9;]*q"(\d+);(\d+);(\d+);(\d+)', text).groups())
     colours, pixels, at, band, colour = {}, {}, 0, 0, None
     body = text[re.match(r'[0-9;]*q"[0-9;]*', text).end() :]
@@ -207,4 +216,5 @@ def sixel_picture(text):
             at = end
     scale = width // 320
     assert len(pixels) == width * height and width == 320 * scale
-    return [pixels[row, column] for row in range(0, height, scale) for column in range(0, width, 2 * scale)]
+    rows, columns = range(0, height, scale), range(0, width, 2 * scale)
+    return (width, height), [pixels[row, column] for row in rows for column in columns]

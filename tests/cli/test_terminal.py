@@ -9,6 +9,8 @@ import pytest
 from harness import BINARY, PATIENCE, Server, run
 from terminal import Terminal
 
+# An image that copies SWCHA, INPT4 and INPT5 to the first bytes of RAM in each frame. A bit is 0 for a pressed switch.
+PORTS = bytes.fromhex("78D8A2FF9AA90285008502850285028500A9008500AD80028580A50C8581A50D8582A2FF8502CAD0FB4C05F0")
 KITTY_RELEASE = b"\x1b[32;1:3u"  # of the space bar
 
 
@@ -115,6 +117,16 @@ class TestPictures(InTerminal):
         assert terminal.block_picture(320, 210) == wide
         self.quit(terminal)
 
+    def test_a_pause_is_drawn_anew_when_the_size_changes(self):
+        terminal, wire, name = self.play("beamfall", graphics="kitty")
+        expected = self.paused_picture(terminal, wire, name)
+        terminal.wait_until(lambda: terminal.picture == expected, "the picture")
+        terminal.picture = None
+        terminal.resize(40, 24)
+        terminal.wait_until(lambda: terminal.picture == expected, "the picture")
+        assert terminal.size == (40, 13)
+        self.quit(terminal)
+
     def test_the_caller_chooses_the_graphics(self):
         terminal, _, _ = self.play("--graphics", "blocks", graphics="kitty")
         assert terminal.picture is None
@@ -133,6 +145,116 @@ class TestPictures(InTerminal):
             assert terminal.end() == 0
 
 
+class TestRoom(InTerminal):
+    """A session that stands still, in terminals of many sizes."""
+
+    @pytest.fixture(autouse=True)
+    def set_up(self, self_cleanup, self_folder):
+        self.server = Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:s", "--grace", "0")
+        self.cleanup(self.server.__exit__)
+        self.address = f"tcp://127.0.0.1:{self.server.port()}"
+        self.wire = Wire(self.server.path("s"))
+        self.cleanup(self.wire.close)
+        for request in ("load beamfall seed=1 sticky=0", "act FIRE*9", "share a"):
+            self.wire.ask(request)
+        self.expected = self.wire.picture("a")
+
+    def watch(self, columns, rows, **properties):
+        terminal = self.open("watch", "--terminal", self.address, columns=columns, rows=rows, **properties)
+        terminal.wait_until(lambda: terminal.pictures > 0, "a picture")
+        return terminal
+
+    def means(self, columns, rows):
+        """The mean colours of the parts of the screen, rounded down."""
+        found = []
+        for row in range(rows):
+            for column in range(columns):
+                across = range(column * 160 // columns, max(column * 160 // columns + 1, (column + 1) * 160 // columns))
+                down = range(row * 210 // rows, max(row * 210 // rows + 1, (row + 1) * 210 // rows))
+                pixels = [self.expected[y * 160 + x] for y in down for x in across]
+                found.append(tuple(sum(part) // len(pixels) for part in zip(*pixels)))
+        return found
+
+    def check_blocks(self, terminal, columns, rows):
+        drawn = {at for at, cell in terminal.cells.items() if cell[0] == "\u2580"}
+        assert drawn == {(row, column) for row in range(rows // 2) for column in range(columns)}
+        assert terminal.block_picture(columns, rows) == self.means(columns, rows)
+
+    @pytest.mark.parametrize(
+        "size, blocks",
+        (
+            ((80, 24), (70, 44)),  # the rows limit it
+            ((20, 24), (20, 12)),  # the columns limit it
+            ((400, 120), (320, 210)),  # no pixel is wider than two blocks
+            ((5, 2), (3, 2)),
+            ((1, 2), (1, 2)),
+        ),
+    )
+    def test_blocks_have_the_mean_colours_of_a_picture_that_fits(self, size, blocks):
+        terminal = self.watch(*size)
+        self.check_blocks(terminal, *blocks)
+        assert terminal.line(-1) == "a  game beamfall  score 0  lives 4  episode 1  action FIRE"[: size[0]].rstrip()
+        self.quit(terminal)
+
+    def test_a_terminal_of_one_row_has_the_line_before_the_picture(self):
+        terminal = self.watch(2, 1)
+        assert {at: cell[0] for at, cell in terminal.cells.items()} == {(0, 0): "a", (0, 1): " "}
+        self.quit(terminal)
+
+    @pytest.mark.parametrize(
+        "columns, rows, cell, size",
+        (
+            (80, 24, (8, 16), (70, 22)),  # the rows limit it
+            (40, 60, (8, 16), (40, 13)),  # the columns limit it
+            (80, 24, (10, 10), (35, 22)),
+            (80, 24, (0, 0), (70, 22)),  # a terminal that does not know its cells
+            (5, 2, (8, 16), (3, 1)),
+            (1, 2, (8, 16), (1, 1)),
+        ),
+    )
+    def test_kitty_graphics_fit_with_the_proportions_of_a_television(self, columns, rows, cell, size):
+        terminal = self.watch(columns, rows, cell=cell, graphics="kitty")
+        assert (terminal.picture, terminal.size) == (self.expected, size)
+        self.quit(terminal)
+
+    @pytest.mark.parametrize(
+        "columns, rows, scale",
+        ((80, 24, 1), (160, 60, 4), (80, 60, 2), (79, 60, 1), (160, 29, 2), (160, 27, 1), (20, 10, 1)),
+    )
+    def test_sixels_are_enlarged_by_a_whole_number(self, columns, rows, scale):
+        terminal = self.watch(columns, rows, graphics="sixel")
+        assert terminal.picture == [tuple((part * 100 + 127) // 255 for part in colour) for colour in self.expected]
+        assert terminal.size == (320 * scale, 210 * scale)
+        self.quit(terminal)
+
+    def test_only_blocks_that_change_are_drawn_again(self):
+        terminal = self.watch(80, 24)
+        assert terminal.blocks == 70 * 22
+        before, terminal.blocks = dict(terminal.cells), 0
+        self.wire.ask("act RIGHT")
+        terminal.wait_until(lambda: terminal.line(-1).endswith("action RIGHT"), "the next picture")
+        self.expected = self.wire.picture("a")
+        self.check_blocks(terminal, 70, 44)
+        changed = [at for at, cell in terminal.cells.items() if cell[0] == "\u2580" and cell != before[at]]
+        assert terminal.blocks == len(changed) > 0
+        self.quit(terminal)
+
+    @pytest.mark.parametrize("graphics", ("blocks", "kitty", "sixel"))
+    def test_a_picture_is_drawn_anew_when_the_size_changes(self, graphics):
+        terminal = self.watch(80, 24, graphics=graphics)
+        for columns, blocks, cells in ((40, (40, 26), (40, 13)), (80, (70, 44), (70, 22))):
+            terminal.picture, terminal.size, terminal.blocks = None, None, 0
+            terminal.resize(columns, 24)
+            if graphics == "blocks":
+                terminal.wait_until(lambda: terminal.blocks, "a picture")
+                terminal.work(0.1)
+                self.check_blocks(terminal, *blocks)
+            else:
+                terminal.wait_until(lambda: terminal.picture, "a picture")
+                assert terminal.size == (cells if graphics == "kitty" else (320, 210))
+        self.quit(terminal)
+
+
 class TestKeys(InTerminal):
     def test_a_key_counts_as_pressed_for_a_short_time(self):
         terminal, wire, name = self.play(rows=60)
@@ -147,6 +269,71 @@ class TestKeys(InTerminal):
             terminal.wait_until(lambda: self.action(wire, name) == "NOOP", "released")
         self.press(terminal, wire, name, b"\x1b[A\x1b[B", "DOWN")  # a direction ends the opposite one
         self.quit(terminal)
+
+    def test_two_players_have_keys(self):
+        path = os.path.join(self.folder, "ports.bin")
+        with open(path, "wb") as image:
+            image.write(PORTS.ljust(0xFFC, b"\xea") + b"\0\xf0\0\xf0")
+        terminal, wire, name = self.play("--rom", path)
+        for keys, pressed in (
+            (b"\x1b[A", ("A up",)),
+            (b"\x1b[C\x1b[D\x1b[B ", ("A down", "A left", "A fire")),
+            (b"w", ("B up",)),
+            (b"wsadg", ("B down", "B right", "B fire")),
+            (b"A", ("B left",)),  # with Caps Lock
+            (b" \x1b[Cg", ("A right", "A fire", "B fire")),
+            (b"x\x1b[E\x1b[5~ ", ("A fire",)),  # other keys have no effect
+        ):
+            for keys_now, expected in ((keys, pressed), (b"", ())):
+                terminal.wait_until(lambda: self.pressed(terminal, wire, name, keys_now) == expected, expected)
+        os.remove(path)
+        self.quit(terminal)
+
+    def pressed(self, terminal, wire, name, keys):
+        """The switches that the machine has as pressed."""
+        terminal.type(keys)
+        directions, fire_a, fire_b = bytes.fromhex(wire.ask(f"watch {name} ram")["ram"])[:3]
+        words = [f"{player} {word}" for player in "BA" for word in ("up", "down", "left", "right")]
+        found = [word for bit, word in enumerate(words) if not directions >> bit & 1]
+        found += [word for word, byte in (("A fire", fire_a), ("B fire", fire_b)) if byte < 128]
+        return tuple(sorted(found, key=lambda word: (word[0], word.endswith("fire"))))
+
+    def test_a_key_may_come_in_pieces(self):
+        terminal, wire, name = self.play()
+
+        def acts():
+            for key in b"\x1b[1;1C":
+                terminal.type(bytes([key]))
+                time.sleep(0.01)  # it is read alone
+            return self.action(wire, name) == "RIGHT"
+
+        terminal.wait_until(acts, "RIGHT")
+        self.quit(terminal)
+
+    def test_what_is_no_key_has_no_effect(self):
+        terminal, wire, name = self.play()
+        for text in (
+            b"\x1b]0;qnp\x1b\\",  # the title of a window
+            b"\x1bP1$rqnp\x1b\\",
+            b"\x1b_Gi=32;qnp\x1b\\",
+            b"\x1b[200~\x1b[?1;2y\x1b[3;4R",
+            b"\x1b]" + 600 * b"x",  # its end is lost
+            b"\x1b[" + 600 * b"1",
+            b"\x1b[99;2u\x1b[99u\x1b[100;5u\x1b[99;3u",  # C without Ctrl, and Ctrl-D
+            b"\x1bOP\x1b",
+        ):
+            terminal.type(text)
+            self.press(terminal, wire, name, b" ", "FIRE")
+            terminal.wait_until(lambda: self.action(wire, name) == "NOOP", "released")
+        assert "paused" not in terminal.line(-1)
+        self.quit(terminal)
+
+    @pytest.mark.parametrize("key", (b"\x1b[99;5u", b"\x1b[99;6u", b"\x1b[99;69u"))
+    def test_ctrl_c_ends_with_other_modifiers_too(self, key):
+        terminal, _, _ = self.play(keyboard=True)
+        terminal.type(key)
+        assert terminal.end() == 130
+        assert terminal.is_restored(), terminal.modes
 
     def test_releases_are_reported_where_the_keyboard_protocol_is(self):
         terminal, wire, name = self.play(keyboard=True)
