@@ -61,6 +61,43 @@ class TestPiped:
         assert "refused" in connect("127.0.0.1:1", "hello\n").stderr
         assert "tcp://127.0.0.1:1" in connect("127.0.0.1:1", "hello\n").stderr
 
+    @pytest.mark.parametrize("address", ("[::1]:1", "a.example.invalid:1", "0:1"))
+    def test_a_host_may_be_a_name_or_in_brackets(self, address):
+        done = connect(address, "hello\n")
+        assert (done.returncode, done.stdout) == (1, "")
+        assert f"tcp://{address}" in done.stderr
+
+    @pytest.mark.parametrize(
+        "address",
+        (
+            "localhost:",
+            "host:12a",
+            "host:a",
+            ":1",
+            "tcp:1",
+            "tls:1",
+            "a/b:1",
+            "a?b:1",
+            "[a/b]:1",
+            "[::1]",
+            "a:b:1",
+            "a",
+        ),
+    )
+    def test_what_is_no_host_and_port_is_taken_as_it_is(self, address):
+        done = connect(address, "hello\n")
+        assert (done.returncode, done.stdout) == (1, "")
+        assert f"the address is '{address}'; it takes tcp://HOST:PORT" in done.stderr
+
+    @pytest.mark.parametrize(
+        "address, reason", (("unix:1", "unix:1"), ("pipes:1", "1_out"), ("file:1", "cannot read 1"))
+    )
+    def test_a_path_may_be_a_number(self, address, reason):
+        done = connect(address, "hello\n")
+        assert (done.returncode, done.stdout) == (1, "")
+        assert reason in done.stderr
+        assert "tcp://" not in done.stderr
+
     def test_without_an_address_it_says_so(self):
         done = connect("", "hello\n", RACEBEAM_ADDRESS="")
         assert "no address was given, and the variable RACEBEAM_ADDRESS is not set" in done.stderr
@@ -270,6 +307,23 @@ class TestTyped:
         self.run_typed("games all\n", ":quit\n")
         output = self.run_typed("\x1b[A\x1b[A\n", ":quit\n")  # up, up, enter
         assert "ok count=" in output
+
+    def test_the_newest_thousand_lines_are_kept(self):
+        if not self.edits():
+            pytest.skip("built without libedit")
+        self.run_typed("hello\n", ":quit\n")
+        path = pathlib.Path(self.state, "racebeam_history")
+        heading = path.read_text().splitlines()[0]
+        path.write_text("\n".join([heading, *(f"act\\040{number}" for number in range(1200))]) + "\n")
+        self.run_typed("stats\n", ":quit\n")
+        lines = path.read_text().splitlines()[1:]
+        assert len(lines) == 1000
+        assert lines[-3:] == ["act\\0401199", "stats", ":quit"]
+
+    def test_headings_of_help_are_not_completed(self):
+        if not self.edits():
+            pytest.skip("built without libedit")
+        assert "commands: " not in self.visible(self.run_typed("comman\t\n", ":quit\n"))
 
     def test_a_command_is_completed(self):
         if not self.edits():
