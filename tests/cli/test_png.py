@@ -182,6 +182,50 @@ class TestPng:
         assert self.picture_of(printed) == self.picture_of(printed.splitlines()[-1], "--palette", "pal")
         assert self.picture_of(printed) != self.picture_of(printed, "--palette", "ntsc")
 
+    def test_the_palette_of_a_reply_wins(self):
+        lines = b"load beamfall seed=7 format=pal\nlook screen palette\n"
+        _, printed, _ = run("serve", "--stdio", data=lines)
+        reply = printed.splitlines()[-1]
+        assert self.picture_of(reply) == self.picture_of(reply, "--palette", "pal")
+        assert self.picture_of(reply) != self.picture_of(reply, "--palette", "ntsc")
+
+    def test_differences_begin_anew_with_a_game_and_with_fields(self):
+        expected = self.picture_of(self.replies("act FIRE*5", "look screen"))
+        for again in (
+            ("load beamfall seed=7 sticky=0 frame_skip=4", "observe screen:delta"),
+            ("observe screen:delta",),
+        ):
+            replies = self.replies("observe screen:delta", *(["act RIGHT*9", *again] if len(again) > 1 else again))
+            replies += self.replies("observe screen:delta", "act FIRE*5")
+            assert self.picture_of(replies, "--encoding", "delta") == expected
+
+    @pytest.mark.parametrize("rows, fits", ((199, False), (200, True), (256, True), (257, False), (210.5, False)))
+    def test_a_single_reply_has_200_to_256_rows(self, rows, fits):
+        pixels = bytes(range(0, 256, 2)) * int(rows * WIDTH // 128)
+        line = f"ok screen={pixels.hex().upper()}\n"
+        if fits:
+            assert self.picture(line)[:2] == (2 * WIDTH, rows)
+        else:
+            self.check_refusal(1, "the value of screen is not a whole screen", line)
+
+    @pytest.mark.parametrize("rows, fits", ((1, True), (1024, True), (1025, False)))
+    def test_a_classic_screen_has_at_most_1024_rows(self, rows, fits):
+        line = "0EA0" * rows + ":\n"
+        if fits:
+            assert self.picture(line)[:2] == (2 * WIDTH, rows)
+        else:
+            self.check_refusal(1, f"the screen has {1025 * WIDTH} pixels, not whole rows of 160", line)
+
+    def test_a_classic_screen_has_pixels(self):
+        self.check_refusal(1, "the screen has 0 pixels, not whole rows of 160", "0E00:\n")
+
+    def test_the_first_refusal_is_the_reason(self):
+        errors = b"error no-game look needs a game\nok acts=1\nerror bad-value of another kind\n"
+        status, _, lines = run("png", self.path, data=errors)
+        assert (status, len(lines)) == (1, 1)
+        assert lines[0].endswith("; the server refused a request: no-game look needs a game")
+        assert "refused" not in run("png", self.path, data=self.replies("act FIRE"))[2][0]
+
     def test_replies_without_a_picture_are_refused(self, subtests):
         for complaint, replies, *words in (
             ("no reply on standard input has a picture", self.replies("act FIRE")),
