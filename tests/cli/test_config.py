@@ -83,7 +83,13 @@ class TestConfig:
 
     @pytest.mark.parametrize(
         "option, least, most",
-        (("--max-states", 1, (1 << 31) - 1), ("--seed", 0, (1 << 32) - 1), ("--frame-skip", 1, (1 << 31) - 1)),
+        (
+            ("--max-states", 1, (1 << 31) - 1),
+            ("--seed", 0, (1 << 32) - 1),
+            ("--frame-skip", 1, (1 << 31) - 1),
+            ("--threads", 1, 1024),
+            ("--until-idle", 0, (1 << 31) - 1),
+        ),
     )
     def test_a_whole_number_reaches_from_its_least_to_its_most(self, option, least, most):
         key = option[2:].replace("-", "_")
@@ -92,6 +98,22 @@ class TestConfig:
         for text in (str(least - 1), str(most + 1), "-0", "+1", "1.0", "0x1", ""):
             done = self.run_racebeam("config", f"{option}={text}")
             assert (done.returncode, done.stdout) == (2, b""), text
+
+    def test_options_of_the_machine_are_settings(self):
+        words = ("--frame-skip", "5", "--color-averaging", "--cpu", "interpreter", "--left", "paddles", "--mode", "0")
+        words += ("--difficulty", "0", "--rules", "fixed", "--max-frames", "7", "--full-screen")
+        found = {key: value for key, (value, source) in self.settings(*words).items() if source == "command line"}
+        assert found == {
+            "frame_skip": "5",
+            "color_averaging": "true",
+            "cpu": '"interpreter"',
+            "left": '"paddles"',
+            "mode": "0",
+            "difficulty": "0",
+            "rules": '"fixed"',
+            "max_frames": "7",
+            "full_screen": "true",
+        }
 
     def test_options_win_over_variables_over_the_file_over_defaults(self):
         path = self.file("max_states = 1\nmax_machines = 2\nmax_sessions = 3\n")
