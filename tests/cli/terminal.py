@@ -3,6 +3,7 @@
 import base64
 import codecs
 import fcntl
+import functools
 import itertools
 import os
 import pty
@@ -37,7 +38,7 @@ class Terminal:
         environment=None,
     ):
         self.graphics, self.answers, self.keyboard, self.confirms = graphics, answers, keyboard, True
-        self.rest, self.modes, self.cells, self.picture, self.pictures, self.chunks = b"", set(), {}, None, 0, []
+        self.rest, self.modes, self.cells, self.drawn, self.pictures, self.chunks = b"", set(), {}, None, 0, []
         self.size, self.blocks = None, 0
         self.row = self.column = self.unanswered = 0
         self.colours = ["", ""]
@@ -53,6 +54,11 @@ class Terminal:
         os.write(ready, b"!")
         os.close(begin)
         os.close(ready)
+
+    @property
+    def picture(self):
+        """The last picture's pixels; None without one. Only what a test looks at is decoded, which takes time."""
+        return self.drawn and self.drawn()
 
     def close(self):
         try:
@@ -175,7 +181,9 @@ class Terminal:
 
     def take_string(self, kind, string):
         if kind == b"P":
-            self.size, self.picture = sixel_picture(string.decode())
+            found = re.match(rb'[0-9;]*q"\d+;\d+;(\d+);(\d+)', string)
+            self.size = int(found[1]), int(found[2])
+            self.drawn = functools.partial(sixel_picture, string.decode())
         elif kind == b"_" and b"a=q" in string:
             if self.graphics == "kitty" and self.answers:
                 self.type(b"\x1b_Gi=31;OK\x1b\\")
@@ -186,8 +194,7 @@ class Terminal:
             if found := re.search(rb"c=(\d+),r=(\d+)", keys):
                 self.size = int(found[1]), int(found[2])
             if b"m=0" in keys:
-                pixels = zlib.decompress(base64.b64decode(b"".join(self.chunks)))
-                self.picture = [tuple(pixels[at : at + 3]) for at in range(0, len(pixels), 3)]
+                self.drawn = functools.partial(kitty_picture, b"".join(self.chunks))
                 self.chunks = []
 
     def block_picture(self, columns, rows):
@@ -195,8 +202,14 @@ class Terminal:
         return [self.cells[row // 2, column][1 + row % 2] for row in range(rows) for column in range(columns)]
 
 
+def kitty_picture(data):
+    """The colours of a picture that is packed as RGB."""
+    pixels = zlib.decompress(base64.b64decode(data))
+    return [tuple(pixels[at : at + 3]) for at in range(0, len(pixels), 3)]
+
+
 def sixel_picture(text):
-    """The size of a sixel string's picture, and 160 columns of colours in percent. The enlargement is undone."""
+    """The picture of a sixel string, as 160 columns of colours in percent. The enlargement is undone."""
     _, _, width, height = map(int, re.match(r'[0-9;]*q"(\d+);(\d+);(\d+);(\d+)', text).groups())
     colours, pixels, at, band, colour = {}, {}, 0, 0, None
     body = text[re.match(r'[0-9;]*q"[0-9;]*', text).end() :]
@@ -216,5 +229,4 @@ def sixel_picture(text):
             at = end
     scale = width // 320
     assert len(pixels) == width * height and width == 320 * scale
-    rows, columns = range(0, height, scale), range(0, width, 2 * scale)
-    return (width, height), [pixels[row, column] for row in rows for column in columns]
+    return [pixels[row, column] for row in range(0, height, scale) for column in range(0, width, 2 * scale)]

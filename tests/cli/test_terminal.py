@@ -121,7 +121,7 @@ class TestPictures(InTerminal):
         terminal, wire, name = self.play("beamfall", graphics="kitty")
         expected = self.paused_picture(terminal, wire, name)
         terminal.wait_until(lambda: terminal.picture == expected, "the picture")
-        terminal.picture = None
+        terminal.drawn = None
         terminal.resize(40, 24)
         terminal.wait_until(lambda: terminal.picture == expected, "the picture")
         assert terminal.size == (40, 13)
@@ -243,7 +243,7 @@ class TestRoom(InTerminal):
     def test_a_picture_is_drawn_anew_when_the_size_changes(self, graphics):
         terminal = self.watch(80, 24, graphics=graphics)
         for columns, blocks, cells in ((40, (40, 26), (40, 13)), (80, (70, 44), (70, 22))):
-            terminal.picture, terminal.size, terminal.blocks = None, None, 0
+            terminal.drawn, terminal.size, terminal.blocks = None, None, 0
             terminal.resize(columns, 24)
             if graphics == "blocks":
                 terminal.wait_until(lambda: terminal.blocks, "a picture")
