@@ -84,7 +84,7 @@ class TestPiped:
             "a",
         ),
     )
-    def test_what_is_no_host_and_port_is_taken_as_it_is(self, address):
+    def test_other_texts_than_host_and_port_are_taken_as_they_are(self, address):
         done = connect(address, "hello\n")
         assert (done.returncode, done.stdout) == (1, "")
         assert f"the address is '{address}'; it takes tcp://HOST:PORT" in done.stderr

@@ -190,7 +190,7 @@ class TestExperiment:
             assert not (self.place / "bad").exists()
         assert run("experiment", "smoke")[0] == 2
 
-    def test_verify_names_what_is_no_results_folder(self):
+    def test_verify_says_what_a_folder_lacks(self):
         (self.place / "empty").mkdir()
         (self.place / "file").touch()
         takes = "verify takes a folder, or a log whose name ends with .episode"

@@ -310,7 +310,7 @@ class TestKeys(InTerminal):
         terminal.wait_until(acts, "RIGHT")
         self.quit(terminal)
 
-    def test_what_is_no_key_has_no_effect(self):
+    def test_bytes_that_are_not_a_key_have_no_effect(self):
         terminal, wire, name = self.play()
         for text in (
             b"\x1b]0;qnp\x1b\\",  # the title of a window
