@@ -82,6 +82,8 @@ const ScreenResize& screen_resize(int height, int to_width, int to_height) {
   if (found != all.end()) return found->second;
   if (to_width > kScreenWidth || to_height > height)
     return all.emplace(key, Enlargement(kScreenWidth, height, to_width, to_height)).first->second;
+  if (BlockMean::fits(kScreenWidth, height, to_width, to_height))
+    return all.emplace(key, BlockMean(kScreenWidth, height, to_width, to_height)).first->second;
   return all.emplace(key, AreaResize(kScreenWidth, height, to_width, to_height)).first->second;
 }
 

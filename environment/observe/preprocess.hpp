@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "environment/observe/area_resize.hpp"
+#include "environment/observe/block_mean.hpp"
 #include "environment/observe/brightness.hpp"
 #include "environment/observe/enlarge.hpp"
 
@@ -26,8 +27,9 @@ void make_plane(std::span<const std::uint8_t> screen, const Brightness& brightne
 void make_brighter_plane(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
                          const Brightness& brightness, RowFlags stale, std::span<std::uint8_t> plane);
 
-// Averages over areas if neither side grows; else interpolates. Both are OpenCV's INTER_AREA.
-using ScreenResize = std::variant<AreaResize, Enlargement>;
+// Averages over areas if neither side grows, by whole blocks where both sides shrink by whole numbers; else
+// interpolates. All are OpenCV's INTER_AREA.
+using ScreenResize = std::variant<BlockMean, AreaResize, Enlargement>;
 
 // Returns the tables that resize a plane of 160 x height to this size. They are made on first use, and the
 // process shares them. Thread-safe. Throws std::invalid_argument for a size that neither supports.

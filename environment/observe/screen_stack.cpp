@@ -13,6 +13,13 @@ namespace {
 constexpr int kLeastHeight = 9;  // AreaResize makes the tallest screen no lower
 constexpr int kMostGrowth = 2;
 
+// Whether a way to resize makes single rows, and finds those that depend on others.
+template <typename Resize>
+constexpr bool knows_rows = requires(const Resize& resize, std::span<const std::uint8_t> changed,
+                                     std::span<std::uint8_t> rows) {
+  resize.depending(changed, rows);
+};
+
 int checked(int size, int least, int own, const std::string& what) {
   const int most = kMostGrowth * own;
   if (size == 0) return own;
@@ -101,16 +108,25 @@ void ScreenStack::look_at_previous(const Environment& environment) {
 void ScreenStack::reduce(std::size_t channel, std::span<std::uint8_t> to) {
   if (resize_ == nullptr) {
     std::ranges::copy(plane(channel), to.begin());
-  } else if (const auto* const area = std::get_if<AreaResize>(resize_)) {
-    (*area)(plane(channel), to, due_rows_);
   } else {
-    std::get<Enlargement> (*resize_)(plane(channel), to);
+    const auto pixels = plane(channel);
+    std::visit(
+        [&](const auto& resize) {
+          if constexpr (knows_rows<decltype(resize)>)
+            resize(pixels, to, due_rows_);
+          else
+            resize(pixels, to);
+        },
+        *resize_);
   }
 }
 
 void ScreenStack::find_wanted() {
-  if (const auto* const area = resize_ != nullptr ? std::get_if<AreaResize>(resize_) : nullptr)
-    return area->depending(changed_, due_rows_);
+  const auto find = [this](const auto& resize) {
+    if constexpr (knows_rows<decltype(resize)>) resize.depending(changed_, due_rows_);
+    return knows_rows<decltype(resize)>;
+  };
+  if (resize_ != nullptr && std::visit(find, *resize_)) return;
   const bool changed = std::ranges::find(changed_, 1) != changed_.end();
   std::ranges::fill(due_rows_, static_cast<std::uint8_t>(changed));
 }

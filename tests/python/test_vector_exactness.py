@@ -62,6 +62,8 @@ SETTINGS = (
         "frameskip": 9,
         "repeat_action_probability": 0.25,
     },
+    {"img_height": 105, "img_width": 80, "stack_num": 1, **SHORT},
+    {"img_height": 42, "img_width": 40, "stack_num": 1, "grayscale": False, **SHORT},
     {"img_height": 224, "img_width": 224, "stack_num": 1, "grayscale": False},
     {"img_height": 100, "img_width": 320, "stack_num": 2},
 )

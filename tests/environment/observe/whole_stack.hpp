@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "environment/observe/block_mean.hpp"
 #include "environment/observe/screen_stack.hpp"
 
 namespace racebeam::test {
@@ -73,6 +74,8 @@ class WholeStack {
     Bytes to(static_cast<std::size_t>(settings_.width * settings_.height));
     if (settings_.width > kScreenWidth || settings_.height > rows_) {
       Enlargement(kScreenWidth, rows_, settings_.width, settings_.height)(plane, to);
+    } else if (BlockMean::fits(kScreenWidth, rows_, settings_.width, settings_.height)) {
+      BlockMean(kScreenWidth, rows_, settings_.width, settings_.height)(plane, to);
     } else {
       AreaResize(kScreenWidth, rows_, settings_.width, settings_.height, Simd::kPlain)(plane, to);
     }

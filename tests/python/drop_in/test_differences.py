@@ -288,13 +288,3 @@ class TestDifferences:
             envs.reset(seed=1)
             for _ in range(5):
                 assert envs.step(np.zeros(2, np.int64))[3].tolist() == [ends] * 2
-
-    def test_20_means_of_a_half(self):
-        ours, theirs = (module.AtariVectorEnv("pong", 2, img_height=105, img_width=80) for module in (drop_in, ale_py))
-        far = 0
-        for envs in (ours, theirs):
-            envs.reset(seed=1)
-        for step in range(20):
-            one, other = (envs.step(np.full(2, step % 3))[0].astype(int) for envs in (ours, theirs))
-            far = max(far, np.abs(one - other).max())
-        assert far <= 1

@@ -36,8 +36,6 @@ and infos are equal to the byte for the same seeds and actions. These are the di
 18. AtariVectorEnv has screens of 1 to 320 columns, and of 9 rows to twice those of the game's screen. stack_num ends
     at 16, noop_max and frameskip at 1000. ale_py takes more.
 19. AtariVectorEnv with max_num_frames_per_episode=0 has no limit; ale_py truncates each step.
-20. If img_width and img_height divide the screen evenly, such as 80 x 105 of 160 x 210, a mean that ends in .5 may be
-    rounded differently. A pixel may then differ by 1.
 """
 
 from __future__ import annotations
