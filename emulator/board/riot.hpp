@@ -15,12 +15,12 @@ class Timer {
       : state_(state), now_(static_cast<std::uint32_t>(cycle)), elapsed_(now_ - 1 - state.timer_set) {}
 
   std::uint8_t intim() {
-    const std::uint32_t expiry = std::uint32_t{state_.timer} << state_.shift;
-    if (is_set_now()) return static_cast<std::uint8_t>(expiry);
     const std::int32_t count = counted();
     if (count >= 0) return static_cast<std::uint8_t>(count);
+    const std::uint32_t expiry = std::uint32_t{state_.timer} << state_.shift;
     if (!state_.late) {
-      if (elapsed_ == expiry) return 0xFF;
+      const auto left = static_cast<std::int32_t>(expiry - elapsed_ - 1);  // cycles; see riot.md, note (d)
+      if (left >= -1) return static_cast<std::uint8_t>(left);
       state_.late = 1;
       state_.late_read = now_;
     }
@@ -38,9 +38,6 @@ class Timer {
   }
 
  private:
-  // Only an opcode that is fetched from the RIOT can be read in that cycle.
-  bool is_set_now() const { return now_ == state_.timer_set; }
-
   std::int32_t counted() const {
     return static_cast<std::int32_t>(state_.timer - (elapsed_ >> state_.shift) - 1);
   }

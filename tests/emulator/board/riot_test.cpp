@@ -107,6 +107,7 @@ TEST_CASE("In the cycle in which it was set, INTIM has the value times the inter
   check_timer(kTIM8T, 0x4B, 1000, {{kINTIM, 1000, 0x58}, {kINSTAT, 1000, 0x80}, {kINTIM, 1001, 0x4A}});
   check_timer(kTIM64T, 0x4B, 1000, {{kINTIM, 1000, 0xC0}, {kINSTAT, 1000, 0x80}, {kINTIM, 1001, 0x4A}});
   check_timer(kT1024T, 0x4B, 1000, {{kINTIM, 1000, 0x00}, {kINSTAT, 1000, 0x80}, {kINTIM, 1001, 0x4A}});
+  check_timer(kTIM8T, 0xF3, 1000, {{kINTIM, 1000, 0x98}});
   // Such a read is not the late one that decides how the timer goes on, and that INSTAT sees.
   check_timer(kTIM64T, 2, 2000, {{kINTIM, 2000, 0x80}, {kINSTAT, 2129, 0x80}, {kINTIM, 2300, 0x52}});
 }
