@@ -19,12 +19,6 @@ CHANGED = (
         "left out objects that hardly move, followed others for 8 pixels a decision, and had two bits for a velocity",
     ),
     (
-        "hour",
-        "lsh",
-        lambda settings: False,  # the settings are the same
-        "had seven bits of each pixel's colour for the screen's bits",
-    ),
-    (
         "full_tree",
         "full_tree",
         lambda settings: "reuse_tree" in settings,
