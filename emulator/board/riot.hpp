@@ -19,7 +19,7 @@ class Timer {
     if (count >= 0) return static_cast<std::uint8_t>(count);
     const std::uint32_t expiry = std::uint32_t{state_.timer} << state_.shift;
     if (!state_.late) {
-      const auto left = static_cast<std::int32_t>(expiry - elapsed_ - 1);  // cycles; see riot.md, note (d)
+      const auto left = static_cast<std::int32_t>(expiry - elapsed_ - 1);  // docs/spec/riot.md, 3 (d)
       if (left >= -1) return static_cast<std::uint8_t>(left);
       state_.late = 1;
       state_.late_read = now_;
