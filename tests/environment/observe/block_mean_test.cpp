@@ -56,7 +56,8 @@ TEST_CASE("Both axes must shrink by a whole number") {
   CHECK_FALSE(BlockMean::fits(160, 210, 80, 84));
   CHECK_FALSE(BlockMean::fits(160, 210, 320, 210));
   CHECK_FALSE(BlockMean::fits(160, 210, 0, 210));
-  CHECK_THROWS_WITH(BlockMean(160, 210, 84, 84), Catch::Contains("160 x 210 has no whole blocks for one of 84 x 84"));
+  CHECK_THROWS_WITH(BlockMean(160, 210, 84, 84),
+                    Catch::Contains("160 x 210 has no whole blocks for one of 84 x 84"));
   CHECK_THROWS_WITH(BlockMean(512, 2, 256, 1), Catch::Contains("is wider than 256"));
 }
 
