@@ -39,8 +39,7 @@ class TestPictures(InTerminal):
         terminal.wait_until(lambda: terminal.picture == expected, "the picture")
         terminal.drawn = None
         terminal.resize(40, 24)
-        terminal.wait_until(lambda: terminal.picture == expected, "the picture")
-        assert terminal.size == (40, 13)
+        terminal.wait_until(lambda: terminal.size == (40, 13) and terminal.picture == expected, "the picture")
         self.quit(terminal)
 
     def test_the_caller_chooses_the_graphics(self):
@@ -92,8 +91,13 @@ class TestRoom(InTerminal):
         return found
 
     def check_blocks(self, terminal, columns, rows):
-        drawn = {at for at, cell in terminal.cells.items() if cell[0] == "\u2580"}
-        assert drawn == {(row, column) for row in range(rows // 2) for column in range(columns)}
+        """Waits until the blocks fill the picture's room, since a picture may come in parts."""
+        room = {(row, column) for row in range(rows // 2) for column in range(columns)}
+
+        def drawn():
+            return {at for at, cell in terminal.cells.items() if cell[0] == "\u2580"}
+
+        terminal.wait_until(lambda: drawn() == room, f"{columns} x {rows} blocks")
         assert terminal.block_picture(columns, rows) == self.means(columns, rows)
 
     @pytest.mark.parametrize(
@@ -159,13 +163,11 @@ class TestRoom(InTerminal):
     def test_a_picture_is_drawn_anew_when_the_size_changes(self, graphics):
         terminal = self.watch(80, 24, graphics=graphics)
         for columns, blocks, cells in ((40, (40, 26), (40, 13)), (80, (70, 44), (70, 22))):
-            terminal.drawn, terminal.size, terminal.blocks = None, None, 0
+            terminal.drawn, terminal.size = None, None
             terminal.resize(columns, 24)
             if graphics == "blocks":
-                terminal.wait_until(lambda: terminal.blocks, "a picture")
-                terminal.work(0.1)
                 self.check_blocks(terminal, *blocks)
             else:
-                terminal.wait_until(lambda: terminal.picture, "a picture")
-                assert terminal.size == (cells if graphics == "kitty" else (320, 210))
+                size = cells if graphics == "kitty" else (320, 210)
+                terminal.wait_until(lambda: terminal.size == size and terminal.picture, f"a picture of {size}")
         self.quit(terminal)
