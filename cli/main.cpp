@@ -99,10 +99,16 @@ bool is_called_ale(const std::filesystem::path& called) {
   return called.filename() == "ale" || called.filename() == "racebeam-ale";
 }
 
-// The arguments of the command line. When called as ALE, all are arguments of `racebeam classic`.
+// The arguments of the command line. When called as ALE, all are arguments of `racebeam classic`. Otherwise,
+// `racebeam help serve` is `racebeam serve --help`.
 std::vector<const char*> words_of(int argc, char** argv) {
   std::vector<const char*> words(argv, argv + argc);
-  if (argc > 0 && is_called_ale(argv[0])) words.insert(words.begin() + 1, "classic");
+  if (argc > 0 && is_called_ale(argv[0])) {
+    words.insert(words.begin() + 1, "classic");
+  } else if (argc > 1 && words[1] == std::string_view("help")) {
+    words.erase(words.begin() + 1);
+    words.push_back("--help");
+  }
   return words;
 }
 

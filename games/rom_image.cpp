@@ -105,6 +105,8 @@ std::shared_ptr<const Image> unpacked(std::string_view file, const std::string& 
   if (is_zip(file)) return image_in_zip(file);
   if (file.starts_with(kSevenZip))
     throw InvalidInput("7z archives are not read; unpack it, or make it a zip archive with one image");
+  if (!file.empty() && looks_like_archive(where))
+    throw InvalidInput("the file is named as an archive, but it is not a zip archive");
   std::vector<std::uint8_t> bytes =
       is_gzip(file) ? gunzip(file, kMaxImageSize) : std::vector<std::uint8_t>(file.begin(), file.end());
   if (bytes.empty()) throw InvalidInput("the file is empty");

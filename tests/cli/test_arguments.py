@@ -206,6 +206,10 @@ class TestHelp:
                 assert (status, errors) == (0, [])
                 assert len(text.splitlines()) > 8
 
+    def test_help_is_a_word_too(self):
+        assert run("help") == run("--help")
+        assert run("help", "trace") == run("trace", "--help")
+
     def test_the_version_is_printed(self):
         status, text, errors = run("--version")
         assert (status, errors) == (0, [])

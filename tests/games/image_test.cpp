@@ -173,6 +173,9 @@ TEST_CASE("other archives are refused with the reason") {
   CHECK_THAT(refusal(encrypted), Contains("secret.bin in it is encrypted"));
   CHECK_THROWS_WITH(load_image(scratch.write("a.7z", "7z\xBC\xAF\x27\x1C and more")),
                     Contains("7z archives"));
+  CHECK_THROWS_WITH(load_image(scratch.write("b.zip", "<html>not found</html>")),
+                    Contains("b.zip: the file is named as an archive, but it is not a zip archive"));
+  CHECK_THROWS_WITH(load_image(scratch.write("c.zip", "")), Contains("c.zip: the file is empty"));
 }
 
 TEST_CASE("a damaged zip archive is refused, or its image is whole") {
