@@ -11,20 +11,16 @@
 namespace racebeam {
 
 // Indices of features, in ascending order, each once. `counts` has as many numbers, or none if all are 1: how
-// often a feature is there, or, with `grouped`, of how many features an index is that share a weight.
+// often a feature is there, or of how many features an index is that share a weight.
 struct ActiveFeatures {
   std::vector<std::uint32_t> indices;
   std::vector<float> counts;
-  bool grouped = false;
 
   void clear() {
     indices.clear();
     counts.clear();
-    grouped = false;
   }
   float count(std::size_t place) const { return counts.empty() ? 1.0F : counts[place]; }
-  // The value of a trace when it is replaced. Each feature of a group has a trace of 1.
-  float trace(std::size_t place) const { return grouped ? 1.0F : count(place); }
 };
 
 class FeatureSet {

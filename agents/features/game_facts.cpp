@@ -16,7 +16,7 @@ namespace {
 constexpr SealedKind kBackground = {
     .what = "background", .magic = "RBBACKGR", .version = 1, .most = std::size_t{1} << 20, .level = 9};
 constexpr SealedKind kClasses = {
-    .what = "class file", .magic = "RBCLASSE", .version = 2, .most = std::size_t{1} << 28, .level = 9};
+    .what = "class file", .magic = "RBCLASSE", .version = 3, .most = std::size_t{1} << 28, .level = 9};
 
 std::string source_of(const Cartridge& cartridge) {
   return "game=" + cartridge.game->name + " image=" + cartridge.image->md5;

@@ -14,6 +14,10 @@ namespace {
 
 constexpr int kLeastScreensPercent = 20;     // appendix C, "Minimum frequency of class appearance"
 constexpr int kLeastRange = 16;              // of their centres, in pixels, in x or in y; paper-notes
+constexpr int kLeastArea = 5;                // of an object of a class, in pixels; paper-notes
+constexpr double kMostDifference = 0.45;     // of the shapes of similar classes; paper-notes
+constexpr int kLeastComparedPercent = 2;     // of the screens, on which a similar class is
+constexpr std::size_t kMostCompared = 200;   // classes, which takes 20,000 comparisons
 constexpr std::size_t kMostShapes = 200000;  // later ones are noise
 constexpr PixelRun kNoRun{255, 255, 255};
 constexpr std::uint32_t kNoShape = std::numeric_limits<std::uint32_t>::max();
@@ -60,7 +64,7 @@ void ClassDiscovery::add(Screen screen, bool first) {
   if (first) objects_.forget();
   objects_.see(screen);
   for (const ScreenObject& object : objects_.objects().all()) {
-    const std::uint32_t number = shape_number(object);
+    const std::uint32_t number = object.area < kLeastArea ? kNoShape : shape_number(object);
     if (number == kNoShape) continue;
     ++shapes_[number].count;
     count(object, classes_[shapes_[number].class_number]);
@@ -99,48 +103,104 @@ void ClassDiscovery::count(const ScreenObject& object, SeenClass& seen) const {
   seen.bottom = std::max(seen.bottom, object.box.y());
 }
 
+bool ClassDiscovery::is_frequent(const SeenClass& seen, int percent) const {
+  return std::int64_t{seen.screens} * 100 >= std::int64_t{screens_} * percent;
+}
+
 bool ClassDiscovery::is_kept(const SeenClass& seen) const {
-  return std::int64_t{seen.screens} * 100 >= std::int64_t{screens_} * kLeastScreensPercent &&
+  return is_frequent(seen, kLeastScreensPercent) &&
          std::max(seen.right - seen.left, seen.bottom - seen.top) >= kLeastRange;
 }
 
 ObjectClasses ClassDiscovery::classes() const {
-  std::vector<ShapeNumbers> shapes_of(classes_.size());
-  for (std::uint32_t number = 0; number < shapes_.size(); ++number)
-    if (is_kept(classes_[shapes_[number].class_number]))
-      shapes_of[shapes_[number].class_number].push_back(number);
-  std::erase_if(shapes_of, [](const ShapeNumbers& shapes) { return shapes.empty(); });
-  for (ShapeNumbers& shapes : shapes_of) most_frequent_first(shapes);
-  while (shapes_of.size() > kMostClasses) merge_nearest(shapes_of);
+  Candidates found = candidates();
+  merge_similar(found);
+  std::erase_if(found, [this](const Candidate& each) { return !is_kept(each.seen); });
+  while (found.size() > kMostClasses) merge_nearest(found);
   ObjectClasses classes;
-  for (const ShapeNumbers& shapes : shapes_of) {
+  for (const Candidate& each : found) {
     classes.emplace_back();
-    for (const std::uint32_t number : shapes) classes.back().push_back(shapes_[number].shape);
+    for (const std::uint32_t number : each.shapes) classes.back().push_back(shapes_[number].shape);
   }
   return classes;
 }
 
-void ClassDiscovery::most_frequent_first(ShapeNumbers& shapes) const {
-  std::ranges::stable_sort(shapes, std::ranges::greater{},
-                           [this](std::uint32_t number) { return shapes_[number].count; });
+// All classes, in the order in which they were first seen.
+ClassDiscovery::Candidates ClassDiscovery::candidates() const {
+  Candidates all;
+  for (const SeenClass& seen : classes_) all.push_back({{}, seen});
+  for (std::uint32_t number = 0; number < shapes_.size(); ++number)
+    all[shapes_[number].class_number].shapes.push_back(number);
+  for (Candidate& each : all) most_frequent_first(each.shapes);
+  return all;
+}
+
+// The places of the most frequent classes, which ascend.
+std::vector<std::size_t> ClassDiscovery::frequent(const Candidates& classes) const {
+  std::vector<std::size_t> places;
+  for (std::size_t place = 0; place < classes.size(); ++place)
+    if (is_frequent(classes[place].seen, kLeastComparedPercent)) places.push_back(place);
+  std::ranges::stable_sort(places, std::ranges::greater{},
+                           [&](std::size_t place) { return classes[place].seen.screens; });
+  places.resize(std::min(places.size(), kMostCompared));
+  std::ranges::sort(places);
+  return places;
+}
+
+// Merges each frequent class into the first that is similar to it, or to one that is merged into that. What
+// is left of a merged class was never seen.
+void ClassDiscovery::merge_similar(Candidates& classes) const {
+  const std::vector<std::size_t> places = frequent(classes);
+  std::vector<std::size_t> into = places;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (into[i] == into[j]) continue;
+      if (difference_of(classes[places[i]], classes[places[j]]) > kMostDifference) continue;
+      const std::size_t first = std::min(into[i], into[j]), second = std::max(into[i], into[j]);
+      std::ranges::replace(into, second, first);
+    }
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (into[i] != places[i]) absorb(classes[into[i]], classes[places[i]]);
 }
 
 // Merges the two classes whose most frequent shapes differ least.
-void ClassDiscovery::merge_nearest(std::vector<ShapeNumbers>& classes) const {
+void ClassDiscovery::merge_nearest(Candidates& classes) const {
   double least = std::numeric_limits<double>::infinity();
   std::size_t into = 0, from = 0;
   for (std::size_t a = 0; a < classes.size(); ++a) {
     for (std::size_t b = a + 1; b < classes.size(); ++b) {
-      const double found = distance(shapes_[classes[a].front()].shape, shapes_[classes[b].front()].shape);
+      const double found = difference_of(classes[a], classes[b]);
       if (found >= least) continue;
       least = found;
       into = a;
       from = b;
     }
   }
-  classes[into].insert(classes[into].end(), classes[from].begin(), classes[from].end());
-  most_frequent_first(classes[into]);
+  absorb(classes[into], classes[from]);
   classes.erase(classes.begin() + static_cast<std::ptrdiff_t>(from));
+}
+
+// Their most frequent shapes are compared.
+double ClassDiscovery::difference_of(const Candidate& a, const Candidate& b) const {
+  return distance(shapes_[a.shapes.front()].shape, shapes_[b.shapes.front()].shape);
+}
+
+// A screen that has both counts twice.
+void ClassDiscovery::absorb(Candidate& into, Candidate& from) const {
+  into.shapes.insert(into.shapes.end(), from.shapes.begin(), from.shapes.end());
+  most_frequent_first(into.shapes);
+  into.seen.screens += from.seen.screens;
+  into.seen.left = std::min(into.seen.left, from.seen.left);
+  into.seen.right = std::max(into.seen.right, from.seen.right);
+  into.seen.top = std::min(into.seen.top, from.seen.top);
+  into.seen.bottom = std::max(into.seen.bottom, from.seen.bottom);
+  from = {};
+}
+
+void ClassDiscovery::most_frequent_first(ShapeNumbers& shapes) const {
+  std::ranges::stable_sort(shapes, std::ranges::greater{},
+                           [this](std::uint32_t number) { return shapes_[number].count; });
 }
 
 ObjectClasses discover_classes(const Cartridge& cartridge, const SampleSettings& settings,

@@ -25,8 +25,8 @@ class ClassDiscovery {
   // `first`: of a trajectory, so that nothing has moved on the way to it.
   void add(Screen screen, bool first);
 
-  // The classes that are frequent and not restricted to a small region, merged until there are few enough; in
-  // the order in which they were first seen.
+  // Classes of similar shapes are merged. Of these, the classes that are frequent and not restricted to a
+  // small region, merged until there are few enough; in the order in which they were first seen.
   ObjectClasses classes() const;
 
  private:
@@ -40,13 +40,24 @@ class ClassDiscovery {
     int screens = 0;                                                        // on which it was
     int left = kFeatureWidth, right = 0, top = kFeatureHeight, bottom = 0;  // of the centres of its objects
   };
+  struct Candidate {
+    ShapeNumbers shapes;  // the most frequent first
+    SeenClass seen;
+  };
+  using Candidates = std::vector<Candidate>;
 
   std::uint32_t shape_number(const ScreenObject& object);
   std::uint32_t class_of_new(const ScreenObject& object);
   void count(const ScreenObject& object, SeenClass& seen) const;
+  bool is_frequent(const SeenClass& seen, int percent) const;
   bool is_kept(const SeenClass& seen) const;
+  Candidates candidates() const;
+  std::vector<std::size_t> frequent(const Candidates& classes) const;
+  void merge_similar(Candidates& classes) const;
+  void merge_nearest(Candidates& classes) const;
+  double difference_of(const Candidate& a, const Candidate& b) const;
+  void absorb(Candidate& into, Candidate& from) const;
   void most_frequent_first(ShapeNumbers& shapes) const;
-  void merge_nearest(std::vector<ShapeNumbers>& classes) const;
 
   MovingObjects objects_;
   int screens_ = 0;

@@ -21,7 +21,6 @@ std::span<const FeatureSplit> FeatureGroups::replace(ActiveFeatures& active) {
   find_groups(active.indices);
   split_groups();
   active.clear();
-  active.grouped = true;
   for (Number& group : touched_) group = successor_[group];
   std::ranges::sort(touched_);
   active.indices = touched_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "agents/learning/action_sums.hpp"
@@ -107,10 +108,7 @@ double Sarsa::trace(std::size_t feature, int action) const {
 // Returns how far a step of 1 moves the value of these features.
 double Sarsa::gain(const ActiveFeatures& features) {
   if (features.counts.empty()) return static_cast<double>(features.indices.size());
-  double sum = 0;
-  for (std::size_t i = 0; i < features.counts.size(); ++i)
-    sum += double{features.count(i)} * double{features.trace(i)};
-  return sum;
+  return std::accumulate(features.counts.begin(), features.counts.end(), 0.0);
 }
 
 void Sarsa::update(double error) {
@@ -143,7 +141,7 @@ void Sarsa::move_weights(float step) {
     const auto behind = static_cast<std::uint32_t>(settings.clear_other_traces ? actions_ : 1) - before;
     while (old != traces_.cend() && old->place < at - before) move_old();
     if (old != traces_.cend() && old->place < at + behind) ++old;  // is replaced
-    move({at, features_.trace(i)});
+    move({at, 1.0F});
   }
   while (old != traces_.cend()) move_old();
   merged_.resize(static_cast<std::size_t>(out - merged_.data()));

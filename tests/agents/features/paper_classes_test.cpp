@@ -73,3 +73,21 @@ TEST_CASE("The invaders of Space Invaders are of classes") {
   }
   CHECK(least >= 30);
 }
+
+// As in the paper's figure of DISCO: all fish, and the icons of lives, which are as large as a fish.
+TEST_CASE("The fish of Seaquest are one class, whatever step of their way is shown") {
+  const auto image = needed_rom_of("seaquest");
+  if (!image) return;
+  Seen seaquest({image, find_game("seaquest")});
+  constexpr int kIconTop = 22;
+  std::map<std::uint32_t, int> fish, icons;  // by class
+  for (int decision = 0; decision < 100; ++decision)
+    for (const Instance& instance : seaquest.after(kNoop)) {
+      if (instance.box.top == kIconTop) ++icons[instance.class_number];
+      if (instance.box.width == 8 && instance.box.height == 7) ++fish[instance.class_number];
+    }
+  REQUIRE(fish.size() == 1);
+  CHECK(fish.begin()->second > 100);
+  REQUIRE(icons.size() == 1);
+  CHECK(icons.begin()->first == fish.begin()->first);
+}

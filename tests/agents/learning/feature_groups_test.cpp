@@ -22,7 +22,6 @@ struct Grouped {
 Grouped group(FeatureGroups& groups, Indices features) {
   ActiveFeatures active{std::move(features), {}};
   const auto splits = groups.replace(active);
-  CHECK(active.grouped);
   return {active.indices, active.counts, {splits.begin(), splits.end()}};
 }
 
