@@ -125,6 +125,8 @@ class TestBench:
             (b"", "'-' has no actions"),
             (b"x", "line 1: 'x' is not a number"),
             (b"99", "99"),
+            (b"3\n3@0.5", "line 2: only actions are accepted here"),
+            (b"3\nM 0 1", "line 2: only actions are accepted here"),
         ),
     )
     def test_no_actions_and_wrong_ones_are_refused(self, data, complaint):

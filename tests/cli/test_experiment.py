@@ -182,13 +182,31 @@ class TestExperiment:
                 for shard in ("3/2", "0/2", "x", "")
                 for more in ([], ["--dry-run"])
             ),
-            (["smoke", "--threads", "-1"], 2, "--threads: '-1' is not a whole number from 0 to 1024"),
+            *(
+                (["smoke", "--threads", count], 2, f"--threads: '{count}' is not a whole number from 0 to 1024")
+                for count in ("-1", "1025")
+            ),
         ):
             found = run("experiment", *words, "--into", str(self.place / "bad"))
             assert found[0] == status, found
             assert found[2].startswith("racebeam: " + sentence), found[2]
             assert not (self.place / "bad").exists()
         assert run("experiment", "smoke")[0] == 2
+
+    def test_threads_are_as_many_as_are_asked_for_and_else_one_for_each_processor(self):
+        plan = 'games = ["beamfall"]\nagents = ["disco"]\n[agent.disco]\ntrials = 2000\ntilings = 64\ngrid = 64\n'
+        self.plan.write_text(plan)  # no machine has the memory
+
+        def threads(*words):
+            status, printed, errors = self.experiment("results", *words)
+            assert (status, printed) == (1, "")
+            return int(re.search(r" MB for disco on each of (\d+) threads; ", errors)[1])
+
+        for count in (1, 3, 1024):
+            assert threads("--threads", str(count)) == count
+        assert threads("--threads", "0") == threads()
+        assert 1 <= threads() <= len(os.sched_getaffinity(0))  # a quota may allow fewer
+        assert not (self.place / "results").exists()
 
     def test_verify_says_what_a_folder_lacks(self):
         (self.place / "empty").mkdir()

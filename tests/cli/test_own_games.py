@@ -65,6 +65,14 @@ class TestOwnGames:
         assert status == 0, errors
         assert output.startswith(b"ok game=mine ")
 
+    def test_an_image_that_is_named_like_the_game_of_the_file_is_accepted(self):
+        other = self.game_file("0" * 32, "other")
+        (self.roms / "another name.bin").rename(self.roms / "other.bin")
+        lines = b"load other\n"
+        status, output, errors = run("serve", "--stdio", "--roms", str(self.roms), "--game-file", other, data=lines)
+        assert status == 0, errors
+        assert output.startswith(f"ok game=other md5={self.md5} rule=1 ".encode())
+
     def test_a_file_for_no_image_is_refused(self, subtests):
         other = self.game_file("0" * 32, "other")
         for options in (["--roms", str(self.roms)], []):

@@ -56,6 +56,7 @@ class TestLines:
 
     def test_the_defaults_are_those_of_the_recordings(self):
         assert play() == play("--seed", "123", "--sticky", "0", "--frame-skip", "1", "--max-frames", "0")
+        assert play("--sticky", "0.5") == play("--sticky", "0.5", "--seed", "123")
 
     def test_rules_are_those_of_ale_unless_others_are_asked_for(self):
         assert play() == play("--rules", "ale-0.12")
@@ -103,6 +104,7 @@ class TestObservations:
             assert re.search("^[0-9a-f]{8} [0-9a-f]{8}$", " ".join(words[-2:]))
             assert some[-2:] == (["-", "-"] if number % 3 else words[-2:])
             assert some[:-2] == words[:-2]
+        assert play("--colors", "0") == play()
 
     def test_a_line_s_screen_in_full_agrees_with_its_checksums(self):
         lines = play("--colors", "1", "--screen-of", "7")
@@ -114,6 +116,12 @@ class TestObservations:
 
         assert (number, len(screen), len(rgb)) == ("7", 2 * 160 * 210, 6 * 160 * 210)
         assert [crc(screen), crc(rgb)] == [lines[7].split()[-3], lines[7].split()[-2]]
+
+    def test_the_screen_of_the_first_line_is_that_of_the_reset(self):
+        reset, screen, *acts = play("--screen-of", "0", data=b"3")
+        assert [reset, *acts] == play(data=b"3")
+        assert screen.startswith("S 0 ")
+        assert f"{zlib.crc32(bytes.fromhex(screen.split()[2])):08x}" == reset.split()[-1]
 
     def test_a_life_that_is_lost_ends_an_episode_if_asked_for(self):
         def lives(line):
@@ -173,6 +181,11 @@ class TestSources:
 
     def test_numbers_may_stand_on_lines_in_any_way(self):
         assert play(data=b"1 2\n\n 3\t4 \r\n5") == play(data=b"1\n2\n3\n4\n5\n")
+
+    def test_the_last_byte_is_read_without_a_line_end_too(self):
+        expected = play(data=b"3\n")
+        for size in (1, 1 << 16, (1 << 16) + 1):
+            assert play(data=b"3".rjust(size)) == expected
 
     def test_no_action_is_a_reset_alone(self):
         assert [line[0] for line in play(data=b"")] == ["R"]

@@ -6,6 +6,7 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import pytest
@@ -101,6 +102,19 @@ class TestWith:
         assert "unix:" not in output
         assert '"tcp://127.0.0.1:' in output
 
+    def test_a_path_that_is_too_long_for_a_Unix_socket_leaves_the_port(self):
+        longest = 107  # bytes, beside the NUL
+        for length in (longest, longest + 1):
+            with tempfile.TemporaryDirectory(dir="/tmp") as folder:
+                name = "x" * (length - len(f"{folder}//racebeam-123456/socket"))
+                self.place = pathlib.Path(folder, name)
+                self.place.mkdir()
+                self.environment["TMPDIR"] = str(self.place)
+                status, output, errors = self.run_with("--", "sh", "-c", 'cat "${RACEBEAM_ADDRESS#file:}"')
+            assert (status, errors) == (0, "")
+            assert ('"unix:' in output) == (length == longest)
+            assert '"tcp://127.0.0.1:' in output
+
     @pytest.mark.parametrize(
         "command, expected",
         (
@@ -139,6 +153,7 @@ class TestWith:
         "words, hint",
         (
             (["--stdio", "--", "true"], "--stdio: requires racebeam serve"),
+            (["--pipes", "p", "--", "true"], "--pipes: requires racebeam serve"),
             (["--announce", "a", "--", "true"], "--announce: requires racebeam serve"),
             (["--ready-file", "a", "--", "true"], "--ready-file: requires racebeam serve"),
             (["--listen", "classic+unix:s", "--rom", "builtin:beamfall", "--", "true"], "--announce: requires"),
