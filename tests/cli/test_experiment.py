@@ -342,6 +342,9 @@ class TestExperiment:
         assert "units are chosen by --rerun-seed 7\n" in printed
         assert "beamfall-random-1: played again, and all rows are the same\n" in printed
         assert "1 units played again: 1 the same, 0 not\n" in printed
+        status, printed, errors = run("verify", str(results), "--rerun", "0")
+        assert (status, errors) == (0, "")
+        assert re.search(r"^2 rows confirmed, 0 wrong, 0 could not be checked; [^\n]*\n$", printed)
         table = (results / "results.csv").read_text()
         score = table.splitlines()[1].split(",")[8]
         (results / "results.csv").write_text(table.replace(f",{score},", f",{int(score) + 1},", 1))

@@ -96,6 +96,9 @@ class TestGames:
     def test_the_table_has_a_row_for_each(self):
         rows = answer("games").splitlines()
         assert [row.split()[0].rstrip("*") for row in rows[1:]] == list(self.games)
+        for row, game in zip(rows[1:], self.games.values()):
+            recognised = [image["md5"] for image in game["images"] if image["recognised"]]
+            assert re.search(r" ([0-9a-f]{32}|-) +(yes|no) ", row)[1] == (recognised or ["-"])[0]
         assert re.search(r" 0 +1-9 16-18$", next(row for row in rows if row.startswith("berzerk ")))
         pong = next(row for row in rows if row.startswith("pong "))
         assert "60e0ea3cbe0913d39803477945e9e5ec" in pong
