@@ -164,6 +164,7 @@ TEST_CASE("Similar names are suggested, for every kind of name") {
       {"load beamfall action_set=minimum",
        "; did you mean minimal? It takes full, legal, minimal or console"},
       {"observe rewrd", "; did you mean reward"},
+      {"observe non", "; did you mean none"},
       {"observe screen:zip", "; did you mean zlib? Accepted: hex"},
       {"act RIHGT", "; did you mean RIGHT? beamfall takes 0=NOOP"},
       {"act fier", "; did you mean FIRE?"},

@@ -107,6 +107,16 @@ TEST_CASE("A stack that is not whole is refused with an example, and what begins
     CHECK_THAT(refusal(word), Contains("unknown ") || Contains("accepted"));
 }
 
+TEST_CASE("A number has no encoding, and bytes have those of the table, without delta for audio_all") {
+  CHECK(refusal("reward:hex") == "reward is a number, and has no encoding");
+  CHECK(refusal("screen:delta audio_all:rle") == "accepted");
+  CHECK(refusal("audio:delta") == "accepted");
+  CHECK(refusal("audio_all:delta") == "audio_all has another size in each reply, and no delta");
+  CHECK_THAT(refusal("ram:"), Contains("encoding ''") && Contains("hex"));
+  CHECK(fields_of("ram:zlib").at(0).encoding == Encoding::kZlib);
+  CHECK(fields_of("ram").at(0).encoding == Encoding::kHex);
+}
+
 TEST_CASE("Sound is shown by either of its fields, beside whatever others") {
   for (const std::string all : {"audio_all", "reward audio_all", "audio_all ram"}) {
     CHECK(shows_audio(fields_of(all)));

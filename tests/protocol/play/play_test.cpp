@@ -360,6 +360,28 @@ TEST_CASE("An episode that begins with no-ops begins differently, by the seed") 
   CHECK(words.end() - repeated < 12);           // more than eight different lengths
 }
 
+TEST_CASE("audio_all has the samples of each frame that a request ran, of at most 1000 frames") {
+  LineClient client;
+  client.ask("load beamfall seed=7 sticky=0 frame_skip=4 sound=1");
+  client.ask("observe frames audio_all audio:hex");
+  const auto samples = [&](const std::string& request) {
+    return bytes_of_hex(value(client.ask(request), "audio_all"));
+  };
+  CHECK(samples("act FIRE*2").size() == std::size_t{2} * 4 * 512);
+  CHECK(samples("reset").empty());
+  CHECK(samples("act FIRE*250").size() > std::size_t{512} * 512);  // the game ends before the 1000 frames
+  CHECK(client.ask("act FIRE*251") ==
+        "error limit the request asks for audio_all of 1004 frames; it may ask for 1000");
+  client.ask("load beamfall seed=7 sticky=0 frame_skip=2-5 sound=1");
+  CHECK(code(client.ask("act FIRE*201")) == "limit");  // which may have 1005 frames
+  const std::string reply = client.ask("act FIRE*200");
+  const std::string all = value(reply, "audio_all");
+  CHECK(all.size() == 1024 * std::stoul(value(reply, "frames")));
+  CHECK(all.ends_with(value(reply, "audio")));
+  client.ask("observe frames");
+  CHECK(code(client.ask("act FIRE*201")) == "");
+}
+
 TEST_CASE("The palette gives a screen its colours, in each television standard") {
   for (const std::string game : {"duel", "duel_pal"}) {
     LineClient client(test::duel_service());

@@ -98,6 +98,22 @@ TEST_CASE("An episode that something else than acts of player A changed has no l
   CHECK(value(desk.ask("log stop"), "unlogged") == std::to_string(unlogged));
 }
 
+TEST_CASE("An episode with other settings than those of its log has no log") {
+  Desk desk;
+  desk.ask("log inline");
+  desk.play();
+  CHECK(code(desk.ask("log last")) == "");
+  desk.ask("set difficulty=1");
+  desk.play();
+  CHECK_THAT(desk.ask("log last"), Contains("error no-log the last episode has no log: its settings are '") &&
+                                       Contains(" difficulty=1") && Contains("'; those of the log are '") &&
+                                       Contains(" difficulty=0"));
+  desk.ask("set difficulty=0");
+  desk.play();
+  CHECK(code(desk.ask("log last")) == "");
+  CHECK(value(desk.ask("log stop"), "logged") == "2");
+}
+
 TEST_CASE("Actions of the console are logged") {
   Desk desk;
   desk.ask("load beamfall seed=7 sticky=0 max_episode_frames=8 action_set=console");
