@@ -185,7 +185,29 @@ TEST_CASE("An episode whose seed a replay cannot have has no log") {
   }
   desk.play();
   CHECK(desk.seed() == "1");
-  CHECK_THAT(desk.ask("log stop"), StartsWith("ok logged=1 unlogged=2 "));
+  desk.ask("reset seed=4294967294");
+  desk.ask("act FIRE*2");
+  CHECK(code(desk.ask("log last")) == "");
+  desk.play();
+  CHECK(desk.seed() == "1");
+  CHECK_THAT(desk.ask("log stop"), StartsWith("ok logged=3 unlogged=2 "));
+}
+
+TEST_CASE("The acts and strengths of an episode count as memory until the log is stopped") {
+  constexpr std::uint64_t kBytes = 400 * (1 + sizeof(float));
+  Desk desk;
+  const auto taken = [&desk] { return desk.client.service.memory->taken(); };
+  desk.ask("load beamfall seed=7 sticky=0 max_episode_frames=402");
+  desk.ask("log inline");
+  desk.ask("reset");
+  desk.ask("act FIRE@0.5");
+  const std::uint64_t begun = taken();
+  desk.ask("act FIRE@0.5*400");
+  CHECK(taken() >= begun + kBytes);
+  CHECK(value(desk.ask("act FIRE@0.5"), "truncated") == "1");
+  CHECK(taken() >= begun + kBytes);
+  CHECK(value(desk.ask("log stop"), "logged") == "1");
+  CHECK(taken() < begun + kBytes);
 }
 
 TEST_CASE("What ends the machine ends its log, which is kept") {
