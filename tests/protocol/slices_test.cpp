@@ -193,12 +193,26 @@ TEST_CASE("Frames of load, open, reset, restart and step count against the limit
   CHECK(value(client.ask("restart 1" + std::string(25, '0')), "machines") == "26");
 }
 
-TEST_CASE("open beyond the frames of a request leaves the machines that are there") {
-  LineLimits limits;
-  limits.request_frames = 1;
-  LineClient client(line_service(limits));
-  client.ask("load beamfall seed=1 noop_max=1000");
-  CHECK(client.ask("open 1").starts_with("ok"));
+TEST_CASE("load, reset and open beyond the frames of a request leave what is there") {
+  LineClient client;
+  const std::string load = "load beamfall noop_max=1000 seed=";
+  client.ask(load + "1");
+  client.ask("observe episode_frame");
+  int seed = 1;  // with so many no-ops that the reset has more frames than are free, 1000
+  while (std::stoi(value(client.ask("reset seed=" + std::to_string(seed)), "episode_frame")) < 950)
+    REQUIRE(++seed < 1000);
+  CHECK(code(client.ask("open 1 autoreset=disabled")) == "");
+  const std::string settings = client.ask("settings");
+  client.service.limits.request_frames = 1;
+  for (const std::string& request :
+       {std::string("open 1"), "reset seed=" + std::to_string(seed), load + std::to_string(seed)}) {
+    INFO(request);
+    CHECK(client.ask(request) ==
+          "error limit the request would run more than 1001 frames; powering on, reaching a mode and "
+          "no-ops count, too");
+    CHECK(client.ask("settings") == settings);
+    CHECK(value(client.ask("step NOOP"), "machines") == "1");
+  }
+  CHECK(code(client.ask("reset seed=1")) == "");
   CHECK(code(client.ask("open 100")) == "");  // 1,000 frames a machine are free
-  CHECK(value(client.ask("step NOOP"), "machines") == "(none)");
 }
