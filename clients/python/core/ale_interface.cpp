@@ -28,6 +28,9 @@ void AleInterface::load(std::shared_ptr<const Image> image, const std::optional<
   auto rules = with_given(found.game, *image, keys_.console());
   machine_ = std::make_shared<Machine>(lock_, std::move(image), std::move(rules), keys_.settings());
   machine_->environment.make_all_audio(keys_.bools.at("all_audio"));
+  // As in ALE, what a game forces stays for the images that are loaded later.
+  if (const int forced = machine_->environment.game().paddle_max; forced != -1)
+    keys_.ints.at("paddle_max") = forced;
   keys_of_machine_ = keys_;
 }
 

@@ -11,6 +11,7 @@ import pytest
 package.require("ale_py", "gymnasium", "numpy")
 
 import numpy as np
+import racebeam
 from both import PONG, pong
 
 
@@ -165,6 +166,18 @@ class TestInterface:
                         )
                     )
                 assert results[0] == results[1]
+
+    @pytest.mark.needs_roms("blackjack")
+    def test_the_range_of_a_games_paddles_stays_for_the_images_after_it(self):
+        results = []
+        for ale in pong():
+            ale.loadROM(racebeam.find_image("blackjack"))
+            limits = [ale.getInt("paddle_max")]
+            ale.loadROM(PONG)
+            limits.append(ale.getInt("paddle_max"))
+            results.append((limits, [(ale.act(4), ale.getRAM().tobytes()) for _ in range(40)]))
+        assert results[0] == results[1]
+        assert results[0][0] == [795000, 795000]
 
     def test_states_agree_on_what_is_played_after_them(self):
         results = []
