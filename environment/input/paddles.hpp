@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace racebeam {
 
@@ -19,12 +20,15 @@ struct PaddleLimits {
     return {value, value};
   }
 
-  // direction: -1 for RIGHT, 1 for LEFT, 0 for neither. The product is computed in double precision.
+  // direction: -1 for RIGHT, 1 for LEFT, 0 for neither. The product is computed in double precision. As in
+  // ALE, what 32 bits do not hold is the lowest number, and a sum beyond them begins there anew.
   std::int32_t turn(std::int32_t value, int direction, float strength) const {
-    constexpr double kStep = 23000, kFar = 4e9;
-    const double way = std::trunc(std::min(kStep * std::fabs(double{strength}), kFar));
-    const auto turned = value + direction * static_cast<std::int64_t>(way);
-    return static_cast<std::int32_t>(std::clamp<std::int64_t>(turned, min, max));
+    constexpr double kStep = 23000;
+    constexpr std::int32_t kLowest = std::numeric_limits<std::int32_t>::min();
+    const double way = std::trunc(direction * kStep * std::fabs(double{strength}));
+    const bool fits = std::fabs(way) < -double{kLowest};
+    const auto turn = static_cast<std::uint32_t>(fits ? static_cast<std::int32_t>(way) : kLowest);
+    return std::clamp(static_cast<std::int32_t>(static_cast<std::uint32_t>(value) + turn), min, max);
   }
 };
 

@@ -123,6 +123,17 @@ TEST_CASE("A strength is widened to double before the product") {
   CHECK(player.paddle_after(kLeft, 0.35F) == 400773);
 }
 
+// 408823 + 23000 * 93351 is the last sum that 32 bits hold.
+TEST_CASE("A paddle that is turned beyond 32 bits to the left ends on the right, as in ALE") {
+  constexpr float kFarthest = 93351, kProduct = 93368.8F;  // 23000 * kProduct is above 2^31
+  CHECK(with_paddles().paddle_after(kLeft, kFarthest) == 790196);
+  for (const float strength : {kFarthest + 1, kProduct, 1e9F, -1e9F, 3.4e38F})
+    CHECK(with_paddles().paddle_after(kLeft, strength) == 27450);
+  for (const float strength : {kFarthest, kFarthest + 1, kProduct, 1e9F, -1e9F, 3.4e38F})
+    CHECK(with_paddles().paddle_after(kRight, strength) == 27450);
+  CHECK(with_paddles().paddle_after(0, 3.4e38F) == 408823);
+}
+
 TEST_CASE("Paddle 1 is player B's") {
   Player player = with_paddles();
   player.press(1, 1.0F, 18 + kLeft, 0.5F);
@@ -157,7 +168,7 @@ TEST_CASE("SELECT leaves the paddles where they are") {
 TEST_CASE("A paddle never leaves its limits, however strong the turn") {
   Player player = with(Controller::kPaddles, Controller::kJoystick, {100, 1000});
   CHECK(player.paddles[0] == 550);
-  CHECK(player.paddle_after(kLeft, 3.0e38F) == 1000);
+  CHECK(player.paddle_after(kLeft, 9.0e4F) == 1000);
   CHECK(player.paddle_after(kRight, -3.0e38F) == 100);
 }
 
