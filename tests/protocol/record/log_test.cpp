@@ -201,13 +201,13 @@ TEST_CASE("The acts and strengths of an episode count as memory until the log is
   desk.ask("log inline");
   desk.ask("reset");
   desk.ask("act FIRE@0.5");
-  const std::uint64_t begun = taken();
+  const std::uint64_t at_start = taken();
   desk.ask("act FIRE@0.5*400");
-  CHECK(taken() >= begun + kBytes);
+  CHECK(taken() >= at_start + kBytes);
   CHECK(value(desk.ask("act FIRE@0.5"), "truncated") == "1");
-  CHECK(taken() >= begun + kBytes);
+  CHECK(taken() >= at_start + kBytes);
   CHECK(value(desk.ask("log stop"), "logged") == "1");
-  CHECK(taken() < begun + kBytes);
+  CHECK(taken() < at_start + kBytes);
 }
 
 TEST_CASE("What ends the machine ends its log, which is kept") {
