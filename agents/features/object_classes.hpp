@@ -25,8 +25,8 @@ class ClassDiscovery {
   // `first`: of a trajectory, so that nothing has moved on the way to it.
   void add(Screen screen, bool first);
 
-  // Classes of similar shapes are merged. Of these, the classes that are frequent and not restricted to a
-  // small region, merged until there are few enough; in the order in which they were first seen.
+  // Merges classes of similar shapes, leaves out those that are rare or restricted to a small region, and
+  // merges the others until there are few enough. They are in the order in which they were first seen.
   ObjectClasses classes() const;
 
  private:
