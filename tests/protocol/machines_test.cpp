@@ -154,6 +154,14 @@ TEST_CASE("Machines of open whose steps are frames show what a batch shows") {
   CHECK(ended > 20);
 }
 
+TEST_CASE("open names the limit of machines") {
+  LineClient client;
+  client.ask("load beamfall");
+  CHECK(client.ask("open 0") == "error bad-value N is '0'; it takes a whole number from 1 to 256");
+  CHECK(client.ask("open 257") == "error limit N is 257; the limit is 256 machines");
+  CHECK(code(client.ask("open two")) == "bad-value");
+}
+
 TEST_CASE("open refuses keys that it does not have, and those of frames with acts") {
   LineClient client;
   client.ask("load beamfall life_loss_ends=1");

@@ -91,11 +91,11 @@ OpenSettings read_open_settings(const Context& context, Words words) {
 }
 
 std::size_t read_machines(const Context& context, std::string_view word) {
-  const auto count = number_within(word, "N", 1, std::numeric_limits<std::int64_t>::max());
   const int most = context.service.limits.machines;
-  if (count <= most) return static_cast<std::size_t>(count);
-  throw RequestError(ErrorCode::kLimit, "N is " + std::to_string(count) + "; the limit is " +
-                                            std::to_string(most) + " machines");
+  if (const auto count = parse_number<std::int64_t>(word); count && *count > most)
+    throw RequestError(ErrorCode::kLimit, "N is " + std::to_string(*count) + "; the limit is " +
+                                              std::to_string(most) + " machines");
+  return static_cast<std::size_t>(number_within(word, "N", 1, most));
 }
 
 [[noreturn]] void refuse_count(const Context& context, std::size_t count, const std::string& what) {
