@@ -268,6 +268,9 @@ class PlanReader {
     const toml::table* const tables = top_.table("agent");
     const toml::table none;
     const Section all(source_, tables ? *tables : none, "agent");
+    for (const AgentKind& kind : agent_kinds())
+      if (all.node(kind.name) && std::ranges::find(names, kind.name) == names.end())
+        all.refuse(*all.node(kind.name), kind.name, "this agent is not in agents; add it there");
     all.allow(std::vector<std::string_view>(names.begin(), names.end()));
     for (const std::string& name : names) {
       const toml::table* const own = all.table(name);

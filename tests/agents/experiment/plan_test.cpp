@@ -129,7 +129,8 @@ TEST_CASE("Mistakes in a plan are named with their line") {
         "test.toml:4: agent.basic.reward_scale: unknown value 'second'; accepted: first, none and sign");
   check("[agent.basic]\nbeta = 1\n",
         "test.toml:4: agent.basic.beta: unknown key; accepted: frame_skip, trials");
-  check("[agent.ram]\nalpha = 1\n", "test.toml:3: agent.ram: unknown key; accepted: basic and random");
+  check("[agent.ram]\nalpha = 1\n", "test.toml:3: agent.ram: this agent is not in agents; add it there");
+  check("[agent.rom]\nalpha = 1\n", "test.toml:3: agent.rom: unknown key; accepted: basic and random");
   check("training_episodes = 5\ntraining_frames = 5\n", "test.toml:4: training_frames: training is so many");
   CHECK_THAT(refusal_of("games = [\"beamfal\"]\n"),
              Catch::StartsWith("test.toml:1: games: unknown game 'beamfal'; did you mean beamfall?"));
