@@ -68,6 +68,7 @@ void each_result(const std::string& path, const RowVisitor& visit) {
                          columns.substr(0, columns.size() - 1));
   };
   each_line("results", path, kMostLineBytes, [&](std::string_view line, bool ends) {
+    if (line.ends_with('\r')) line.remove_suffix(1);  // a file that was edited on Windows
     if (++number == 1) check_columns(line);
     if (!ends) refuse("the last line does not end; the file was cut");
     if (number > 1) visit(read(line), number);

@@ -131,6 +131,15 @@ TEST_CASE("An experiment's results are confirmed, and every alteration is named"
     CHECK(found.verdict.wrong == 0);
     CHECK(found.verdict.unchecked == 2);
   }
+  SECTION("a table with the line ends of Windows") {
+    std::string lines;
+    for (const char letter : table) (lines += letter == '\n' ? "\r" : "") += letter;
+    write(folder.results(), lines);
+    const Verdict verdict = verified(folder).verdict;
+    CHECK(verdict.wrong == 0);
+    CHECK(verdict.unchecked == 0);
+    CHECK(verdict.confirmed == 40);
+  }
   SECTION("a table with other columns, and one that was cut") {
     write(folder.results(), "unit,score\n");
     CHECK_THROWS_WITH(verified(folder),
