@@ -68,12 +68,19 @@ RomFinding judge(const Image& image) {
                        : "another dump of " + dump + ": try --game " + dump};
 }
 
+// An error without the file's name, which has a column of its own.
+std::string reason_of(const std::exception& error, const fs::path& path) {
+  const std::string sentence = error.what();
+  const std::string name = "image " + path.string() + ": ";
+  return sentence.starts_with(name) ? sentence.substr(name.size()) : sentence;
+}
+
 RomFinding examine(const fs::path& path) {
   RomFinding finding;
   try {
     finding = judge(*load_image(path.string()));
   } catch (const std::exception& error) {
-    finding = {"", "unusable", "", "", "", error.what()};
+    finding = {"", "unusable", "", "", "", reason_of(error, path)};
   }
   finding.file = path.filename().string();
   return finding;

@@ -143,7 +143,7 @@ class TestRoms:
         assert found["mystery.bin"]["md5"] == hashlib.md5(mystery).hexdigest()
         assert found["packed.bin.gz"]["md5"] == found["mystery.bin"]["md5"]
         assert "--game" in found["mystery.bin"]["note"]
-        assert "empty" in found["empty.rom"]["note"]
+        assert found["empty.rom"]["note"] == "the file is empty"
         assert "pong" not in missing
         assert "breakout" in missing
 
