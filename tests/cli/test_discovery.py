@@ -45,6 +45,19 @@ class TestBackground:
         assert self.contents("a").decode() == text
         assert f'beamfall = "{hashlib.sha256(text.encode()).hexdigest()}"\n'.encode() in output
 
+    def test_a_discovered_background_is_drawn_and_can_be_read_again(self):
+        self.discover("a", "--screens", "500")
+        for name in ("background", "secam", "tiles"):
+            assert self.contents("a", f"beamfall-{name}.png").startswith(b"\x89PNG")
+        self.discover("again", "--csv", "a/beamfall.csv")
+        assert self.contents("again") == self.contents("a")
+        assert self.contents("again", "beamfall.background") != self.contents("a", "beamfall.background")
+
+    def test_a_file_has_as_many_lines_as_the_screen(self):
+        with open(os.path.join(self.folder, "long.csv"), "w") as file:
+            file.write((",".join(160 * ["0"]) + "\n") * 210 + "1\n")
+        self.refuse(1, "long.csv:211: there are more than 210 lines", "beamfall", "--csv", "long.csv")
+
     def test_a_file_has_at_most_a_mebibyte(self):
         path = os.path.join(self.folder, "large.csv")
         for size in (1 << 20, (1 << 20) + 1):

@@ -372,34 +372,6 @@ class TestExperiment:
         games = (ROOT / "evaluation/racebeam_evaluation/data/atari57.csv").read_text().splitlines()[1:]
         assert re.findall(r"(?m)^missing image: (\w+)$", printed) == [line.split(",")[0] for line in games]
 
-    def test_a_background_is_discovered_drawn_and_read_again(self):
-        into = self.place / "pictures"
-        words = ("background", "beamfall", "--screens", "500", "--into")
-        assert run(*words, str(into))[0] == 0
-        for name in ("background", "secam", "tiles"):
-            assert (into / f"beamfall-{name}.png").read_bytes().startswith(b"\x89PNG")
-        table = (into / "beamfall.csv").read_text()
-        assert [len(line.split(",")) for line in table.splitlines()] == [160] * 210
-        again = self.place / "again"
-        assert run(*words, str(again), "--csv", str(into / "beamfall.csv"))[0] == 0
-        assert (again / "beamfall.csv").read_bytes() == (into / "beamfall.csv").read_bytes()
-        assert (again / "beamfall.background").read_bytes() != (into / "beamfall.background").read_bytes()
-        (into / "beamfall.csv").write_text(table + "1\n")
-        status, _, errors = run(*words, str(self.place / "bad"), "--csv", str(into / "beamfall.csv"))
-        assert status == 1
-        assert "beamfall.csv:211: there are more than 210 lines" in errors
-        assert not (self.place / "bad").exists()
-        status, _, errors = run("background", "asterix", "--into", str(self.place / "bad"))
-        assert (status, errors) == (
-            1,
-            "racebeam: no image is here of 'asterix'; --roms names the folder that holds it\n",
-        )
-        status, _, errors = run("background", "asterik", "--into", str(self.place / "bad"))
-        assert (status, errors) == (
-            1,
-            "racebeam: unknown game 'asterik'; did you mean asterix? racebeam games lists them\n",
-        )
-
     def test_an_experiment_takes_a_background_from_a_csv_file_that_its_plan_names(self):
         csv = self.place / "beamfall.csv"
         csv.write_text((",".join(["0"] * 160) + "\n") * 210)
