@@ -108,6 +108,9 @@ class TestOwnGames:
         film = str(self.place / "film.gif")
         log = f"{results}/logs/mine-random-1/1.episode"
         assert run("render", log, "--to", film, *options)[0] == 0
+        status, output, errors = run("verify", log)
+        assert (status, errors) == (2, [])
+        assert re.search(r"^1\.episode \(mine, random, score \d+\): could not be checked: ", output.decode()), output
         status, _, errors = run("experiment", str(plan), "--into", f"{results}2")
         assert status == 1
         assert "unknown game 'mine'" in errors[-1]
