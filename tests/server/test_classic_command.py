@@ -160,6 +160,15 @@ class TestClassic:
     def test_a_configuration_that_is_not_there_is_done_without(self):
         assert self.frames("-config", "nothing", "-max_num_frames", "5", GAME) == 5
 
+    def test_a_configuration_has_a_mebibyte_at_most(self):
+        text = "max_num_frames = 7\n".ljust(1 << 20, "#")
+        for name, contents, frames in (("fits", text, 7), ("large", text + "#", 5)):
+            words = (*FIFO, "-config", self.put(name, contents), "-max_num_frames", "5", GAME)
+            output, errors = self.play(*words)
+            assert output.count(b",0:\n") == frames
+            ignored = [line for line in errors if line.endswith("; it is ignored")]
+            assert len(ignored) == (name == "large"), errors
+
     def test_help_with_two_hyphens_goes_to_standard_output(self):
         status, output, errors = run("classic", "--help", cwd=self.folder)
         assert (status, errors) == (0, [])
