@@ -297,6 +297,23 @@ TEST_CASE("A share counts with two copies of a screen, and a watcher with what i
   CHECK(more_after(player, "unshare") == -share);
 }
 
+TEST_CASE("A state counts for as long as it is kept, and one of the same name takes its place") {
+  const LineService service = service_with(64 * kMiB);
+  LineClient client(service);
+  client.ask("load beamfall");
+  const auto taken_after = [&](const std::string& request) {
+    CHECK(code(client.ask(request)) == "");
+    return service.memory->taken();
+  };
+  taken_after("save a");
+  const std::uint64_t without = taken_after("drop a"), with = taken_after("save a");
+  CHECK(with > without);
+  CHECK(taken_after("save a") == with);
+  CHECK(taken_after("save b") == with + (with - without));
+  CHECK(taken_after("drop b") == with);
+  CHECK(taken_after("drop a") == without);
+}
+
 TEST_CASE("A branch is refused where memory does not suffice for its lists, or for its reply") {
   LineClient client(service_with(16 * kMiB));
   CHECK(code(client.ask("load beamfall max_episode_frames=0")) == "");
