@@ -1,5 +1,6 @@
 """racebeam connect: a line client for people and for scripts."""
 
+import contextlib
 import fcntl
 import functools
 import os
@@ -308,6 +309,38 @@ class TestTyped:
         output = self.run_typed("\x1b[A\x1b[A\n", ":quit\n")  # up, up, enter
         assert "ok count=" in output
 
+    def test_the_folder_of_the_history_is_made(self):
+        if not self.edits():
+            pytest.skip("built without libedit")
+        self.state = os.path.join(self.state, "state", "of programs")
+        self.run_typed("games all\n", ":quit\n")
+        assert "games\\040all" in pathlib.Path(self.state, "racebeam_history").read_text().splitlines()
+
+    @pytest.mark.parametrize("typed", (True, False))
+    def test_if_only_one_side_is_a_terminal_replies_are_whole_and_without_prompts(self, typed):
+        address, requests = f"tcp://127.0.0.1:{self.server.port()}", "load beamfall seed=7\nlook ram\n"
+        expected = connect(address, requests).stdout
+        ours, theirs = pty.openpty()
+        source, target = (theirs, subprocess.PIPE) if typed else (subprocess.PIPE, theirs)
+        with subprocess.Popen([BINARY, "connect", address], stdin=source, stdout=target, text=True) as child:
+            os.close(theirs)
+            if typed:
+                os.write(ours, f"{requests}:quit\n".encode())
+            printed, _ = child.communicate(None if typed else requests, timeout=PATIENCE)
+        if not typed:
+            printed = self.rest_of(ours).replace("\r\n", "\n")
+        os.close(ours)
+        assert printed == expected
+
+    @staticmethod
+    def rest_of(terminal):
+        """What a program has printed that has ended."""
+        printed = b""
+        with contextlib.suppress(OSError):
+            while select.select([terminal], [], [], PATIENCE)[0]:
+                printed += os.read(terminal, 65536)
+        return printed.decode()
+
     def test_the_newest_thousand_lines_are_kept(self):
         if not self.edits():
             pytest.skip("built without libedit")
@@ -356,6 +389,38 @@ class TestTyped:
             assert reply in output
         assert "racebeam> act FIRE/RIGHT" in self.visible(output)
         assert "error" not in output
+
+    def test_shared_sessions_words_of_lists_and_choices_are_completed(self):
+        if not self.edits():
+            pytest.skip("built without libedit")
+        output = self.run_typed(
+            "load beamfall seed=7 sticky=0\n",
+            "share somewhere\n",
+            "watch some\tsince=0\n",
+            "save here\n",
+            "branch here FIRE,noo\t1,fi\t\n",
+            "reset see\t9\n",
+            "log inl\trole=bas\t\n",
+            "observe no\t\n",
+            ":hel\t\n",
+            ":quit\n",
+        )
+        for line in (
+            "watch somewhere since=0",
+            "branch here FIRE,NOOP 1,FIRE",
+            "reset seed=9",
+            "log inline role=baseline ",
+            "observe none ",
+            ":help ",
+        ):
+            assert f"racebeam> {line}" in self.visible(output)
+        assert "error" not in output
+
+    def test_a_word_that_is_offered_twice_is_completed_like_others(self):
+        if not self.edits():
+            pytest.skip("built without libedit")
+        output = self.run_typed("help state\t\n", ":quit\n")  # a command, and a subject of help
+        assert "racebeam> help states \n" in self.visible(output)
 
     @staticmethod
     def visible(shown):
