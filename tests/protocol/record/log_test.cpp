@@ -145,6 +145,21 @@ TEST_CASE("Strengths of paddles are logged, and a log without them is as short a
   CHECK(plain.strength(1) == 1);
 }
 
+TEST_CASE("A log of an episode with strengths takes 400000 acts") {
+  Desk desk;
+  for (const bool fits : {true, false}) {
+    desk.ask("load duel seed=7 sticky=0 max_episode_frames=" + std::to_string(fits ? 400'000 : 400'001));
+    desk.ask("log inline");
+    desk.ask("reset");
+    desk.ask(fits ? "act FIRE@0.5*400000" : "act FIRE*400000 FIRE@0.5");
+    const std::string last = desk.ask("log last");
+    if (fits)
+      CHECK_THAT(last, Contains(",400000,400000,truncated,"));
+    else
+      CHECK_THAT(last, Contains("has no log: it has more than 400000 acts with strengths"));
+  }
+}
+
 TEST_CASE("branch and look do not change an episode's log") {
   Desk desk;
   desk.ask("log inline");
