@@ -1,4 +1,4 @@
-// The ledger of a session: the numbers that decide when it looks at the clock, and when replies go out
+// The tuning table of a session: the numbers that decide when it looks at the clock, and when replies go out
 // (system/tuning.hpp, docs/performance/tuning.md).
 #pragma once
 

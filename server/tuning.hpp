@@ -1,4 +1,4 @@
-// The ledger of the server: the numbers by which an event loop divides its time among sessions
+// The tuning table of the server: the numbers by which an event loop divides its time among sessions
 // (system/tuning.hpp, docs/performance/tuning.md). For how long a loop polls is an option, `--busy-poll`.
 #pragma once
 

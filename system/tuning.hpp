@@ -1,7 +1,7 @@
-// Numbers that choose between ways with the same result, and so affect speed only, are rows of a ledger:
-// emulator/policies/tuning.hpp, protocol/tuning.hpp, server/tuning.hpp, and the end of this file. The comment
-// before a row says what the number means. `scripts/bench tune` reads the rows, measures each at half and at
-// double, and writes docs/performance/tuning.md.
+// Numbers that choose between ways with the same result, and so affect speed only, are rows of a tuning
+// table: emulator/policies/tuning.hpp, protocol/tuning.hpp, server/tuning.hpp, and the end of this file. The
+// comment before a row says what the number means. `scripts/bench tune` reads the rows, measures each at half
+// and at double, and writes docs/performance/tuning.md.
 //
 //   RACEBEAM_TUNED(type, name, value, unit, measure);
 //

@@ -1,4 +1,4 @@
-// The ledger of the emulator: the numbers by which it chooses between ways with the same result
+// The tuning table of the emulator: the numbers by which it chooses between ways with the same result
 // (system/tuning.hpp). Each group names the file that uses it. What the numbers are worth, and what half and
 // double of them cost, is measured: docs/performance/tuning.md. The bound of `scripts/translator-cost`, 1.5
 // times the time of the interpreter, holds for all numbers of the translator together.

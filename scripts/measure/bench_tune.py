@@ -1,7 +1,8 @@
-"""Measures what the numbers of the ledgers are worth: each at half and at double, and each policy switched off.
+"""Measures what the numbers of the tuning tables are worth: each at half and at double, and each policy switched off.
 
-The ledgers are emulator/policies/tuning.hpp, protocol/tuning.hpp, server/tuning.hpp and system/tuning.hpp. The program
-is built with the preset `tunable`, in which a row of a ledger is a variable. A row says what it is measured by:
+The tuning tables are emulator/policies/tuning.hpp, protocol/tuning.hpp, server/tuning.hpp and system/tuning.hpp. The
+program is built with the preset `tunable`, in which a row of a tuning table is a variable. A row says what it is
+measured by:
 
   frames   games in the middle of play: the screen of every frame, and rewards only
   start    the first frames of games from power-on, in a new process each
@@ -32,7 +33,7 @@ import processor
 from bench_settings import SETTINGS, draw_actions
 
 BUILD = cartridges.ROOT / "build/tunable"
-LEDGERS = ("emulator/policies/tuning.hpp", "protocol/tuning.hpp", "server/tuning.hpp", "system/tuning.hpp")
+TUNING_TABLES = ("emulator/policies/tuning.hpp", "protocol/tuning.hpp", "server/tuning.hpp", "system/tuning.hpp")
 PAGE = cartridges.ROOT / "docs/performance/tuning.md"
 GAMES = ("asteroids", "beam_rider", "breakout", "elevator_action", "pitfall2", "pong", "seaquest", "video_pinball")
 CHUNK, WARM_UP = 500, 4  # frames; chunks that are not measured
@@ -54,8 +55,8 @@ ROW = re.compile(
 )
 
 
-def read_ledger(file):
-    """The rows of a ledger as dictionaries, in their order."""
+def read_tuning_table(file):
+    """The rows of a tuning table as dictionaries, in their order."""
     found = []
     for match in ROW.finditer((cartridges.ROOT / file).read_text()):
         meaning = " ".join(line.strip().removeprefix("// ") for line in match[1].splitlines())
@@ -68,7 +69,7 @@ def parse_arguments(rows):
     parser = argparse.ArgumentParser(
         prog="scripts/bench tune", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("names", nargs="*", metavar="NAME", help="rows of the ledgers (default: all)")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="rows of the tuning tables (default: all)")
     parser.add_argument("--games", nargs="+", default=GAMES, metavar="GAME", help=f"default: {' '.join(GAMES)}")
     parser.add_argument(
         "--chunks", type=int, default=12, metavar="N", help=f"measured chunks, of {CHUNK} frames each (default 12)"
@@ -82,7 +83,9 @@ def parse_arguments(rows):
     options = parser.parse_args()
     unknown = set(options.names) - {row["name"] for row in rows}
     if unknown:
-        parser.error(f"no ledger has a row {', '.join(sorted(unknown))}; rows are {', '.join(r['name'] for r in rows)}")
+        parser.error(
+            f"no tuning table has a row {', '.join(sorted(unknown))}; rows are {', '.join(r['name'] for r in rows)}"
+        )
     if options.write and options.names:
         parser.error("--write needs all rows, so that NAME cannot be given")
     return options
@@ -185,7 +188,7 @@ def policy_rows(options):
         yield [name, *(cell for by in ("frames", "start") for cell in cells(measure(by, [{}, values], options)))]
 
 
-def ledger_part(file, rows):
+def tuning_table_part(file, rows):
     words = [[f"`{row['name']}`", f"{row['value']:,}", row["unit"], row["measure"], row["meaning"]] for row in rows]
     return f"\n### {file}\n\n" + table(["number", "value", "unit", "measured by", "meaning"], words)
 
@@ -213,18 +216,18 @@ def page(tables, policies, rows, options):
             continue
         text += f"\n## Half and double, by `{by}`\n\n"
         text += table(["number", "value", "unit", "half: mean", "most", "double: mean", "most"], lines)
-    text += "\n## The ledgers\n"
+    text += "\n## The tuning tables\n"
     measured = {line[0] for lines in tables.values() for line in lines}
     missing = [f"`{row['name']}`" for row in rows if row["measure"] in MEASURES and f"`{row['name']}`" not in measured]
     if missing:
         text += "\n" + textwrap.fill(f"This run did not measure {', '.join(missing)}.", 100) + "\n"
-    for file in LEDGERS:
-        text += ledger_part(file, [row for row in rows if row["file"] == file])
+    for file in TUNING_TABLES:
+        text += tuning_table_part(file, [row for row in rows if row["file"] == file])
     return text
 
 
 def main():
-    rows = [row for file in LEDGERS for row in read_ledger(file)]
+    rows = [row for file in TUNING_TABLES for row in read_tuning_table(file)]
     options = parse_arguments(rows)
     bench_sides.RACEBEAM = os.environ.get("RACEBEAM_BINARY", str(BUILD / "racebeam"))
     chosen = [row for row in rows if row["name"] in options.names or not options.names]

@@ -1,4 +1,4 @@
-"""The ledgers of numbers that affect speed only, and the page that scripts/bench tune makes of them."""
+"""The tables of numbers that affect speed only, and the page that scripts/bench tune makes of them."""
 
 import pathlib
 import re
@@ -15,8 +15,8 @@ def sources():
         yield from (path for path in (ROOT / folder).rglob("*.[hc]pp"))
 
 
-class TestLedgers:
-    rows = [row for file in bench_tune.LEDGERS for row in bench_tune.read_ledger(file)]
+class TestTuningTables:
+    rows = [row for file in bench_tune.TUNING_TABLES for row in bench_tune.read_tuning_table(file)]
 
     def test_every_row_is_read_with_its_meaning(self):
         calls = [
@@ -30,8 +30,8 @@ class TestLedgers:
     def test_names_are_unique_and_used(self):
         names = [row["name"] for row in self.rows]
         assert len(names) == len(set(names))
-        ledgers = {ROOT / file for file in bench_tune.LEDGERS}
-        text = "".join(path.read_text() for path in sources() if path not in ledgers)
+        tables = {ROOT / file for file in bench_tune.TUNING_TABLES}
+        text = "".join(path.read_text() for path in sources() if path not in tables)
         assert [name for name in names if f"tuning::{name}" not in text] == []
 
     def test_what_measures_a_row_exists(self):
