@@ -132,7 +132,7 @@ def _above_random(scores: Scores, sources: tuple[Source, ...], bootstrap: Bootst
         "Welch's test (two-tailed, 99 %) finds a difference.",
         against_random.rows(scores, tuple(scores.means), bootstrap),
         sources,
-        ("A sample is the mean of a trial of an agent that was trained, and an episode of another.",),
+        ("For a trained agent, a sample is the mean of a trial; for others, it is an episode.",),
         digits=0,
     )
 
