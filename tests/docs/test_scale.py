@@ -83,9 +83,9 @@ class TestPaper:
 
     def test_what_failures_cost_is_what_the_simulation_says(self):
         claim = self.claim(
-            r"With `--failures 365`, a failure of each node a day, (\d+) nodes take ([\d.]+) hours, and do (\d+) "
-            r"core-hours twice. "
-            r"With a checkpoint an hour \(`--checkpoint 3600`\) these are ([\d.]+) hours and (\d+) core-hours"
+            r"With `--failures 365`, when each node fails once a day, (\d+) nodes take ([\d.]+) hours, and repeat "
+            r"(\d+) core-hours. "
+            r"With one checkpoint an hour \(`--checkpoint 3600`\), they take ([\d.]+) hours and repeat (\d+) core-hours"
         )
         for words, hours, waste in (((), claim[2], claim[3]), (("--checkpoint", "3600"), claim[4], claim[5])):
             found = simulate("--longest-first", "--failures", "365", "--nodes", claim[1], *words)
