@@ -1,5 +1,5 @@
-// One session of the racebeam line protocol (protocol/PROTOCOL.md). It knows no files and no sockets: bytes
-// go in, and bytes come out. Between them, run() works for a limited time, so that a thread can serve many
+// One session of the racebeam line protocol (protocol/PROTOCOL.md). It does not use files or sockets: bytes
+// go in, and bytes come out. In between, run() works for a limited time, so that a thread can serve many
 // sessions. No function throws or blocks.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The tuning table of a session: the numbers that decide when it looks at the clock, and when replies go out
+// The tuning table of a session: the numbers that decide when it reads the clock, and when it sends replies
 // (system/tuning.hpp, docs/performance/tuning.md).
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace racebeam::tuning {
 
-// Slices of a request (running/pacer.hpp). A look at the clock takes 25 ns, a frame from 2 us to some
+// Slices of a request (running/pacer.hpp). Reading the clock takes 25 ns, a frame from 2 us to some
 // milliseconds.
 
 // Frames between two looks.

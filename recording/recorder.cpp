@@ -1,7 +1,7 @@
 #include "recording/recorder.hpp"
 
 #include <thread>
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // needed by Asio 1.74
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/strand.hpp>

@@ -1,4 +1,4 @@
-// Runs a server: serves sessions on its endpoints until it is told to stop.
+// Runs a server: serves sessions on its endpoints until it is asked to stop.
 #pragma once
 
 #include "server/connections/service.hpp"

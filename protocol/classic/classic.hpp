@@ -1,5 +1,5 @@
 // One session of the text protocol of ALE 0.4 to 0.6 (docs/spec/classic-protocol.md; for clients:
-// protocol/CLASSIC.md). It knows no files and no sockets: bytes go in, lines of text come out.
+// protocol/CLASSIC.md). It does not use files or sockets: bytes go in, lines of text come out.
 #pragma once
 
 #include <deque>
@@ -27,8 +27,8 @@ class ClassicError : public std::runtime_error {
   int status_;
 };
 
-constexpr int kMalformedStatus = 1;        // where the classic server crashes
-constexpr int kUnknownActionStatus = 255;  // as the classic server
+constexpr int kMalformedStatus = 1;        // for input on which the classic server crashes
+constexpr int kUnknownActionStatus = 255;  // as in the classic server
 
 struct ClassicOptions {
   bool run_length = true;  // whether screens are written in run lengths

@@ -1,4 +1,4 @@
-// A session of the classic protocol with its machine, whose work is cut into slices by the clock.
+// A session of the classic protocol with its machine. Its work is divided into slices of time.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // The environment of an RL-Glue 3.0 experiment, as ALE 0.5 and 0.6 were (docs/spec/classic-protocol.md, 11).
-// It knows no sockets: a message goes in, a message comes out.
+// It does not use sockets: a message goes in, a message comes out.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,22 @@ struct RlGlueOptions {
   int max_num_frames = 0;        // frames since the start after which the session ends; 0: no limit
 };
 
-// What comes before the payload of a message, as two 32-bit numbers, big-endian.
+// The header of a message: two 32-bit numbers, big-endian.
 struct RlGlueHeader {
   std::uint32_t type, size;
 };
 constexpr std::size_t kRlGlueHeaderBytes = 8;
 RlGlueHeader rl_glue_header(std::string_view bytes);  // of exactly 8 bytes
 
-std::string rl_glue_greeting();  // the first message to the core: an environment is there
+std::string rl_glue_greeting();  // the first message to the core: an environment has connected
 
 class RlGlueEnvironment {
  public:
   // Throws std::invalid_argument if the game's screen does not fit the protocol.
   RlGlueEnvironment(Environment& environment, const RlGlueOptions& options);
 
-  // The answer, with its header; nothing if the session is over. Throws std::invalid_argument if the core
-  // sends what the protocol does not have.
+  // Returns the reply, with its header; nothing if the session is over. Throws std::invalid_argument if the
+  // core sends what the protocol does not have.
   std::optional<std::string> answer(std::uint32_t type, std::string_view payload);
 
  private:

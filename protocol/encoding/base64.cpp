@@ -72,7 +72,7 @@ std::optional<std::vector<std::uint8_t>> bytes_of_base64(std::string_view text) 
   std::vector<std::uint8_t> bytes;
   bytes.reserve(text.size() * 3 / 4);
   std::uint32_t bits = 0;
-  int pending = 0;  // bits that were read, but not written
+  int pending = 0;  // bits that were read but not yet written
   for (const char c : text) {
     const std::uint8_t value = kValues[static_cast<std::uint8_t>(c)];
     if (value == kNone) return std::nullopt;

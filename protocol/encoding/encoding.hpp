@@ -33,8 +33,8 @@ struct EncodingRow {
 std::span<const EncodingRow> encodings();  // in the order of Encoding
 std::optional<Encoding> encoding_of(std::string_view name);
 
-// The greatest length of `bytes` bytes in a reply. Runs and delta reach it where no two neighbours are equal,
-// as in the red, green and blue of a colour; mostly they are far shorter.
+// The greatest length of `bytes` bytes in a reply. Runs and delta reach it if no two neighbours are equal, as
+// in the red, green and blue of a colour; mostly they are far shorter.
 std::size_t text_size(Encoding encoding, std::size_t bytes);
 
 // Called between two pieces of a long value; may suspend its caller, or throw. Empty: nothing is called.
@@ -44,8 +44,8 @@ using BetweenPieces = std::function<void()>;
 void append_delta(std::string& out, std::span<const std::uint8_t> bytes, std::span<std::uint8_t> before,
                   const BetweenPieces& pause = {});
 
-// Writes one field of reply after reply, and holds what its encodings must remember. After each encoding has
-// been used once, it allocates nothing before rest().
+// Writes one field of successive replies, and holds the state of its encodings. After each encoding has been
+// used once, it allocates nothing before rest().
 class Encoder {
  public:
   explicit Encoder(Encoding encoding);
@@ -55,7 +55,7 @@ class Encoder {
 
   Encoding encoding() const { return encoding_; }
   std::size_t footprint() const;  // bytes of memory
-  void rest();                    // releases what the next value needs, but not from the last one
+  void rest();                    // releases memory that the next value can allocate again
   // Writes a value into the line `out`. `raw` gets the bytes that follow the line, with kRaw. Only a stack of
   // screens is so long that it is written in several pieces.
   void append(std::string& out, std::span<const std::uint8_t> bytes, std::string& raw,

@@ -1,4 +1,4 @@
-// What the forms of hexadecimal and run-length text share, and those for single processors: text_x86.cpp,
+// The common parts of hexadecimal and run-length text, and the versions for each processor: text_x86.cpp,
 // text_neon.cpp.
 #pragma once
 

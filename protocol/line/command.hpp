@@ -27,11 +27,11 @@ struct Command {
   bool takes_fields;
   bool has_old;  // old words among its arguments (old_words.hpp)
 
-  // Writes the reply, which begins with "ok". Throws RequestError. It is the body of context.pacer: long work
-  // is suspended between frames, or where it calls breathe().
+  // Writes the reply, which begins with "ok". Throws RequestError. It runs as the body of context.pacer: long
+  // work is suspended between frames, or where it calls breathe().
   void (*run)(Context& context, Words arguments, Reply& reply);
 
-  // What replies have: "KEY:TYPE KEY?:TYPE", where ? marks a key that is not always there.
+  // The keys of replies: "KEY:TYPE KEY?:TYPE", where ? marks an optional key.
   std::string_view reply, groups;
   std::string_view shows;   // where the fields are: first, groups, asked, or nowhere
   std::string_view echoes;  // the table whose names are keys, too

@@ -21,7 +21,7 @@ Context::Context(const LineService& with, const std::shared_ptr<MemoryBudget>& b
       fields(parse_fields(kFirstFields)),
       machines(*this) {}
 
-// The fiber and the recording use the other members, so they go first.
+// The fiber and the recording use the other members, so they are destroyed first.
 Context::~Context() { leave(); }
 
 void Context::leave() {

@@ -1,4 +1,4 @@
-// What the handlers of commands are given: the state of one session, and the limits that a request keeps.
+// The argument of command handlers: the state of one session, and the limits of a request.
 #pragma once
 
 #include <cstdint>
@@ -61,7 +61,7 @@ struct Scratch {  // of the current request; members to reuse their memory
 class Context {
  public:
   Context(const LineService& with, const std::shared_ptr<MemoryBudget>& budget);
-  ~Context();  // in another file, since a recording is not known here
+  ~Context();  // in another file, since SessionRecording is incomplete here
 
   const LineService& service;
   Peer peer;
@@ -78,26 +78,28 @@ class Context {
 
   // Throws RequestError if these acts, and these frames in addition, exceed --max-request-frames.
   void check_frames(std::int64_t acts, std::int64_t frames = 0) const;
-  // The same for acts whose sound the reply has, all of it.
+  // As check_frames(), for acts whose complete sound is in the reply.
   void check_audio(std::int64_t acts) const;
   // Lets the request reset this many machines. The pacer then stops it at the frames that it may run.
   void allow_resets(std::size_t machines);
   // Throws RequestError if a reply of this estimated length would exceed the limit. `about` is its subject.
   void check_reply(std::size_t bytes, const std::string& about) const;
   void count(const Outcome& outcome);  // adds it to the statistics
-  // Empties an object of about so many bytes, whose content is destroyed elsewhere if that takes long.
+  // Empties an object of about this many bytes. If it is large, another thread destroys its content.
   template <typename T>
   void discard(T& object, std::size_t bytes) {
     dispose(service.disposal, service.memory, bytes, std::exchange(object, T()));
   }
   void discard(std::string& text);
-  void stop_recording_machines();   // ends a recording or a log of machines of `open`, which are about to go
-  void spoil_log(std::string why);  // of the loaded machine's episode, which something else than acts changed
+  // Ends a recording or a log of machines of `open` before they are destroyed.
+  void stop_recording_machines();
+  // Spoils the log of the loaded machine's episode, which something other than acts changed.
+  void spoil_log(std::string why);
   void run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
 
   // These act on the session, not on a request:
   void publish();                 // to watchers
-  void leave();                   // ends all that others notice
+  void leave();                   // ends everything that other sessions can see
   void rest();                    // releases what the next request can make again
   bool waits_for_disk() const;    // a recording has no room for another frame
   std::size_t footprint() const;  // bytes of memory

@@ -58,8 +58,8 @@ class View {
 
   static std::size_t most_held(const std::vector<Field>& fields);  // bytes of memory that it may come to hold
   std::size_t footprint() const;                                   // bytes that it holds
-  void rest();  // releases what the next reply needs, but not from the last one
-  // Bytes of memory for the fields in the longest reply, about whatever machine.
+  void rest();  // releases memory that the next reply can allocate again
+  // Bytes of memory for the fields in the longest reply about any machine.
   static std::size_t longest_text(const std::vector<Field>& fields);
 
   // The sources of values. `stack` is null if no field is a stack.

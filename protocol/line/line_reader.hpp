@@ -1,5 +1,5 @@
 // Splits a client's input of the line protocol into lines. The buffer grows with the incoming line, up to a
-// limit. A longer line is reported once and skipped, and so is a line that memory does not suffice for.
+// limit. A longer line is reported once and skipped, as is a line for which memory does not suffice.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class LineReader {
   void set_longest(std::size_t longest) { longest_ = longest; }
   std::size_t longest() const { return longest_; }
 
-  // After next() has returned nothing: how many bytes of memory the rest of the line needs now, mostly 0. If
+  // After next() has returned nothing: how many bytes of memory the rest of the line needs now, usually 0. If
   // there are so many, grow() allocates them, and may throw std::bad_alloc. Otherwise cut_line() makes next()
   // return the line as kCut.
   std::size_t growth() const;

@@ -1,7 +1,7 @@
-// The memory that a machine holds. The emulator does not count it, so it is derived from what the machine
-// has done. A machine that plays has two pictures, or one if its screens are not observed. Until it plays, it
-// has one spare picture. It holds the spare picture and the records of lines until it rests; the next frame
-// makes them again.
+// The memory that a machine holds. The emulator does not count it, so it is estimated from the machine's past
+// operations. A machine that plays has two pictures, or one if its screens are not observed. Until it plays,
+// it has one spare picture. It holds the spare picture and the records of lines until it rests; the next
+// frame creates them again.
 #pragma once
 
 #include <cstddef>

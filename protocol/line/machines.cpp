@@ -27,7 +27,7 @@ struct Seat {
 
 }  // namespace
 
-// Each machine writes its part of the reply into its own seat, since machines run on several threads.
+// Each machine writes its part of the reply into its own Seat, since machines run on several threads.
 class Machines::Host final : public VectorHost {
  public:
   Host(Context& context, std::size_t count) : context_(context), seats_(count) {
@@ -272,7 +272,7 @@ void Machines::Host::run_all(std::size_t count, const std::function<void(std::si
   }
 }
 
-// Runs on any thread, and touches only its own seat.
+// Runs on any thread, and accesses only its own seat.
 void Machines::Host::work_on(Seat& seat, std::size_t number, const std::function<void(std::size_t)>& task,
                              Pacer::Clock::time_point end) {
   try {

@@ -1,4 +1,4 @@
-// Words of requests that have a new name. The server takes the old one, and says so once in its log.
+// Words of requests that have a new name. The server accepts the old one, and logs a warning once.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ constexpr std::string_view kOfFields = "field";
 const OldWord* old_word(std::string_view command, std::string_view word);
 const OldWord* old_field(std::string_view word);
 
-// What the request could have had instead.
+// The new word for it.
 std::string new_word(const OldWord& row, std::string_view word);
 
 std::string deprecation_of(const OldWord& row);  // for help and the log

@@ -1,4 +1,4 @@
-// What `log` has begun in a session: each episode of its machine becomes a log, which can be played again.
+// The logging that `log` starts in a session: each episode of its machine becomes a log that can be replayed.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +19,16 @@ namespace racebeam {
 class Context;
 class Reply;
 
-// The words of `load` with which an episode of this machine can be played again. `loaded` are those of the
+// The words of `load` with which an episode of this machine can be replayed. `loaded` are those of the
 // session.
 PlaySettings settings_of_log(const PlaySettings& loaded, const Environment& machine);
 
-// An episode lacks a log if it was left before its end, if something but acts of player A changed it, or if
-// its settings differ from those of the first.
+// An episode has no log if it was abandoned before its end, if something other than acts of player A changed
+// it, or if its settings differ from those of the first.
 class SessionLog final : public SlotWatcher {
  public:
   struct Order {
-    EpisodeOrigin origin;  // of all logs, but for the episode
+    EpisodeOrigin origin;  // of all logs, except for the episode
     std::string phrase;    // that the seeds follow from; empty: they count up
   };
   struct Counts {
@@ -39,7 +39,7 @@ class SessionLog final : public SlotWatcher {
   // handed over. `memory` is that of the server; null: unlimited.
   SessionLog(Order order, const PlaySettings& settings, std::shared_ptr<LogWriter> writer, Slot& slot,
              Pacer& pacer, std::shared_ptr<MemoryBudget> memory);
-  ~SessionLog() override;  // keeps what there is, without waiting for it
+  ~SessionLog() override;  // keeps what was logged, without waiting for it
   SessionLog(const SessionLog&) = delete;
   SessionLog& operator=(const SessionLog&) = delete;
 
@@ -56,7 +56,7 @@ class SessionLog final : public SlotWatcher {
   // The last episode that ended. Throws RequestError if no episode has ended, or the last one lacks a log.
   const EpisodeLog& last() const;
 
-  // Why the writer has stopped: once, as soon as that is known.
+  // Returns why the writer has stopped: once, as soon as that is known.
   std::optional<Recording::Cut> new_cut();
 
   std::size_t footprint() const;  // bytes of memory

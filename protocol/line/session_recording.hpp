@@ -1,4 +1,5 @@
-// What `record` has begun in a session: each frame of an act of its machine goes to the recorder.
+// The recording that `record` starts in a session: each frame of an act of its machine is sent to the
+// recorder.
 #pragma once
 
 #include <memory>
@@ -18,7 +19,7 @@ class SessionRecording {
  public:
   // Watches the machine of the slot, which outlives it, as `pacer` does, on which it runs.
   SessionRecording(std::shared_ptr<Recording> recording, Slot& slot, Pacer& pacer);
-  ~SessionRecording();  // keeps what there is, without waiting for it
+  ~SessionRecording();  // keeps what was recorded, without waiting for it
   SessionRecording(const SessionRecording&) = delete;
   SessionRecording& operator=(const SessionRecording&) = delete;
 
@@ -28,7 +29,7 @@ class SessionRecording {
   Recording& recording() { return *recording_; }
   const std::string& names() const { return recording_->names(); }
 
-  // What has cut it off: once, as soon as that is known.
+  // Returns what has cut it off: once, as soon as that is known.
   std::optional<Recording::Cut> new_cut();
 
  private:

@@ -1,4 +1,4 @@
-// Sessions that watchers may look at. A session never waits for its watchers: it publishes a copy of what its
+// Sessions that others may watch. A session never waits for its watchers: it publishes a copy of what its
 // machine shows, if one of them has asked since the last copy.
 #pragma once
 

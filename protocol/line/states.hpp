@@ -16,7 +16,7 @@ class States {
 
   const Slot::Saved* find(std::string_view name) const;  // null: unknown
   bool contains(std::string_view name) const { return by_name_.contains(name); }
-  void put(std::string_view name, Slot::Saved place);  // in the place of one of the same name
+  void put(std::string_view name, Slot::Saved place);  // replaces a state of the same name
   void drop(std::string_view name);                    // if it is there
 
   std::size_t size() const { return by_name_.size(); }

@@ -1,4 +1,4 @@
-// What a session watches: shared sessions, and the fields of each that it was last sent.
+// The shared sessions that a session watches, and the fields of each that it was last sent.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +22,8 @@ class Watched {
   void enter(std::unique_ptr<Share::Place> place) { place_ = std::move(place); }
   void leave() { place_.reset(); }
 
-  // Appends " name=value" for each field. The encoding delta tells what has changed since the last reply with
-  // the same fields and a screen of the same height.
+  // Appends " name=value" for each field. The encoding delta has the changes since the last reply with the
+  // same fields and a screen of the same height.
   void append(std::string& out, std::string& raw, const std::vector<Field>& fields, const Snapshot& snapshot);
 
   std::size_t footprint() const { return footprint_; }  // estimated bytes of memory

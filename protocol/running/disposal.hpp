@@ -1,5 +1,5 @@
-// Destroys large objects on its own thread. To give a MiB back to the system takes some 0.3 ms, for
-// which the other sessions of a loop would wait.
+// Destroys large objects on its own thread. Returning a MiB to the system takes about 0.3 ms, for which the
+// other sessions of a loop would wait.
 #pragma once
 
 #include <condition_variable>
@@ -25,7 +25,7 @@ class Disposal {
   Disposal(const Disposal&) = delete;
   Disposal& operator=(const Disposal&) = delete;
 
-  // Thread-safe. Destroys the object at once if the system had no thread.
+  // Thread-safe. Destroys the object at once if the system provided no thread.
   void take(std::shared_ptr<void> object);
 
  private:

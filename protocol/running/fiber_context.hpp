@@ -10,11 +10,11 @@ class FiberContext {
  public:
   // The body begins with the first enter(), and throws nothing. Throws std::bad_alloc.
   FiberContext(void (*body)(void*), void* data);
-  ~FiberContext();  // the body must have returned, or never have begun
+  ~FiberContext();  // the body must have returned, or never have started
   FiberContext(const FiberContext&) = delete;
   FiberContext& operator=(const FiberContext&) = delete;
 
-  void enter();  // on any thread: goes on with the body until it calls leave() or has returned
+  void enter();  // on any thread: runs the body until it calls leave() or returns
   void leave();  // called by the body
 
  private:

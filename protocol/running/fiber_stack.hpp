@@ -17,7 +17,7 @@ class FiberStack {
 
   std::byte* bottom() const { return bottom_; }
 
-  // Bytes of address space. The system provides memory only for pages that are used, mostly three.
+  // Bytes of address space. The system provides memory only for pages that are used, usually three.
   static constexpr std::size_t kBytes = std::size_t{1} << 18;
 
  private:

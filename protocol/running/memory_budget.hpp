@@ -1,6 +1,6 @@
-// A limit for the memory of all sessions together. Sessions count what they hold, from the sizes of their
-// buffers; the allocator is not asked. A budget has parts: of the server's, each client has one, and of a
-// client's, each session. So the server finds who holds much when the memory is short.
+// A limit for the memory of all sessions together. Sessions count what they hold from the sizes of their
+// buffers, not from the allocator. A budget has parts: the server's has one for each client, and a client's
+// has one for each session. When memory is short, the server finds with them who holds much.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class MemoryBudget {
   MemoryBudget(const MemoryBudget&) = delete;
   MemoryBudget& operator=(const MemoryBudget&) = delete;
 
-  // The part of `whole` that has this name, as long as somebody holds it.
+  // The part of `whole` with this name; it exists as long as somebody holds it.
   static std::shared_ptr<MemoryBudget> part(const std::shared_ptr<MemoryBudget>& whole,
                                             const std::string& name);
 
@@ -41,17 +41,17 @@ class MemoryBudget {
   std::uint64_t most() const { return most_; }    // of all parts together
   std::size_t parts() const { return parts_; }
   const MemoryBudget* whole() const { return whole_.get(); }                  // null: this is not a part
-  const MemoryBudget& all() const { return whole_ ? whole_->all() : *this; }  // what all are parts of
+  const MemoryBudget& all() const { return whole_ ? whole_->all() : *this; }  // the root of all parts
 
-  // The last eighth is for sessions that hold little: others find it taken. So small requests and new
-  // sessions have room although large ones have all that they can get.
+  // The last eighth is reserved for sessions that hold little. Small requests and new sessions thus have room
+  // although large ones have all that they can get.
   std::uint64_t reserve() const { return most_ / 8; }
   std::uint64_t little() const { return std::max(most_ / 512, kLeastLittle); }
   // An owner that holds more than half of the memory does not get the last thirty-second, which is left for
   // clients of other owners. This is whether the part is such an owner's.
   bool crowds_others_out() const { return whole_ && whole_->parts_ > 1 && taken_ > most_ / 2; }
   std::uint64_t reserve_for_other_owners() const { return most_ / 32; }
-  // How much is taken of the last sixteenth. Sessions then keep nothing that they can make again, and the
+  // How much is taken of the last sixteenth. Sessions then keep nothing that they can recreate, and the
   // server ends some.
   std::uint64_t shortage() const;
   bool is_short() const { return shortage() > 0; }

@@ -1,4 +1,4 @@
-// Cuts the work of a session, or of one machine among many, into slices by the clock, and counts its frames.
+// Divides the work of a session, or of one machine among many, into slices of time, and counts its frames.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Announces changes of the stack to AddressSanitizer and ThreadSanitizer, which cannot detect them. Without
+// Announces stack switches to AddressSanitizer and ThreadSanitizer, which cannot detect them. Without
 // sanitizers it is empty.
 #pragma once
 
@@ -28,7 +28,7 @@
 
 namespace racebeam {
 
-// Each switch is announced on the stack that is left, and confirmed on the stack that is entered.
+// Each switch is announced on the old stack, and confirmed on the new one.
 class SanitizerFiber {
  public:
 #if defined(RACEBEAM_ASAN)

@@ -1,5 +1,5 @@
 // The tokens that clients may use: those of a file, which can be read again while the server runs, and one
-// that the server has made.
+// that the server has generated.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Slows down clients that guess tokens. The answer to a wrong token is delayed by 100 ms, doubled with each
-// wrong token in a row from the same address, whatever their connection. Right tokens are answered at once:
-// those who share the address of a guesser are not locked out. A delay holds no thread.
+// consecutive wrong token from the same address, over any connection. Right tokens are answered at once:
+// clients that share the address of a guesser are not locked out. A delay blocks no thread.
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@ class WrongTokens {
 
   explicit WrongTokens(Delay longest) : longest_(longest) {}
 
-  // What counts as one address: an IPv4 address, or the first 64 bits of an IPv6 address, because one client
+  // The unit of counting: an IPv4 address, or the first 64 bits of an IPv6 address, because one client
   // usually has all of these.
   static std::string source_of(const boost::asio::ip::address& address);
 

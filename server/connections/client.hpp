@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 // thread only.
 class Client {
  public:
-  // The budget is charged with `bytes` for what carries the session: a socket, TLS, HTTP. It may be null.
+  // The budget is charged with `bytes` for the transport of the session: a socket, TLS, HTTP. It may be null.
   Client(Socket connection, Loop& home, std::string who, const std::shared_ptr<MemoryBudget>& budget,
          std::size_t bytes);
   ~Client();
@@ -54,7 +54,7 @@ class Client {
   // address. Null if it is unlimited.
   const std::shared_ptr<MemoryBudget>& memory() const { return budget_; }
 
-  // A reply of so many bytes is being sent. sent() says how many have gone.
+  // A reply of this many bytes is being sent. sent() reports how many were sent.
   void begin_sending(std::size_t bytes);
   std::size_t unsent() const { return unsent_; }
   Clock::time_point sends_since() const { return sends_since_; }  // while there are unsent bytes

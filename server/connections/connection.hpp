@@ -15,11 +15,11 @@
 
 namespace racebeam {
 
-// What a client speaks below the protocol of its session.
+// The layers below the protocol of a session.
 struct Carrier {
   std::shared_ptr<boost::asio::ssl::context> tls;  // null: no TLS
   const Site* site = nullptr;                      // null: no HTTP
-  std::optional<HttpRequest> request;              // over HTTP: opens the session, if it has come already
+  std::optional<HttpRequest> request;              // over HTTP: opens the session, if already received
 };
 
 // Serves the whole session on the client's loop. `service` and the site must outlive it. Throws nothing but

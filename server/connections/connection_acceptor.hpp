@@ -29,8 +29,8 @@ class ConnectionAcceptor {
   // The addresses for clients of the line protocol; `host` stands for all addresses of this machine.
   std::vector<std::string> announced(const std::string& host) const;
   bool empty() const { return listeners_.empty(); }
-  // Accepts clients from now on; those beyond so many connections, or as many as the settings say, are
-  // refused.
+  // Accepts clients from now on, up to this many connections, or up to the limit of the settings if that is
+  // lower.
   void open(int most_connections);
   void close();  // accepts no more
 

@@ -1,6 +1,6 @@
-// Makes room when the memory of the sessions is short. First, sessions that do nothing release what they can
-// make again. If that is not enough, some are ended: clients that do not read their replies, then sessions
-// that wait and hold much, of the owners that hold most.
+// Makes room when the memory of the sessions is short. First, idle sessions release what they can recreate.
+// If that is not enough, some are ended: clients that do not read their replies, then sessions that wait and
+// hold much, of the owners that hold most.
 #pragma once
 
 #include <unordered_set>
@@ -11,7 +11,7 @@ namespace racebeam {
 
 class MemoryRelief {
  public:
-  // loops: among how many the sessions are divided; each relieves the memory of its part.
+  // loops: the number of loops among which the sessions are divided; each relieves the memory of its part.
   explicit MemoryRelief(std::size_t loops) : loops_(loops) {}
 
   // Call it a few times a second, on the thread of the loop that has the clients. Returns how many it has
@@ -23,8 +23,8 @@ class MemoryRelief {
   bool was_short_ = false;
 };
 
-// Whom to end first; null: nobody. Never those that hold less than the mean of their owner's sessions, or
-// whose owner holds less than the mean of all owners, unless they do not read.
+// The session to end first; null: none is to end. Never those that hold less than the mean of their owner's
+// sessions, or whose owner holds less than the mean of all owners, unless they do not read.
 Client* most_burdensome(const std::unordered_set<Client*>& clients, Clock::time_point now);
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-// Whose a connection is: a user of this machine, for a Unix socket, or an address.
+// The owner of a connection: a user of this machine, for a Unix socket, or an address.
 #pragma once
 
 #include <string>

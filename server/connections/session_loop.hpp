@@ -1,5 +1,5 @@
-// What comes next in a session of the line protocol, whatever its bytes come through: one loop for sockets
-// (connection.cpp), which wait in coroutines, and for streams (streams.cpp), which block.
+// The next step of a session of the line protocol, for any transport. Sockets (connection.cpp), which wait in
+// coroutines, and streams (streams.cpp), which block, share this loop.
 #pragma once
 
 #include <string_view>
@@ -10,13 +10,13 @@ namespace racebeam {
 
 class SessionLoop {
  public:
-  // What the transport does next. After all but kDone it calls work().
+  // What the transport does next. After each of these except kDone, it calls work().
   enum class Next {
     kSend,   // sends output(), then asks sent() what is next
     kRead,   // waits for input
     kYield,  // lets other sessions work: there is more to do
     kPause,  // waits for the recording, for about a millisecond
-    kDone    // closes: nothing will come any more
+    kDone    // closes: no more output will follow
   };
 
   explicit SessionLoop(LineSession& session) : session_(session) {}

@@ -17,7 +17,7 @@ struct ServerSettings {
   std::string token_file;  // tokens, one of which clients over TCP must give; empty: no tokens
   std::string tls_certificate, tls_key;
   std::string http;                          // HOST:PORT for the page, health and metrics; empty: none
-  std::vector<std::string> allowed_origins;  // pages of elsewhere that may open sessions
+  std::vector<std::string> allowed_origins;  // of other pages that may open sessions
   int threads = 1;                           // of event loops
   std::string threads_limited_by;            // what limits their number, for the log
   std::chrono::microseconds busy_poll{100};  // how long a thread polls for a quick client; 0: never

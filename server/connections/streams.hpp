@@ -1,5 +1,5 @@
 // One session over a pair of existing byte streams: standard streams or named pipes. They may be of any kind,
-// also files, so that reads and writes block, on their own thread.
+// including files. Reads and writes therefore block, on their own thread.
 #pragma once
 
 #include <atomic>

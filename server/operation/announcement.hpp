@@ -1,4 +1,4 @@
-// The texts of the files that tell clients of a server.
+// The texts of the files that announce a server to clients.
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
-// Gives the memory of ended sessions back to the system. The C library keeps what lies between blocks that
-// are in use, until it is told. That takes some 0.3 ms a MiB, for which threads that allocate may have to
-// wait, so that the keeper waits until no session has ended for a while, and uses its own thread.
+// Returns the memory of ended sessions to the system. The C library keeps free memory between blocks that are
+// in use, until it is told to release it. That takes about 0.3 ms a MiB, during which threads that allocate
+// may have to wait. The keeper therefore waits until no session has ended for a while, and uses its own
+// thread.
 #pragma once
 
 #include <chrono>
@@ -21,13 +22,13 @@ class HeapKeeper {
   // Call it a few times a second. sessions: how many are open now.
   void look_at(std::int64_t sessions, Clock::time_point now = Clock::now());
 
-  std::int64_t times() const { return times_; }  // how often it has given memory back
+  std::int64_t times() const { return times_; }  // how often it has returned memory
 
  private:
   void give_back();
   void finish();
 
-  std::int64_t most_ = 0, last_ = 0;  // sessions, since memory was given back
+  std::int64_t most_ = 0, last_ = 0;  // sessions, since memory was returned
   Clock::time_point changed_{};
   std::int64_t times_ = 0;
   std::thread thread_;

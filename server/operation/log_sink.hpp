@@ -1,7 +1,7 @@
 // The destination of the log: standard error. It may be a pipe without a reader, or a file on a hanging disk.
-// Threads that serve never wait for it. Lines that do not fit there wait here, up to a limit; beyond it,
-// the oldest lines are dropped and counted. The system cannot tell whether a file has room, so a file has a
-// thread that writes it.
+// Threads that serve never wait for it. Lines that cannot be written yet are queued, up to a limit; beyond
+// it, the oldest lines are dropped and counted. The system cannot tell whether a file has room, so a file has
+// a thread that writes it.
 #pragma once
 
 #include <spdlog/sinks/base_sink.h>

@@ -1,6 +1,6 @@
-// Publishes what clients must know of a server, in a file that appears as a whole. Its first bytes identify
-// it; a file without them is never changed. The server holds a lock on its file during its lifetime.
-// So the file of a server that died can be told from that of a live one.
+// Publishes the addresses of a server in a file that appears as a whole. Its first bytes identify it; a file
+// without them is never changed. The server holds a lock on its file during its lifetime, which distinguishes
+// the file of a live server from that of a dead one.
 #pragma once
 
 #include <string>

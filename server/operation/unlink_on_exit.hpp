@@ -1,4 +1,4 @@
-// A file that this server has made. It is removed at the end, unless it has been replaced under the same
+// A file that this server has created. It is removed at the end, unless it has been replaced under the same
 // name.
 #pragma once
 

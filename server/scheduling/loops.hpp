@@ -1,6 +1,5 @@
-// A pool of threads, each with its own event loop. A session stays on one of them, so that no lock is
-// taken and no thread is woken between two of its lines. One loop for all threads cost four futex calls a
-// line.
+// A pool of threads, each with its own event loop. A session stays on one of them, so no lock is taken and no
+// thread is woken between two of its lines. One loop for all threads cost four futex calls a line.
 #pragma once
 
 #include <atomic>
@@ -8,7 +7,7 @@
 #include <list>
 #include <thread>
 #include <unordered_set>
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // Asio 1.74 needs it
 #include <vector>
 
 #include <boost/asio/io_context.hpp>

@@ -1,5 +1,5 @@
-// Coroutines of the server. Asio's own, awaitable<>, do not survive an operation that cannot begin because
-// memory or files are out: they run on without an owner. A Task gets that as an exception.
+// Coroutines of the server. Asio's own, awaitable<>, do not survive an operation that cannot start for lack
+// of memory or file descriptors: they run on without an owner. A Task receives that as an exception.
 //
 // A Task begins when it is awaited, or by spawn(). It owns its frame, and the frame owns what it awaits.
 #pragma once
@@ -22,10 +22,10 @@ namespace racebeam {
 template <typename T = void>
 class Task;
 
-// Told of an exception that ends a spawned task; logs it.
+// Logs an exception that ends a spawned task.
 void report_failure(const std::exception_ptr& failure) noexcept;
 
-// What the frames of all tasks have.
+// The common part of the frames of all tasks.
 class TaskFrame {
  public:
   std::suspend_always initial_suspend() const noexcept { return {}; }
@@ -199,7 +199,7 @@ class OperationOf final : public Operation {
   std::optional<std::tuple<Results...>> results_;
 };
 
-// What is left of the results of an operation after its error, which is thrown.
+// The results of an operation without its error, which is thrown.
 template <typename... Values>
 struct ResultsOf {
   using Type = std::tuple_element_t<0, std::tuple<Values..., void>>;

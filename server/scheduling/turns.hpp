@@ -1,9 +1,9 @@
 // Schedules the sessions of an event loop by start-time fair queueing (Goyal, Vin and Cheng, 1996).
 //
 // The usage of a session is the time for which it has worked. While sessions wait, the one with the least
-// usage is next, so that each gets an equal share of the loop. A session that comes back after a pause is
-// treated as if it had worked until now, less a credit. A short request therefore comes before the next slice
-// of a long one.
+// usage is next, so each gets an equal share of the loop. A session that comes back after a pause is treated
+// as if it had worked until now, less a credit. A short request therefore comes before the next slice of a
+// long one.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// A connection, plain or over TLS, as one type. What is built on it is compiled once: Asio would generate its
-// code anew for each kind of stream, of handler and of buffers.
+// A connection, plain or over TLS, as one type. Code that uses it is compiled once; Asio would instantiate it
+// for each type of stream, handler and buffers.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The files of viewer/dist as embed_page.cmake writes them into a source.
+// The files of viewer/dist, as embed_page.cmake writes them into a source file.
 #pragma once
 
 #include <span>

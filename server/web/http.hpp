@@ -1,4 +1,4 @@
-// The site of a server on its own port (--http).
+// The web site of a server, on its own port (--http).
 #pragma once
 
 #include <chrono>

@@ -16,7 +16,7 @@ class NativeFiber {
   // Gives it a body, for the next enter(). The body throws nothing.
   void set_body(void (*body)(void*), void* data);
 
-  void enter();  // on any thread: goes on with the body until it calls leave() or has returned
+  void enter();  // on any thread: runs the body until it calls leave() or returns
   void leave();  // called by the body
 
  private:

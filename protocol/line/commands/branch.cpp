@@ -15,7 +15,7 @@ namespace {
 class Loan {
  public:
   explicit Loan(Context& context) : context_(context), undisturbed_(context.game.loaded->slot().save(true)) {
-    context.game.loaded->machine().watch({});  // no recording of what did not happen, and no log
+    context.game.loaded->machine().watch({});  // branches are neither recorded nor logged
     context.game.loaded->slot().set_watcher(nullptr);
   }
   ~Loan() {
@@ -31,7 +31,7 @@ class Loan {
   const Slot::Saved undisturbed_;  // with generator and stack
 };
 
-// What is kept of the end of a branch.
+// The state that `keep` saves at the end of a branch.
 Slot::Saved leaf(const Slot::Saved& root, const Branching& branching,
                  std::shared_ptr<const Environment::Saved> machine) {
   const BranchEnd& end = branching.end();

@@ -1,4 +1,4 @@
-// `branch`: from one state, several lists of actions; what planners do all day.
+// `branch` plays several lists of actions from one state. Planners call it most.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace racebeam {
 class Context;
 class Reply;
 
-// Up to half a million lists of actions, one after the other in one piece of memory.
+// Up to half a million lists of actions, stored contiguously.
 struct ActionLists {
   std::vector<Action> actions;
   std::vector<std::size_t> ends;  // per list, in `actions`
@@ -28,10 +28,10 @@ struct ActionLists {
 struct BranchRequest {
   Slot::Saved root;
   ActionLists lists;
-  std::string keep;  // the ends are saved as this name with 0, 1, 2 ... behind it; empty: they are not
+  std::string keep;  // the ends are saved under this name, followed by 0, 1, 2 ...; empty: not saved
 };
 
-// Writes the reply. The session's machine is where it was afterwards, whatever is thrown.
+// Writes the reply. Afterwards, the session's machine is in its old state, even after an exception.
 void play_branches(Context& context, const BranchRequest& request, Reply& reply);
 
 }  // namespace racebeam

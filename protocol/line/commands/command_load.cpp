@@ -126,7 +126,7 @@ Cartridge find_cartridge(Context& context, std::string_view name, const LoadWord
   return cartridge;
 }
 
-// Says why another mode than the wished one was set up: a machine begins in the default mode.
+// Explains why the machine is not in the requested mode: it begins in the default mode.
 std::string with_wished_mode(std::string sentence, const PlaySettings& settings, const Cartridge& cartridge) {
   if (!settings.mode || !cartridge.game) return sentence;
   const std::string first = std::to_string(cartridge.game->default_mode);

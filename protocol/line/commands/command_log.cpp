@@ -109,7 +109,7 @@ LogWords read_log_words(const Context& context, Words arguments) {
 
 [[noreturn]] void refuse_log(const std::string& sentence) { throw RequestError(ErrorCode::kNoLog, sentence); }
 
-// Refuses what nobody could play again.
+// Refuses a game whose logs nobody could replay.
 void check_game(const Context& context, const Slot& slot) {
   const Environment& machine = slot.environment();
   const std::string& name = machine.game().name;

@@ -15,7 +15,7 @@ void check_sound(const Context& context, const std::vector<Field>& fields) {
     throw RequestError(ErrorCode::kBadArguments, "audio needs a game that was loaded with sound=1");
 }
 
-// A single look has no past.
+// `look` has no earlier reply, so it accepts neither stacks nor delta.
 void check_look(const std::vector<Field>& fields) {
   for (const Field& field : fields) {
     if (field.encoding == Encoding::kDelta)

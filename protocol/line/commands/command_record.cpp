@@ -67,7 +67,7 @@ Subject subject_of(Context& context, std::optional<std::string_view> text) {
   return {context.machines.slot(number), context.machines.pacer(number)};
 }
 
-// To the server. What is written slowly may outlive the session by far.
+// Charges the server, because a slow write may outlive the session by far.
 std::shared_ptr<const void> charge(const LineService& service, std::size_t bytes) {
   const auto share = std::make_shared<MemoryShare>(service.memory);
   share->check(bytes, "a recording");

@@ -79,7 +79,7 @@ void add_scores(Reply& reply, const Snapshot& snapshot) {
   reply.add("episode", snapshot.episode);
 }
 
-// 0 if the session has not published for a while: it waits for its client.
+// Returns 0 if the session has not published for a while, because it waits for its client.
 std::int64_t frames_a_second(const Snapshot& snapshot) {
   constexpr std::chrono::seconds kPause{2};
   const bool pauses = Snapshot::Clock::now() - snapshot.when > kPause;
