@@ -1,4 +1,4 @@
-// What an act of the environment and a step of a slot have in common.
+// The common parts of an act of the environment and a step of a slot.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ inline std::int32_t clamped(std::int64_t reward, const Settings& settings) {
       std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max));
 }
 
-// How many of so many frames are drawn: the last ones.
+// How many of these frames are drawn: the last ones.
 constexpr int frames_drawn(Drawing drawing, int frames) {
   switch (drawing) {
     case Drawing::kNone: return 0;

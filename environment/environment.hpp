@@ -1,5 +1,5 @@
-// An agent's view of one game: actions in; rewards, screens, RAM and the end of the episode out.
-// Everything here follows ALE 0.12 (docs/spec/environment.md), where not said otherwise.
+// An agent's view of one game: actions in; rewards, screens, RAM and the end of the episode out. Everything
+// here follows ALE 0.12 (docs/spec/environment.md), unless stated otherwise.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ struct Act {
 class Environment {
  public:
   // Powers a console on with `image` and resets `game`. Throws InvalidInput if a setting or the image cannot
-  // be used. `pace` is told of every frame; it may be null, and must outlive the environment.
+  // be used. `pace` is notified of every frame; it may be null, and must outlive the environment.
   Environment(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings,
               Pace* pace = nullptr);
   ~Environment();
@@ -48,7 +48,7 @@ class Environment {
   // One agent step of `frame_skip` frames. a: 0-25, b: 18-35, or numbers of the controllers' own
   // (docs/spec/environment.md, 1). Returns the clamped sum of rewards.
   int act(int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
-  bool takes(const Act& act) const;  // whether the actions are numbers of this machine's
+  bool takes(const Act& act) const;  // whether this machine has the actions
   int act(const Act& act) { return this->act(act.a, act.b, act.strength_a, act.strength_b); }
   // The clamped rewards of both players for the last act; `a` is what act() returned. `b` is 0 if the game's
   // rule has no second player.
@@ -71,15 +71,15 @@ class Environment {
   // number at each step. Otherwise as act().
   int act_for(int frames, int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
 
-  // Says which screens the caller will read. It changes only the speed: a screen that was not drawn is drawn
+  // Sets which screens the caller will read. It affects only the speed: a screen that was not drawn is drawn
   // when it is read, which costs more. The default is kLast; it is kLastTwo with colour averaging, and kEvery
   // while watch() has a function. kLastTwo suits a caller that reads previous_screen() too, and kNone a
   // caller that reads only rewards and RAM.
   void set_drawing(Drawing drawing);
   Drawing drawing() const;
 
-  // With Settings::sound: makes samples in each frame of an act from now on, for all_audio(). audio() has
-  // those of the last frame then. The default makes them once for each act, as the reference does.
+  // With Settings::sound: generates samples in each frame of an act from now on, for all_audio(). audio() has
+  // those of the last frame then. The default generates them once for each act, as the reference does.
   void make_all_audio(bool all);
   void begin_audio();  // empties all_audio()
 
@@ -116,7 +116,7 @@ class Environment {
   std::span<const std::uint8_t, kAudioSize> audio() const;  // of the last act; zeros without Settings::sound
   // 512 samples for each frame since begin_audio(), with make_all_audio(); empty after a reset or a restore.
   std::span<const std::uint8_t> all_audio() const;
-  const Sound& sound() const;                                // the two channels that make it
+  const Sound& sound() const;                                // its two channels
   void set_ram(int index, std::uint8_t value);               // index 0-127, else std::out_of_range
   void tia_values(std::vector<std::uint8_t>& values) const;  // emulator/tia/registers/register_values.hpp
   void screen_rgb(std::vector<std::uint8_t>& rgb) const;     // height x 160 x 3
@@ -135,7 +135,7 @@ class Environment {
   class Saved;
   std::shared_ptr<const Saved> save(bool with_random = false) const;
 
-  // Saves the state in about 4 KB, for those that look at no pictures: planners, and the classic server's
+  // Saves the state in about 4 KB, for callers that do not read pictures: planners, and the classic server's
   // SAVE_STATE. restore() leaves the pictures as they are; whole frames that are drawn after it are exactly
   // the same.
   std::shared_ptr<const Saved> save_without_pictures() const;
@@ -144,7 +144,7 @@ class Environment {
   std::shared_ptr<const FrameBuffer> with_pixels(const std::shared_ptr<FrameBuffer>& picture) const;
   void restore(const Saved& saved);
 
-  // For planners, which reach the same state in different ways. Two environments with the same image, game
+  // For planners, which reach the same state by different paths. Two environments with the same image, game
   // and settings that are in the same state show the same after the same actions, up to an episode's limit of
   // frames. A state is the machine with the cartridge's RAM, paddles, mode, difficulty, held actions and the
   // rule's variables. Pictures, sound, frame counters and the last rewards are left out, and also generators:

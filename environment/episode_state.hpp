@@ -1,5 +1,5 @@
-// What lives on from act to act beside the machine and the state of the rule. One trivially copyable value,
-// so that saving it is a copy and nothing can be left out.
+// The data that persists from act to act beside the machine and the state of the rule. One trivially copyable
+// value, so that saving it is a copy and nothing can be left out.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct EpisodeState {
   std::int32_t mode = 0;  // takes effect at the next reset
   ConsoleSwitches switches;
   std::array<std::int32_t, 2> rewards{};  // of the last act: A's and B's
-  std::uint32_t ram_is_stale = 0;  // RAM is answered from the next member: Environment::restore_classic()
+  std::uint32_t ram_is_stale = 0;         // ram() returns the next member: Environment::restore_classic()
   std::array<std::uint8_t, 128> stale_ram{};
 };
 

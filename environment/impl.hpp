@@ -1,4 +1,4 @@
-// The inside of an Environment. Its parts are in act.cpp, reset.cpp and save.cpp.
+// The implementation of Environment. Its parts are in act.cpp, reset.cpp and save.cpp.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ struct Environment::Impl {
   std::vector<std::uint8_t> all_audio;  // since begin_audio()
   std::optional<BootFacts> boot_facts;  // of the image; studied at the first reset
   RawRewards raw_rewards;
-  bool drew_at_reset = false;        // the generator took part in the last one
+  bool drew_at_reset = false;        // the last reset used the generator
   std::function<void()> each_frame;  // empty: no watcher
   Drawing drawing;
 
@@ -53,7 +53,7 @@ struct Environment::Impl {
   bool went_on = false;
   std::vector<std::uint8_t> open_picture;
 
-  // With colour averaging, the screen is made when it is first asked for.
+  // With colour averaging, the screen is computed when it is first read.
   const Blend* const blend;  // null: no averaging
   std::vector<std::uint8_t> blended;
   bool blend_is_due = true;

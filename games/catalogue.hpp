@@ -57,7 +57,7 @@ struct Recognition {
   bool md5_matches = true;  // false: the game's rule was written for another image; the caller should warn
 };
 
-// An explicit name or file wins; else the MD5 decides, else the image's file name. A folder as game_file is
+// An explicit name or file has priority, then the MD5, then the image's file name. A folder as game_file is
 // searched with recognise_among(). Throws InvalidInput for an unknown name (with suggestions) or an invalid
 // file.
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name = std::nullopt,
@@ -69,7 +69,7 @@ Recognition recognise_among(const Image& image, const std::vector<std::shared_pt
 // Recognises an image whose game the caller knows.
 Recognition recognise_as(const Image& image, const std::shared_ptr<const Game>& game);
 
-// The game with what the user says about the console of this image. Throws InvalidInput if the picture does
+// The game with the user's settings for the console of this image. Throws InvalidInput if the picture does
 // not fit.
 std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const Image& image,
                                        const GivenProperties& choices);
@@ -77,7 +77,8 @@ std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const I
 // Whether a game's rule was written for another image than this one.
 bool is_other_dump(const Game& game, const Image& image);
 
-// Whether the image hardly has the cartridge scheme that its size suggests, and nothing else says which one.
+// Whether the image probably lacks the cartridge scheme that its size suggests, and nothing else determines
+// it.
 bool is_doubtful(const Game& game, const Image& image);
 
 // The sentence about such an image; empty if there is nothing to say.

@@ -1,4 +1,5 @@
-// What MD5 (RFC 1321) and SHA-256 (FIPS 180-4) share: blocks of 64 bytes, and an end that has the length.
+// The common part of MD5 (RFC 1321) and SHA-256 (FIPS 180-4): blocks of 64 bytes, and padding with the
+// length.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +37,8 @@ class Digest {
     }
   }
 
-  // In lower case. The end is a set bit, then zeros until 8 bytes of a block are left for the length in bits.
+  // In lower case. The padding is a set bit, then zeros until 8 bytes of a block are left for the length in
+  // bits.
   std::string hex() const {
     Digest whole = *this;
     std::array<std::uint8_t, kBlock + kLength> end{0x80};

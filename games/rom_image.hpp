@@ -37,7 +37,7 @@ std::shared_ptr<const Image> image_in_file(std::string_view file, const std::str
 // Makes an image of bytes. `stem` is its name. Throws InvalidInput if `bytes` is empty or too long.
 std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const std::string& stem);
 
-// The files of a folder that look like images, sorted: .bin, .a26 or .rom, also with .gz after it, and
+// The files of a folder that look like images, sorted: .bin, .a26 or .rom, optionally followed by .gz, and
 // archives: .zip or .7z. Throws InvalidInput if the folder cannot be listed.
 std::vector<std::string> image_files(const std::string& folder);
 

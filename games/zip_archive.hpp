@@ -20,8 +20,8 @@ bool is_zip(std::string_view bytes);
 // All entries, folders included. Throws InvalidInput if the archive is damaged, or has parts elsewhere.
 std::vector<ZipEntry> zip_entries(std::string_view archive);
 
-// The contents of one file. Throws InvalidInput if it has more than `most` bytes, whatever the entry says, is
-// damaged or encrypted, or is packed in another way.
+// The contents of one file. Throws InvalidInput if it has more than `most` bytes, even if its entry claims
+// fewer, is damaged or encrypted, or is packed in another way.
 std::vector<std::uint8_t> unzip(std::string_view archive, const ZipEntry& entry, std::size_t most);
 
 }  // namespace racebeam

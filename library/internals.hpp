@@ -1,5 +1,5 @@
-// The public classes of include/racebeam/ from inside. Here they are v0::Environment, v0::Game and so on, and
-// racebeam::Environment is the class that they stand for.
+// The internals of the public classes of include/racebeam/. Here they are v0::Environment, v0::Game and so
+// on, and racebeam::Environment is the class that they stand for.
 #pragma once
 
 #include <memory>
@@ -45,7 +45,7 @@ struct Internals {
   static Game wrap(std::shared_ptr<const racebeam::Game> game) {
     return Game(std::make_shared<const Game::Impl>(Game::Impl{std::move(game)}));
   }
-  // is_of_slot: it has more than the machine, which is all that an Environment saves.
+  // is_of_slot: it contains more than the machine; an Environment saves only the machine.
   static Snapshot wrap(const racebeam::Cartridge& cartridge, const racebeam::Settings& settings,
                        Slot::Saved saved, bool is_of_slot) {
     return Snapshot(std::make_shared<const Snapshot::Impl>(
@@ -66,14 +66,14 @@ struct Internals {
 
 racebeam::Settings internal(const Settings& settings);
 
-// Does `work`. What the internal classes refuse becomes an Error of this cause.
+// Runs `work`. Exceptions of the internal classes become an Error with this cause.
 template <class Work>
 decltype(auto) guarded(Error::Cause cause, Work&& work) {
   try {
     return work();
   } catch (const InvalidInput& error) {
     throw Error(cause, error.what());
-  } catch (const std::system_error& error) {  // executable memory or a thread that cannot be had
+  } catch (const std::system_error& error) {  // executable memory or a thread is not available
     throw Error(cause, error.what());
   }
 }

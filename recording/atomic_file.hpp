@@ -23,7 +23,7 @@ class DiskBudget {
  public:
   using Flag = std::shared_ptr<const std::atomic<bool>>;
 
-  // `given_up` may be set by another thread: nothing needs to be written any more.
+  // Another thread may set `given_up`: nothing needs to be written any more.
   explicit DiskBudget(std::size_t bytes, Flag given_up = nullptr)
       : most_(bytes), given_up_(std::move(given_up)) {}
   void take(std::size_t bytes);  // throws BudgetSpent if less is left
@@ -39,8 +39,8 @@ class DiskBudget {
 // All throw BudgetSpent, or std::runtime_error with a sentence if the system refuses to write.
 class AtomicFile {
  public:
-  // tail: the end of the file, whatever is written. Its space is reserved at the start, so that a full disk
-  // cannot prevent the end.
+  // tail: the end of the file, which follows everything that is written. Its space is reserved at the start,
+  // so that a full disk cannot prevent the end.
   AtomicFile(std::string path, DiskBudget& budget, std::string tail = {});
   ~AtomicFile();  // without commit(), nothing remains
   AtomicFile(const AtomicFile&) = delete;
@@ -68,11 +68,11 @@ class AtomicFile {
 // Whether a file that replaces another waits for the disk.
 enum class Durable {
   kLater,  // a kill leaves the old file or the new one, a power cut perhaps neither
-  kNow     // where the new file is, so is all that was written to its disk before
+  kNow     // the new file appears only after everything that was written to its disk before
 };
 
 // Writes a whole file aside, under the name .NAME.part if no other program has a file of that name, and
-// renames it over what `path` was, or the file that `path` links to. One caller at a time. Throws
+// renames it over the file at `path`, or over the file that `path` links to. One caller at a time. Throws
 // std::runtime_error; the file is then what it was before.
 void replace_file(const std::string& path, std::string_view bytes, Durable durable);
 

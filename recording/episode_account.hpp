@@ -1,4 +1,4 @@
-// Keeps account of an episode while it is played: what its log says of the end.
+// Collects the results of an episode while it is played, for its log.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The log of one episode: what is needed to play it again, and what it led to (docs/episodes.md).
+// The log of one episode: what is needed to replay it, and its results (docs/episodes.md).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ constexpr int kDecisionsPerStretch = 256;  // after each, a log has the state's 
 enum class EpisodeOver { kTerminated, kTruncated };
 std::string_view name_of(EpisodeOver over);
 
-// What an episode led to.
+// The results of an episode.
 struct EpisodeEnd {
   std::int64_t score = 0;  // the sum of raw rewards
   std::int64_t frames = 0, decisions = 0;
@@ -27,7 +27,7 @@ struct EpisodeEnd {
   bool operator==(const EpisodeEnd&) const = default;
 };
 
-// Who played.
+// The agent that played, and the settings.
 struct EpisodeOrigin {
   std::string unit, agent;
   int trial = 1, episode = 1;
@@ -47,7 +47,7 @@ struct EpisodeLog {
   float strength(std::size_t decision) const { return strengths.empty() ? 1 : strengths[decision]; }
 };
 
-// Hashes that an episode of so many decisions has.
+// The number of hashes of an episode with this many decisions.
 std::size_t hashes_of(std::size_t decisions);
 
 // `pause` is seal()'s.
@@ -55,10 +55,10 @@ std::string bytes_of(const EpisodeLog& log, const std::function<void()>& pause =
 // `name` is for errors. Throws InvalidInput for bytes that are not a log.
 EpisodeLog log_of(const std::string& name, std::string_view bytes);
 
-// The largest file that is a log. A larger one is refused unread.
+// The largest file that is a log. A larger one is refused without being read.
 extern const std::size_t kMostLogBytes;
 
-// The words of `load` that start this episode again. `machine` runs it.
+// The words of `load` that restart this episode. `machine` runs it.
 std::string words_of(const PlaySettings& settings, const Environment& machine);
 
 // The settings of a log in the order of their names, without the seed: those that all logs of a submission

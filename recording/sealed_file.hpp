@@ -22,7 +22,7 @@ struct SealedKind {
 // than kind.most bytes.
 std::string seal(const SealedKind& kind, std::string_view contents, const std::function<void()>& pause = {});
 
-// Throws InvalidInput, naming `name`, for bytes that seal() did not make: another kind or version, a file
+// Throws InvalidInput, naming `name`, for bytes that seal() did not produce: another kind or version, a file
 // that was cut or altered, contents of more than kind.most bytes.
 std::string unseal(const SealedKind& kind, const std::string& name, std::string_view bytes);
 

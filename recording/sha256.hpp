@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4), which says that a file is the one that was meant.
+// SHA-256 (FIPS 180-4), which identifies files by their contents.
 #pragma once
 
 #include <string>

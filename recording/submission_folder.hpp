@@ -26,16 +26,16 @@ struct SubmissionOrder {
   std::string settings;  // of its logs, without the seed: settings_without_seed()
 };
 
-// The preset of evaluation that settings of a log are of (docs/experiments.md), or "other". They have every
-// word, without the seed.
+// The evaluation preset of a log's settings (docs/experiments.md), or "other". They have every word, without
+// the seed.
 std::string_view preset_of(std::string_view settings);
 
 // Several units, of several programs, may be added to a folder at the same time.
 class SubmissionFolder {
  public:
-  // Makes the folder, or continues one that has the same agent.toml and logs with the same settings. The unit
-  // must be new. Throws BudgetSpent, or std::runtime_error with a sentence. A folder that could not be made
-  // whole is then gone.
+  // Creates the folder, or continues one that has the same agent.toml and logs with the same settings. The
+  // unit must be new. Throws BudgetSpent, or std::runtime_error with a sentence. A folder that could not be
+  // completed is then removed.
   SubmissionFolder(SubmissionOrder order, DiskBudget& budget);
   ~SubmissionFolder();  // a unit without logs is removed
   SubmissionFolder(const SubmissionFolder&) = delete;

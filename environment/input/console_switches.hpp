@@ -1,4 +1,4 @@
-// The switches of the console that stay where they are: both difficulties, and colour or black and white.
+// The switches of the console that keep their position: both difficulties, and colour or black and white.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ struct ConsoleSwitches {
   static constexpr int kLeftA = 1, kRightA = 2, kDifficulty = kLeftA | kRightA, kBlackAndWhite = 4;
 
   std::int16_t difficulty = 0;  // as it was set: kLeftA, kRightA
-  std::int16_t moved = 0;       // what actions have changed of it since the episode began; kBlackAndWhite
+  std::int16_t moved = 0;  // the switches that actions have changed since the episode began; kBlackAndWhite
 
   int positions() const { return difficulty ^ moved; }
 

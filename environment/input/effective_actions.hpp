@@ -46,7 +46,7 @@ class LegalActions {
   // The controllers are player A's and player B's.
   LegalActions(const std::vector<int>& legal, Controller a, Controller b);
 
-  // Whether the machine has an action of that number. The numbers that it replaces count.
+  // Whether the machine has an action of that number. Numbers that it replaces are included.
   bool has_a(int a) const { return has(replace_a(a), kConsoleActions, more_a_); }
   bool has_b(int b) const { return has(replace_b(b) - kActions, kActions, more_b_); }
 

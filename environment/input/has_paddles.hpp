@@ -1,4 +1,4 @@
-// What is known of the console that a game is played on, and whether it has paddles in either port.
+// The properties of the console that a game is played on, and whether it has paddles in either port.
 #pragma once
 
 #include "environment/environment.hpp"

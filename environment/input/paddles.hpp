@@ -21,7 +21,7 @@ struct PaddleLimits {
   }
 
   // direction: -1 for RIGHT, 1 for LEFT, 0 for neither. The product is computed in double precision. As in
-  // ALE, what 32 bits do not hold is the lowest number, and a sum beyond them begins there anew.
+  // ALE, a product that exceeds 32 bits becomes the lowest number, and a sum that exceeds them wraps.
   std::int32_t turn(std::int32_t value, int direction, float strength) const {
     constexpr double kStep = 23000;
     constexpr std::int32_t kLowest = std::numeric_limits<std::int32_t>::min();

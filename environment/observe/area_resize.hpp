@@ -30,8 +30,8 @@ class AreaResize {
   // the height would shrink to less than a 29th.
   AreaResize(int width, int height, int to_width, int to_height, Simd form = simd());
 
-  // in: height x width bytes; out: to_height x to_width bytes. Allocates nothing.
-  // rows: one flag for each row of `out`. Rows with 0 stay as they are. Empty: all are made.
+  // in: height x width bytes; out: to_height x to_width bytes. Allocates nothing. rows: one flag for each row
+  // of `out`. Rows with 0 stay as they are. Empty: all are computed.
   void operator()(std::span<const std::uint8_t> in, std::span<std::uint8_t> out,
                   std::span<const std::uint8_t> rows = {}) const;
 

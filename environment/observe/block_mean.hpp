@@ -16,11 +16,11 @@ class BlockMean {
   // Whether the sizes are positive, and each axis shrinks by a whole number.
   static bool fits(int width, int height, int to_width, int to_height);
 
-  // Throws std::invalid_argument if that is not so, or if width is above kWidest.
+  // Throws std::invalid_argument if fits() is false, or if width is above kWidest.
   BlockMean(int width, int height, int to_width, int to_height);
 
-  // in: height x width bytes; out: to_height x to_width bytes. Allocates nothing.
-  // rows: one flag for each row of `out`. Rows with 0 stay as they are. Empty: all are made.
+  // in: height x width bytes; out: to_height x to_width bytes. Allocates nothing. rows: one flag for each row
+  // of `out`. Rows with 0 stay as they are. Empty: all are computed.
   void operator()(std::span<const std::uint8_t> in, std::span<std::uint8_t> out,
                   std::span<const std::uint8_t> rows = {}) const;
 

@@ -15,12 +15,12 @@ using BrightnessTable = GreyTable;
 
 class Brightness {
  public:
-  // `table` must outlive it. Simd::kAvx512 has a form of its own only with AVX512_VBMI (has_vbmi()); without
-  // that, it is as kAvx2.
+  // `table` must outlive it. Simd::kAvx512 has its own form only with AVX512_VBMI (has_vbmi()); without that,
+  // it is as kAvx2.
   explicit Brightness(const BrightnessTable& table, Simd form = simd());
 
   std::uint8_t of(std::uint8_t pixel) const { return (*table_)[pixel]; }
-  // Each takes 160 palette indices, and gives 160 bytes.
+  // Each reads 160 palette indices, and writes 160 bytes.
   void make_row(const std::uint8_t* pixels, std::uint8_t* to) const { make_(*this, {pixels}, to); }
   void make_brighter_row(const std::uint8_t* one, const std::uint8_t* other, std::uint8_t* to) const {
     make_brighter_(*this, {one, other}, to);

@@ -1,4 +1,4 @@
-// The portable form of Brightness, which other forms use for rows that they do not know.
+// The portable form of Brightness, which other forms use for rows that they do not handle.
 #pragma once
 
 #include <algorithm>

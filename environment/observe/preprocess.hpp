@@ -17,7 +17,7 @@ namespace racebeam {
 // Returns the tables of red, green and blue.
 const std::array<BrightnessTable, 3>& colour_tables(Format format);
 
-// For each row: 0 if it is as it should be, else 1.
+// For each row: 0 if it is up to date, else 1.
 using RowFlags = std::span<const std::uint8_t>;
 
 // Fill the rows of `plane` that `stale` names with the brightness of `screen`, or with the brighter of each
@@ -31,8 +31,8 @@ void make_brighter_plane(std::span<const std::uint8_t> screen, std::span<const s
 // interpolates. All are OpenCV's INTER_AREA.
 using ScreenResize = std::variant<BlockMean, AreaResize, Enlargement>;
 
-// Returns the tables that resize a plane of 160 x height to this size. They are made on first use, and the
-// process shares them. Thread-safe. Throws std::invalid_argument for a size that neither supports.
+// Returns the tables that resize a plane of 160 x height to this size. They are computed on first use, and
+// the process shares them. Thread-safe. Throws std::invalid_argument for a size that neither supports.
 const ScreenResize& screen_resize(int height, int to_width, int to_height);
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-// Screens as learning agents take them: resized, grey or in colour, the brighter of two frames, several in a
+// Screens as learning agents use them: resized, grey or in colour, the brighter of two frames, several in a
 // stack (docs/spec/environment.md, 15; the figures of OpenCV's INTER_AREA). Most rows show what they showed
 // at the last look. Those are found by the numbers of their lines, and neither read nor resized again.
 #pragma once
@@ -16,7 +16,7 @@ namespace racebeam {
 constexpr int kSmallSide = 84;
 
 struct StackSettings {
-  int depth = 4;                                // screens; 0: none are made
+  int depth = 4;                                // screens; 0: no stack
   int width = kSmallSide, height = kSmallSide;  // of each, at most twice the machine's; 0: the machine's
   bool rgb = false;  // red, green and blue of each pixel, in this order, instead of one grey
   int rows = 0;      // how many of the machine's are seen, from the top; 0: all
@@ -25,13 +25,13 @@ struct StackSettings {
   bool operator==(const StackSettings&) const = default;
 };
 
-// The last `depth` screens of an environment; those that are not there yet are zero.
+// The last `depth` screens of an environment; missing ones are zero.
 class ScreenStack {
  public:
-  // What is kept of each row beside its pixels: the numbers of its lines, and three flags.
+  // The data of each row beside its pixels: the numbers of its lines, and three flags.
   static constexpr std::size_t kBytesOfRow = 2 * sizeof(std::uint64_t) + 3;
 
-  // For the screens of `environment`. Throws InvalidInput for a size that can't be made of them.
+  // For the screens of `environment`. Throws InvalidInput for a size that they cannot be resized to.
   ScreenStack(const StackSettings& settings, const Environment& environment);
 
   // Without 0 for the screen's own size, and with 0 rows where all are seen.
@@ -42,7 +42,7 @@ class ScreenStack {
 
   void clear();  // all are zero
 
-  // Sees what `environment` shows. pooled: of each pixel, the brighter of its last two frames.
+  // Reads the screen of `environment`. pooled: each pixel is the brighter of its last two frames.
   void look(const Environment& environment, bool pooled);
   // Each pixel becomes the brighter of what was seen and the environment's frame before the last.
   void look_at_previous(const Environment& environment);
@@ -83,7 +83,7 @@ class ScreenStack {
   std::size_t plane_size_, screen_size_;
   std::vector<std::uint8_t> seen_;      // planes, one after the other
   std::vector<Source> sources_;         // per row of the planes
-  std::vector<std::uint8_t> stale_;     // rows of the planes that this look must make
+  std::vector<std::uint8_t> stale_;     // rows of the planes that this look must compute
   std::vector<std::uint8_t> changed_;   // rows of the planes that the newest screen does not show
   std::vector<std::uint8_t> due_rows_;  // rows of the next screen that differ from the newest
   std::vector<std::uint8_t> reduced_;   // one plane, where there are several

@@ -24,7 +24,7 @@ namespace racebeam {
 struct Game;
 struct Image;
 
-// Everything that decides the result of a reset.
+// Everything that determines the result of a reset.
 struct ResetStart {
   std::shared_ptr<const Image> image;  // compared by address
   std::shared_ptr<const Game> game;

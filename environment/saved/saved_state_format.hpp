@@ -3,8 +3,8 @@
 //
 // The trivially copyable values are written as their memory, not field by field: integers of fixed width and
 // single floats, little-endian, without padding. Their memory is therefore portable, and no list of fields
-// can become outdated. A change of one of these types must raise kSnapshotVersion; their sizes are checked as
-// well.
+// can become outdated. A change to one of these types must increment kSnapshotVersion; their sizes are
+// checked as well.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ constexpr std::uint32_t kSnapshotVersion = 2;
 std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved, const Environment& environment);
 
 // Throws InvalidInput if `bytes` are not a state, were truncated or altered, or come from another version of
-// racebeam. The same if they belong to another image or game than `environment`, or contain a value that the
-// machine cannot have. A returned state can be restored and run, whatever its source.
+// racebeam. It also throws if they belong to another image or game than `environment`, or contain a value
+// that the machine cannot have. A returned state can be restored and run, whatever its source.
 std::shared_ptr<const Environment::Saved> from_bytes(std::span<const std::uint8_t> bytes,
                                                      const Environment& environment);
 

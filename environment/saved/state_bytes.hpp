@@ -22,7 +22,7 @@ void append(std::vector<std::uint8_t>& bytes, const T& value) {
   bytes.insert(bytes.end(), first, first + sizeof value);
 }
 
-// `bytes` has at least so many, and begins after the value then.
+// `bytes` must have enough bytes, and begins after the value afterwards.
 template <class T>
 T take(std::span<const std::uint8_t>& bytes) {
   static_assert(std::is_trivially_copyable_v<T>);

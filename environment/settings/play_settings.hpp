@@ -43,13 +43,13 @@ std::span<const SettingRow> setting_rows();
 
 struct PresetRow {
   std::string_view name;
-  std::string_view words;  // what a client could have written instead
+  std::string_view words;  // the settings that a client could have written instead
   std::string_view source;
 };
 std::span<const PresetRow> preset_rows();
 
-// The words key=value of a request; a preset comes first, wherever it stands. Throws InvalidArguments, which
-// lists `other_keys` with the settings: those that the request may have beside them.
+// Reads the words key=value of a request; a preset is applied first, wherever it is. Throws InvalidArguments,
+// which lists `other_keys` with the settings: those that the request may have beside them.
 void read_settings(Words words, PlaySettings& settings, Words other_keys = {});
 
 // " key=value" for every setting, as it is in effect.
@@ -60,7 +60,7 @@ std::string_view name_of(Autoreset autoreset);
 Autoreset autoreset_of(std::string_view name);  // throws InvalidInput
 LifeLoss life_loss_of(std::string_view name);   // throws InvalidInput
 void set_life_loss(PlaySettings& settings, LifeLoss life_loss);
-bool truncates_on_life_loss(const PlaySettings& settings);  // as the old setting life_loss_ends asks
+bool truncates_on_life_loss(const PlaySettings& settings);  // as the old setting life_loss_ends requests
 std::uint32_t parse_seed(std::string_view text);            // throws InvalidInput
 
 }  // namespace racebeam

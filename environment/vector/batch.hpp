@@ -1,6 +1,6 @@
 // A vector environment for programs in the same process: it runs on threads and writes its results into
-// arrays. With the default settings it gives what ale_py.vector_env.AtariVectorEnv of ALE 0.12 gives, byte
-// for byte (docs/spec/environment.md, 15); tests/environment/vector/test_batch.py checks that.
+// arrays. With the default settings, its results are those of ale_py.vector_env.AtariVectorEnv of ALE 0.12,
+// byte for byte (docs/spec/environment.md, 15); tests/environment/vector/test_batch.py checks that.
 #pragma once
 
 #include <chrono>
@@ -35,8 +35,8 @@ void check_memory(std::size_t machines);
 
 class Batch {
  public:
-  // Makes a machine for each cartridge, powers it on and resets it. Throws InvalidInput if the settings or an
-  // image cannot be used, or a thread cannot be started. `watch` may be null: see set_watch().
+  // Creates a machine for each cartridge, powers it on and resets it. Throws InvalidInput if the settings or
+  // an image cannot be used, or a thread cannot be started. `watch` may be null: see set_watch().
   Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings, Watch watch = nullptr);
   ~Batch();
   Batch(Batch&&) noexcept;
@@ -56,16 +56,17 @@ class Batch {
   // receive().
   Slot& slot(std::size_t machine);
 
-  // What is called every 50 ms in step(), reset() and receive(), and may end them by throwing; null: nothing.
-  // A step or reset then begins no more machines, and throws when those that have begun are done. Each
-  // machine has made its step or reset, or is as it was; `out` is undefined. A receive() has received
-  // nothing.
+  // Sets a function that is called every 50 ms in step(), reset() and receive(), and may end them by
+  // throwing; null: none. A step or reset then starts no more machines, and throws when those in progress are
+  // done. Each machine has completed its step or reset, or is unchanged; `out` is undefined. A receive() has
+  // received nothing.
   void set_watch(Watch watch);
 
   // Steps every machine once; `out` has room for all. Throws InvalidInput, and does nothing, unless there is
   // one act for each machine and every index is one of the machine's. A step allocates nothing, with three
-  // exceptions that cease: the first reset from each value of the timer, the first use of a buffer, and
-  // records of lines where objects begin to flicker (emulator/tia/line_cache/flicker_detector.hpp).
+  // exceptions that cease after a while: the first reset from each value of the timer, the first use of a
+  // buffer, and records of lines where objects begin to flicker
+  // (emulator/tia/line_cache/flicker_detector.hpp).
   void step(std::span<const Act> acts, const BatchArrays& out);
   void step(std::span<const int> actions, const BatchArrays& out);  // indices into actions()
 
@@ -85,8 +86,8 @@ class Batch {
   // begins a step of each machine in `machines`; none of them may be playing. send_resets() begins a reset of
   // every machine. receive() waits for the `count` machines that finish first, and writes their results. If
   // batch_size() is size(), they follow each other as they were sent. All throw InvalidInput, and do nothing,
-  // if that is impossible. receive() also throws if some of its machines have failed: what the last failure
-  // was. Those have been received then; the results of the others are still to be received.
+  // if that is impossible. receive() also throws if some of its machines have failed: the last failure. Those
+  // have been received then; the results of the others are still to be received.
   void send(std::span<const Act> acts, std::span<const std::int32_t> machines);
   void send(std::span<const int> actions, std::span<const std::int32_t> machines);
   void send_resets(std::span<const std::int64_t> seeds = {});

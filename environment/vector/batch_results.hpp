@@ -36,7 +36,7 @@ struct BatchArrays {
 // Bytes of sound of a machine.
 std::size_t audio_size(const SlotSettings& settings);
 
-// Owns memory for all arrays but those of the sound.
+// Owns memory for all arrays except those of the sound.
 struct BatchResults {
   std::vector<std::uint8_t> observations, final_observations, final_ram;
   std::vector<std::int32_t> final_lives, final_frames, final_episode_frames;
@@ -48,7 +48,7 @@ struct BatchResults {
   BatchArrays arrays();
 };
 
-// How results lie in the arrays. `position` is the place in each array.
+// The layout of results in the arrays. `position` is the place in each array.
 class ResultLayout {
  public:
   ResultLayout(const StackSettings& stack, bool screens, bool finals)

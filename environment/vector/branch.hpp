@@ -21,7 +21,7 @@ struct BranchEnd {
 // Plays branches on an environment, act by act. The caller must not use the environment meanwhile.
 class Branching {
  public:
-  // Saves the state of `environment`, its generator included. A lost life has this effect on a branch.
+  // Saves the state of `environment`, including its generator. A lost life has this effect on a branch.
   explicit Branching(Environment& environment, LifeLoss life_loss = LifeLoss::kIgnored);
   ~Branching();  // restores it
   Branching(const Branching&) = delete;
@@ -32,7 +32,7 @@ class Branching {
   void enter(const Environment::Saved& root);
 
   bool over() const { return environment_.game_over() || life_ended_; }
-  bool life_ended() const { return life_ended_; }  // by LifeLoss::kEnds: the game goes on
+  bool life_ended() const { return life_ended_; }  // by LifeLoss::kEnds: the game continues
 
   // Plays one act and returns player A's reward. Throws what Environment::act() throws.
   int act(const Act& act);

@@ -1,5 +1,5 @@
-// The failure of tasks that run on several threads. One is kept, however many there are: when memory runs
-// out, thousands of exceptions at once would exhaust the reserve from which the library makes them.
+// The failure of tasks that run on several threads. Only one is kept: when memory runs out, thousands of
+// exceptions at once would exhaust the reserve from which the library allocates them.
 #pragma once
 
 #include <atomic>

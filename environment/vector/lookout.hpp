@@ -1,4 +1,4 @@
-// A request may take long, and its caller may want to end it. The caller's thread therefore looks for that
+// A request may take long, and its caller may want to end it. The caller's thread therefore checks for that
 // between two machines.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace racebeam {
 // the request.
 using Watch = void (*)();
 
-// Looks out for the end of one request. `watch` may be null.
+// Checks for the end of one request. `watch` may be null.
 class Lookout {
  public:
   static constexpr std::chrono::milliseconds kInterval{50};
@@ -28,8 +28,8 @@ class Lookout {
     next_ = after_interval();
   }
 
-  // Looks for a task that runs on any thread and must not throw. False: the request has ended, and the
-  // task does nothing.
+  // Checks on behalf of a task that runs on any thread and must not throw. False: the request has ended, and
+  // the task does nothing.
   bool goes_on() {
     if (std::this_thread::get_id() == caller_ && !ended_) {
       try {

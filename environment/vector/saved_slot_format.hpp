@@ -1,6 +1,6 @@
-// A slot's saved state as bytes that another process can restore: how far its episode is, its stack of
+// A slot's saved state as bytes that another process can restore: the progress of its episode, its stack of
 // screens, the generator of no-ops, and the machine's state (environment/saved/saved_state_format.hpp).
-// docs/states.md has the layout. A change of it must raise kSavedSlotVersion.
+// docs/states.md has the layout. A change to it must increment kSavedSlotVersion.
 #pragma once
 
 #include <cstdint>

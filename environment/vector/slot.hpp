@@ -16,7 +16,7 @@
 
 namespace racebeam {
 
-// What a step is.
+// The unit of a step.
 enum class Steps {
   kFrames,  // several acts of one frame each; lives and the end of the game are checked after each
   kActs     // one act of the environment, which has its own number of frames and its own limits
@@ -83,7 +83,7 @@ struct Outcome {
   bool over = false;       // nothing was run, because the episode had ended before
 };
 
-// Is told what a slot plays. For logs of episodes, which begin at power-on.
+// Observes what a slot plays. For logs of episodes, which begin at power-on.
 class SlotWatcher {
  public:
   virtual ~SlotWatcher() = default;
@@ -126,7 +126,7 @@ class Slot {
   // The frames of the longest reset so far, as the pace counts; 0 without a pace.
   std::int64_t reset_frames() const { return reset_frames_; }
 
-  // With Steps::kActs. Null: none; the watcher outlives the slot, or is taken away before.
+  // With Steps::kActs. Null: none; the watcher must outlive the slot, or be removed before.
   void set_watcher(SlotWatcher* watcher) { watcher_ = watcher; }
 
   // Which screens the caller will read beside the stack. Affects only the speed.
@@ -140,7 +140,7 @@ class Slot {
   bool blends() const { return progress_.blends; }
 
  private:
-  // What the environment does not know of the episode.
+  // The facts about the episode that the environment does not keep.
   struct Progress {
     std::int64_t score = 0;  // sum of player A's rewards in this game, before clamping
     int elapsed = 0;         // frames of play in this game

@@ -44,10 +44,10 @@ class ThreadPool {
 
   unsigned threads() const { return count_; }
 
-  // Runs task(0) ... task(count - 1) and returns when all are done. Thread-safe. Every thread begins with a
-  // share of its own, the same for the same count, so that a task's data stays in one processor's cache; a
-  // thread that has finished helps the others. At most threads() work at a time, callers included: with more
-  // threads than processors, a caller would wait for helpers that wait for a processor.
+  // Runs task(0) ... task(count - 1) and returns when all are done. Thread-safe. Every thread begins with its
+  // own share, the same for the same count, so that a task's data stays in one processor's cache; a thread
+  // that has finished helps the others. At most threads() work at a time, callers included: with more threads
+  // than processors, a caller would wait for helpers that wait for a processor.
   void run(std::size_t count, const Task& task);
 
   // Tasks that are begun in the order of push(). The pool must outlive its queues.

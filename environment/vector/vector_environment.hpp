@@ -42,9 +42,9 @@ class VectorHost {
 
 class VectorEnvironment {
  public:
-  // Makes a machine for each cartridge, powers it on and resets it. settings.machine.random_seed is the seed
-  // of machine 0; machine n has n more. `host` must outlive the environment. Throws what Slot throws, for the
-  // first machine that fails, and what host.run_all() throws.
+  // Creates a machine for each cartridge, powers it on and resets it. settings.machine.random_seed is the
+  // seed of machine 0; machine n has n more. `host` must outlive the environment. Throws what Slot throws,
+  // for the first machine that fails, and what host.run_all() throws.
   VectorEnvironment(std::span<const Cartridge> cartridges, const SlotSettings& settings, Autoreset autoreset,
                     VectorHost& host);
 
@@ -53,9 +53,9 @@ class VectorEnvironment {
   Slot& slot(std::size_t number) { return *slots_[number]; }
   const Slot& slot(std::size_t number) const { return *slots_[number]; }
 
-  // Steps every machine: acts[n] is of machine n. A machine whose episode is over does what Autoreset says.
-  // Throws the failure of the first machine that has one; those after it may have done nothing. Throws what
-  // host.run_all() throws. Each machine has then made its step, or is as it was.
+  // Steps every machine: acts[n] is of machine n. A machine whose episode is over is handled according to
+  // Autoreset. Throws the failure of the first machine that has one; those after it may have done nothing.
+  // Throws what host.run_all() throws. Each machine has then made its step, or is as it was.
   void step(std::span<const Act> acts);
 
   // Begins new episodes of the machines whose byte in `mask` is not 0; of all if `mask` is empty. The

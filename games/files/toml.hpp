@@ -1,7 +1,7 @@
-// Includes toml++ without two faults of its versions 3.3 and 3.4. Some of its assertions do not hold for
-// texts that it refuses right after them, such as "[[.". They would end a build that has assertions, and
-// otherwise let the compiler assume what is false. Its tables of letters also treat some letters beyond ASCII
-// as impossible that a text may have. Here they are neither blanks nor digits, nor anything else.
+// Includes toml++ without two bugs of its versions 3.3 and 3.4. Some of its assertions do not hold for texts
+// that it refuses right after them, such as "[[.". They would abort a build with assertions, and otherwise
+// let the compiler assume what is false. Its character tables also treat some letters beyond ASCII as
+// impossible that a text may have. Here they are neither blanks nor digits, nor anything else.
 #pragma once
 
 #include <cstdint>  // the tables need it

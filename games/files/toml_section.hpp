@@ -1,4 +1,4 @@
-// Reads one table of a game file, with errors that say what to change: "FILE:LINE: FIELD: sentence".
+// Reads one table of a game file. Errors name the place and the remedy: "FILE:LINE: FIELD: sentence".
 #pragma once
 
 #include <functional>

@@ -24,7 +24,7 @@ constexpr int kWithC = 64, kWithTrigger = 96, kWithBooster = 128, kWithBoth = 16
 constexpr int kButtonActions = 32;   // between two of these
 constexpr int kActionNumbers = 192;  // all numbers are below
 
-constexpr int kReferenceReset = 40;  // the reference's number of RESET; its act() takes that for NOOP
+constexpr int kReferenceReset = 40;  // the reference's number of RESET; its act() treats that as NOOP
 
 constexpr bool is_of_console(int action) { return action >= kResetAction && action <= kBlackAndWhiteAction; }
 

@@ -25,7 +25,7 @@ enum class RuleSource { kAle012, kRacebeam };
 // A known error of the reference's rule, and its correction by --rules fixed ([fixed] in a game file).
 struct Correction {
   std::optional<int> wraps;                     // rewards are counted across the score's wrap at this number
-  std::string reference, correction, evidence;  // for the documents; empty if `wraps` says it all
+  std::string reference, correction, evidence;  // for the documents; empty if `wraps` suffices
 };
 
 struct Game {

@@ -1,4 +1,4 @@
-// What a user says about a cartridge's console, instead of what is known of the image.
+// The user's settings for a cartridge's console, which override what is known about the image.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Compiled expressions: straight-line code in which instruction n gives value n. Without loops, it always
-// ends. Executing it allocates nothing.
+// Compiled expressions: straight-line code in which instruction n produces value n. Without loops, it always
+// terminates. Executing it allocates nothing.
 #pragma once
 
 #include <array>
@@ -49,7 +49,7 @@ enum class Op : std::uint8_t {
   kSelect,  // a ? b : c
 };
 
-using Register = std::uint16_t;  // the number of the instruction that gives the value
+using Register = std::uint16_t;  // the number of the instruction that produces the value
 
 struct Instruction {
   Op op = Op::kConstant;

@@ -16,13 +16,13 @@ struct Game;
 
 constexpr int kRewardSlot = 0, kTerminalSlot = 1;  // the variables that every rule has
 
-// All that a rule remembers from frame to frame. Trivially copyable, so that saving it is a copy.
+// The state that a rule keeps from frame to frame. Trivially copyable, so that saving it is a copy.
 struct RuleState {
   std::array<std::int32_t, kMaxVariables> values{};
   bool operator==(const RuleState&) const = default;
 };
 
-// A variable that a rule remembers.
+// A variable that a rule keeps.
 struct Variable {
   std::string name;
   std::int32_t initial = 0;  // after a reset
