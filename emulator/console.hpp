@@ -22,12 +22,10 @@ namespace racebeam {
 class Console {
  public:
   // Builds the console around an image, as docs/spec/console.md, 1 says: power-on RAM, format detection,
-  // system reset. Throws InvalidInput if no cartridge scheme fits the image.
-  // power_on: must outlive the console.
-  // cpu: executes the instructions. For kTranslator, throws std::system_error where code cannot be
-  // translated.
-  // pace: is told of every step, those of format detection included, and must outlive the console. Null:
-  // none.
+  // system reset. Throws InvalidInput if no cartridge scheme fits the image. power_on: must outlive the
+  // console. cpu: executes the instructions. For kTranslator, throws std::system_error where code cannot be
+  // translated. pace: is notified of every step, including those of format detection, and must outlive the
+  // console. Null: none.
   Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties,
           PowerOn& power_on, CpuKind cpu = CpuKind::kAuto, Pace* pace = nullptr);
   ~Console();
@@ -36,7 +34,7 @@ class Console {
 
   // Runs until a frame closes (docs/spec/tia.md, 2). draw: the caller will read the picture. If false,
   // rendering may be deferred: the state is identical, and picture() renders on demand. A deferred frame is
-  // drawn all the same where that takes less time, unless `follow` forbids it.
+  // still drawn if that takes less time, unless `follow` forbids it.
   void step(bool draw = true, bool follow = false);
 
   Inputs& inputs();  // what the controllers hold during the next steps
@@ -65,7 +63,7 @@ class Console {
   // that show the same line have the same pixels. kAnyLine says nothing about the pixels.
   std::span<const LineNumber> picture_lines() const;
   std::span<const LineNumber> previous_picture_lines() const;
-  bool frame_is_open() const;  // the next step goes on with it, in the same picture
+  bool frame_is_open() const;  // the next step continues it, in the same picture
 
   // Both buffers in their order, for a saved state; undrawn ones as they are. They are shared until the
   // console draws on one of them again, so that saving and restoring copy no pixels. Restored pictures must
@@ -80,7 +78,7 @@ class Console {
   // A picture of a saved state with its pixels: the same buffer, or a drawn copy.
   std::shared_ptr<const FrameBuffer> with_pixels(std::shared_ptr<FrameBuffer> picture) const;
 
-  // Cycles that the translator has left to the interpreter, those of repeated steps included. 0 without it.
+  // Cycles that the translator has left to the interpreter, including those of repeated steps. 0 without it.
   std::int64_t interpreted_cycles() const;
 
   std::span<const std::uint8_t, 128> ram() const;  // $80-$FF

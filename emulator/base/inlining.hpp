@@ -1,4 +1,4 @@
-// RACEBEAM_INLINE is for functions that are separate for the reader, and must be one in the machine code. The
+// RACEBEAM_INLINE is for functions that are separate in the source, and must be one in the machine code. The
 // preset `fuzz` disables it: with instrumentation, compiling the combined function takes an hour.
 #pragma once
 

@@ -17,7 +17,7 @@ class MersenneTwister {
 
   explicit MersenneTwister(std::uint32_t seed_value = kDefaultSeed) { seed(seed_value); }
 
-  // A state as words() and position() have given it. The position is at most kWords.
+  // Continues from a state that words() and position() returned. The position is at most kWords.
   MersenneTwister(std::span<const std::uint32_t, kWords> words, std::uint32_t position)
       : position_(position) {
     for (std::size_t i = 0; i < kWords; ++i) words_[i] = words[i];
@@ -41,7 +41,7 @@ class MersenneTwister {
     return y ^ y >> 18;
   }
 
-  // Passes over `count` numbers.
+  // Skips `count` numbers.
   void discard(std::uint64_t count) {
     while (count > kWords - position_) {
       count -= kWords - position_;
@@ -50,7 +50,8 @@ class MersenneTwister {
     position_ += static_cast<std::uint32_t>(count);
   }
 
-  // The words that the next numbers are made of, from the position on. At kWords, new ones are made first.
+  // The words from which the next numbers are computed, from the position on. At kWords, new ones are
+  // computed first.
   std::span<const std::uint32_t, kWords> words() const { return words_; }
   std::uint32_t position() const { return position_; }
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-// Zig's library does not tell what the processor has (platforms/macos.cmake, platforms/musl.cmake).
+// Zig's library does not report the features of the processor (platforms/macos.cmake, platforms/musl.cmake).
 #if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__)) && !defined(__APPLE__) && \
     !defined(RACEBEAM_WITHOUT_AVX)
 #define RACEBEAM_HAS_AVX 1

@@ -1,4 +1,4 @@
-// The time that a piece of work takes. Policies that choose the faster of two ways compare such times.
+// The time that a piece of work takes. Policies that choose the faster of two methods compare such times.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace racebeam {
 
-// Clocks of the host, in nanoseconds from any beginning. Tests have their own clocks.
+// Clocks of the host, in nanoseconds from an arbitrary origin. Tests have their own clocks.
 struct Clocks {
   std::int64_t (*wall)();       // takes some nanoseconds to read
   std::int64_t (*processor)();  // what the calling thread has used; a system call
@@ -15,7 +15,7 @@ struct Clocks {
 const Clocks& host_clocks();
 
 // Whether no policy may measure, so that a run does the same work each time: everything is translated, and
-// frames that are not observed are followed. The environment variable RACEBEAM_POLICY says so: `fixed`, or
+// frames that are not observed are followed. The environment variable RACEBEAM_POLICY sets this: `fixed`, or
 // `measured`, as without it. Throws InvalidInput for another value.
 bool policies_are_fixed();
 

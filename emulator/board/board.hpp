@@ -35,9 +35,10 @@ class Board {
   Tia tia;
   Sound sound;
   CartridgeSlot slot;
-  std::vector<std::uint8_t> cartridge_ram;  // what does not fit into the state; empty for most schemes
-  WriteLog* log = nullptr;                  // of the step that runs
-  CodeWindow code;    // where the CPU fetches; empty after the map has changed or the frame has closed
+  std::vector<std::uint8_t>
+      cartridge_ram;        // the part that does not fit into the state; empty for most schemes
+  WriteLog* log = nullptr;  // of the step that runs
+  CodeWindow code;          // where the CPU fetches; empty after the map has changed or the frame has closed
   bool stop = false;  // the CPU stops after this instruction: the frame has closed, or must be run again
 
   // Accesses of the CPU outside of plain memory. `latch` is the data bus before the access.
@@ -45,7 +46,7 @@ class Board {
                     std::int32_t cycle);  // plain memory or a device
   std::uint8_t read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
 
-  // INPT0-5, where neither the beam nor the cartridge has to do with them.
+  // Whether INPT0-5 depend neither on the beam nor on the cartridge.
   bool has_plain_pins() const { return has_plain_pins_ && !exact_mode_; }
   std::uint8_t read_plain_pin(unsigned number, std::uint8_t latch, std::int32_t cycle) {
     last_access_ = cycle;
@@ -99,14 +100,14 @@ class Board {
   // The step that has ended, for replay(). start: the TIA before it. Only if is_recorded().
   bool is_recorded() const { return log->is_whole; }
   void record_step(RecordedStep& step, const TiaState& start, std::int32_t lines) const;
-  // Plays the writes of a step again, as begin_step() says, on its `picture`. Returns the collisions at its
-  // end. The machine does not change.
+  // Replays the writes of a step on its `picture`, as described at begin_step(). Returns the collisions at
+  // its end. The machine does not change.
   Collisions replay(const RecordedStep& step, FrameBuffer& picture, const FrameBuffer* other,
                     RenderMode mode);
   bool needs_exact_step() const;
   void set_format_limits();  // after `video` or the frame's origin has changed
 
-  // Whether translated code does not know what accesses do: a pin that follows the beam, or watched RAM.
+  // Whether translated code cannot handle some accesses: a pin that follows the beam, or watched RAM.
   bool must_be_interpreted() const {
     return ports_.has_light_gun() || slot.scheme.watches_mirrors || slot.scheme.observe != nullptr;
   }

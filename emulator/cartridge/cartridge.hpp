@@ -50,10 +50,10 @@ struct MapperOps {
   Delivery (*write)(CartridgeSlot&, std::uint16_t address, std::uint8_t value);
 
   // Whether the cartridge can be in `state`, which comes from an untrusted source. It must check every value
-  // that selects or indexes something, but not the bytes behind the scheme's RAM.
+  // that selects or indexes something, but not the bytes after the scheme's RAM.
   bool (*admits)(const CartridgeSlot&, const CartridgeState& state);
 
-  void (*power_on)(CartridgeSlot&) = nullptr;  // sets what is not zero before the first reset
+  void (*power_on)(CartridgeSlot&) = nullptr;  // sets the values that are not zero before the first reset
 
   // For translated code: the function that does the work of `read` at `address`. Null if that may select a
   // bank.
@@ -92,10 +92,10 @@ inline bool banks_unused(const CartridgeState& state, std::size_t first) {
                      [](std::uint8_t bank) { return bank == 0; });
 }
 
-// The scheme with that name. Throws InvalidInput, with the names that there are, if it is not implemented.
+// The scheme with that name. Throws InvalidInput, with the implemented names, if it is not implemented.
 const Scheme& scheme_named(std::string_view name);
 
-// The scheme of an image, from its size and signatures, or the one that is asked for by name. Throws
+// The scheme of an image, from its size and signatures, or the one that is requested by name. Throws
 // InvalidInput if no scheme fits, the scheme is not implemented, or the image is too small for it.
 const Scheme& scheme_of(const Rom& rom, std::string_view asked_for = {});
 
@@ -103,10 +103,10 @@ const Scheme& scheme_of(const Rom& rom, std::string_view asked_for = {});
 std::string_view scheme_name(const Rom& rom);
 
 // Whether no instruction in the image accesses a hot spot of its scheme, which selects banks of 4K by hot
-// spots at the end of the cartridge. The image is then hardly one of that scheme. False for other schemes.
+// spots at the end of the cartridge. The image is then unlikely to have that scheme. False for other schemes.
 bool accesses_no_hot_spot(const Rom& rom, const Scheme& scheme);
 
-// The names that can be asked for, but for the games after the first of cartridges with many.
+// The names that can be requested, except for the games after the first of cartridges with many.
 std::span<const std::string_view> scheme_names();
 
 // Names of schemes that are not implemented (docs/spec/cartridges.md, 11).

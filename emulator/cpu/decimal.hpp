@@ -1,4 +1,4 @@
-// Decimal addition and subtraction as in the reference, invalid digits included (docs/spec/cpu.md, 8).
+// Decimal addition and subtraction as in the reference, including invalid digits (docs/spec/cpu.md, 8).
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,5 @@
-// Whether a frame that is not observed is followed without pixels or drawn all the same, whichever takes less
-// time. That depends on the game and the scene. Some frames of each period are therefore run both ways, and
-// measured.
+// Whether an unobserved frame is followed without pixels or drawn anyway, whichever takes less time. That
+// depends on the game and the scene. Some frames of each period are therefore run both ways, and measured.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Whether entering translated code saves time. To enter and leave costs as much as interpreting a few
+// Whether entering translated code saves time. Entering and leaving it costs as much as interpreting a few
 // instructions.
 #pragma once
 
@@ -12,8 +12,8 @@ namespace racebeam {
 // The entries of one machine. They affect speed only.
 class Profitability {
  public:
-  // Whether the last entries have been too short in the mean. One of tuning::kRetry times, the answer is
-  // still no, since another scene of the game may have longer ones.
+  // Whether the last entries have been too short on average. Once in tuning::kRetry calls, it returns false
+  // anyway, since another scene of the game may have longer ones.
   bool is_unprofitable() {
     if (balance_ > -tuning::kMostDebt) return false;
     return ++searches_ % tuning::kRetry != 0;

@@ -1,5 +1,5 @@
 // Whether the steps of a machine are faster translated than interpreted. That is measured, since no rule
-// foresees all programs: translated code can be left too often, or be too long for the processor's caches.
+// predicts all programs: translated code can be left too often, or be too long for the processor's caches.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The tuning table of the emulator: the numbers by which it chooses between ways with the same result
+// The tuning table of the emulator: the numbers by which it chooses between methods with the same result
 // (system/tuning.hpp). Each group names the file that uses it. What the numbers are worth, and what half and
 // double of them cost, is measured: docs/performance/tuning.md. The bound of `scripts/translator-cost`, 1.5
 // times the time of the interpreter, holds for all numbers of the translator together.
@@ -46,8 +46,8 @@ RACEBEAM_TUNED(int, kMostBlockCycles, 300, "cycles", "frames");
 
 // How much time a machine may spend on translation (translation_budget.hpp).
 
-// What a machine has when it starts. Most games have then translated the code that they begin with before
-// they have run for a few frames.
+// The credit of a machine when it starts. Most games have then translated the code that they begin with
+// before they have run for a few frames.
 RACEBEAM_TUNED(std::int64_t, kCredit, 750'000, "ns", "start");
 // The part of the credit that pays for what the system does for the memory of the code, which is not charged:
 // pages of short-lived machines.
@@ -75,7 +75,7 @@ RACEBEAM_TUNED(std::int32_t, kBreakEvenCycles, 32, "cycles", "frames");
 RACEBEAM_TUNED(std::int32_t, kMostDebt, 128, "cycles", "frames");
 // Cycles beyond break-even that it holds: entries that pay make up for so many that do not.
 RACEBEAM_TUNED(std::int32_t, kMostSurplus, 4096, "cycles", "frames");
-// Searches, one of which enters all the same: another scene may differ.
+// Searches, one of which enters anyway: another scene may differ.
 RACEBEAM_TUNED(std::uint32_t, kRetry, 64, "searches", "frames");
 
 // How long the interpreter runs before the next search (interpreted_run.hpp,
@@ -85,7 +85,7 @@ RACEBEAM_TUNED(std::uint32_t, kRetry, 64, "searches", "frames");
 RACEBEAM_TUNED(std::int32_t, kOutsideImage, 8, "instructions", "frames");
 // The count doubles up to this.
 RACEBEAM_TUNED(std::int32_t, kLongestRun, 128, "instructions", "frames");
-// So much later a run of several instructions ends, at a jump or branch.
+// A run of several instructions may end this much later, at a jump or branch.
 RACEBEAM_TUNED(std::int32_t, kRunSlack, 4096, "instructions", "frames");
 
 // Steps that are interpreted after one that was too long for translated code (step_backoff.hpp).

@@ -1,5 +1,5 @@
-// What a console must know about a cartridge beyond its bytes: controllers, picture window, format. The
-// defaults are the reference's, for an image without an entry (docs/spec/cartridges.md, 3).
+// The properties of a cartridge that a console needs beyond its bytes: controllers, picture window, format.
+// The defaults are the reference's, for an image without an entry (docs/spec/cartridges.md, 3).
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace racebeam {
 
-// docs/spec/controllers.md. kNone: nothing that answers, such as a SaveKey that is not there.
+// docs/spec/controllers.md. kNone: nothing that answers, such as a missing SaveKey.
 enum class Controller : std::uint8_t {
   kJoystick,
   kPaddles,

@@ -1,4 +1,4 @@
-// The TIA's two sound channels and the block of samples that they make (docs/spec/audio.md).
+// The TIA's two sound channels and the block of samples that they produce (docs/spec/audio.md).
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Plans one block of 6502 code, whatever processor runs it (docs/translator.md): which accesses need the bus,
-// what is known of the flags, and what lies out of line. Host emits the code.
+// Plans one block of 6502 code for any processor (docs/translator.md): which accesses need the bus, what is
+// known about the flags, and what is placed out of line. Host emits the code.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// Translated code calls functions, and is called, by the convention of System V, whatever the system. On
-// Windows the compiler's own convention is another one.
+// On every system, translated code calls functions, and is called, by the System V convention. On Windows the
+// compiler's own convention is another one.
 #pragma once
 
 #if defined(_WIN32)

@@ -1,4 +1,4 @@
-// The memory of the ARM on a cartridge: flash memory, which ends at kFlashEnd or behind a larger image, and
+// The memory of the ARM on a cartridge: flash memory, which ends at kFlashEnd or after a larger image, and
 // RAM. All other addresses read as 0. Writes to them, and to the flash memory, do nothing
 // (docs/spec/cartridges.md, 13).
 #pragma once

@@ -18,7 +18,7 @@ struct Registers {
 
 enum class Ending : std::uint8_t {
   kReturned,   // it branched to ARM code
-  kFault,      // an undefined instruction, or no memory where the code goes on
+  kFault,      // an undefined instruction, or no memory where the code continues
   kOutOfTime,  // all instructions are used up
 };
 

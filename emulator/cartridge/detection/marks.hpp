@@ -1,4 +1,4 @@
-// What an image shows of its scheme besides its size and the reference's signatures: texts, and code that
+// Evidence for an image's scheme besides its size and the reference's signatures: texts, and code that
 // accesses hot spots (docs/spec/cartridges.md, 2).
 #pragma once
 

@@ -26,9 +26,9 @@ constexpr std::uint8_t kLeastWave = 20, kMostWave = 31;               // sizes
 struct Chip {
   harmony::Clock clock;
   harmony::Follower follower;
-  std::array<std::uint8_t, 3> wave;  // the bits of a phase that are behind the byte of the wave
+  std::array<std::uint8_t, 3> wave;  // the bits of a phase after the byte of the wave
   std::uint8_t plays_waves;          // else a sample
-  std::uint8_t jump;                 // the stream that gives the second byte of a jump's address; 0: none
+  std::uint8_t jump;                 // the stream with the second byte of a jump's address; 0: none
   std::uint8_t stopped;              // the ARM stands still
   std::uint8_t loads;                // kLoadsX, kLoadsY: LDX # and LDY # read streams, too
   std::uint8_t first_stream;         // its number

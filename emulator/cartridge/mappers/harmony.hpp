@@ -1,6 +1,6 @@
-// What the schemes of the Harmony cartridge share, whose ARM plays the part of a chip: DPC+ and CDFJ. Time
-// gives the ARM instructions, and moves three voices on. A follower knows the opcodes among the bytes that
-// the CPU fetches (docs/spec/cartridges.md, 14).
+// The common part of the schemes of the Harmony cartridge, whose ARM replaces a chip: DPC+ and CDFJ. With
+// time, the ARM is granted instructions, and three voices advance. A follower finds the opcodes among the
+// bytes that the CPU fetches (docs/spec/cartridges.md, 14).
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace racebeam::harmony {
 
-// The ARM's time. An endless call ends when all is used up. A frame that does not end gives no more of it.
+// The ARM's time. An endless call ends when all of it is used up. A frame that does not end grants no more.
 constexpr std::int32_t kCyclesOfFrame = 32768;
 constexpr std::uint32_t kInstructionsPerCycle = 35,
                         kMostInstructions = kInstructionsPerCycle * kCyclesOfFrame;
@@ -61,7 +61,7 @@ struct Clock {
 // Bytes of one instruction follow each other. Any other byte that is read begins an instruction, but for the
 // third byte of JSR, which the CPU reads when it jumps, and again when it returns.
 struct Follower {
-  std::uint16_t next;    // address of the byte behind the last one
+  std::uint16_t next;    // address of the byte after the last one
   std::uint8_t missing;  // how many bytes the instruction has from there on
   std::uint8_t opcode;
 

@@ -24,7 +24,7 @@ inline std::uint8_t* ram_bank(const CartridgeSlot& slot, unsigned number) {
 
 inline void reset(CartridgeSlot& slot) { slot.state.bank = {}; }
 
-// The upper half of RAM shows the same as the lower.
+// The upper half mirrors the lower half.
 inline void map_window(CartridgeSlot& slot, unsigned window) {
   const unsigned number = slot.state.bank[window], first = kWindow * window;
   if ((number & kRamFlag) == 0) return slot.map.show(first, slot.rom.data() + kWindow * number, kWindow);

@@ -13,7 +13,7 @@ namespace racebeam::mnetwork {
 constexpr unsigned kSlice = 2048, kLastSlice = 7, kSlices = kLastSlice + 1;
 constexpr unsigned kLowRam = 1024, kHighRam = 256, kHighRamBanks = 4;
 
-// Where a slice is missing, the image's first ones show.
+// In place of a missing slice, the image's first ones are visible.
 inline const std::uint8_t* slice(const CartridgeSlot& slot, unsigned number) {
   const unsigned missing = kSlices - std::min(kSlices, static_cast<unsigned>(slot.rom.size()) / kSlice);
   return slot.rom.data() + kSlice * (number < missing ? number : number - missing);

@@ -15,7 +15,7 @@ constexpr unsigned kBytes = 2048, kPage = 256;
 constexpr unsigned kClock = 0xFF0, kData = 0xFF2, kDataRead = 0xFF4;
 constexpr std::uint8_t kControl = 0xA0, kByteBits = 8, kEmpty = 0xFF;
 
-// What the next bits are.
+// The meaning of the next bits.
 enum Phase : std::uint8_t { kIdle, kSelects, kAddresses, kWrites, kReads };
 
 // In the bytes of the state in which other schemes have RAM. The lines are 1 if nobody pulls them low.
@@ -57,7 +57,7 @@ inline void move_on(Eeprom& eeprom) {
   eeprom.pointer = static_cast<std::uint16_t>((eeprom.pointer + 1) % kBytes);
 }
 
-// A byte has come. Returns whether the EEPROM acknowledges it.
+// Receives a byte. Returns whether the EEPROM acknowledges it.
 inline bool accept(CartridgeSlot& slot, Eeprom& eeprom) {
   const std::uint8_t byte = eeprom.shift;
   switch (eeprom.phase) {

@@ -48,7 +48,7 @@ inline void map(CartridgeSlot& slot) {
   show_low_page(slot, filled != 0 ? bank : nullptr);
 }
 
-// 0 behind the image, where the reference reads memory that is not the image's.
+// Returns 0 after the end of the image, where the reference reads memory outside the image.
 inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
   const std::size_t at = std::size_t{kBankSize} * slot.state.bank[0] + (address & (kBankSize - 1));
   return at < slot.rom.size() ? slot.rom[at] : 0;

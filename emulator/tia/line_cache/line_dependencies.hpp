@@ -22,7 +22,7 @@ namespace racebeam {
 
 // Bits of LineDependencies::seen. Bits 0-5: Object n was shown.
 constexpr std::uint16_t kScoreSeen = 1U << 6;     // the playfield in the players' colours
-constexpr std::uint16_t kLit = 1U << 7;           // something else than VBLANK's black was shown
+constexpr std::uint16_t kLit = 1U << 7;           // something other than VBLANK's black was shown
 constexpr std::uint16_t kMoves = 1U << 8;         // there is an HMOVE
 constexpr std::uint16_t kClears = 1U << 9;        // there is a CXCLR, which clears earlier collisions
 constexpr std::uint16_t kMayBeCosmic = 1U << 10;  // there is an HMM0, which may start the Cosmic Ark mode
@@ -35,7 +35,7 @@ struct LineDependencies {
   std::uint8_t control;
 };
 
-// A write so many cycles before a line may affect only that line.
+// A write at most this many cycles before a line may affect only that line.
 constexpr int kEarliestWrite = 4;
 
 // The possible effect of a write to a register on the line of its cycle.

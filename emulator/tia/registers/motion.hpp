@@ -12,10 +12,10 @@ constexpr int kLineCycles = 76;
 
 namespace detail {
 
-// For cycles 0-20, the largest movement to the left that there is still time for.
+// For cycles 0-20, the largest movement to the left for which time remains.
 constexpr std::array<std::int8_t, 21> kEarlyLimit = {7, 7, 7,  7,  6,  5,  5,  4,  3,  2, 2,
                                                      1, 0, -1, -1, -2, -3, -4, -4, -5, -6};
-// For cycles 55-74, what a late strobe takes away from the movement to the left.
+// For cycles 55-74, the amount by which a late strobe reduces the movement to the left.
 constexpr std::array<std::int8_t, 20> kLateLoss = {6,  5,  4,  4,  3,  2,  1,  1,  0,  -1,
                                                    -2, -2, -3, -4, -5, -5, -6, -7, -8, -8};
 

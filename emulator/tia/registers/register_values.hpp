@@ -1,4 +1,4 @@
-// What the registers of the TIA hold, and its collision latches, as a program would write and read them.
+// The values of the TIA's registers and collision latches, as a program would write and read them.
 #pragma once
 
 #include <array>

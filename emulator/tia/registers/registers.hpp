@@ -1,5 +1,5 @@
-// The registers of the TIA that are written: their addresses, and what each row of registers.inc says but for
-// the bytes (register_bytes.hpp).
+// The registers of the TIA that are written: their addresses, and the columns of registers.inc except for the
+// bytes (register_bytes.hpp).
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ enum TiaRegister : std::uint8_t {
 #define REGISTER(name, ...) name,
 #include "emulator/tia/registers/registers.inc"
 #undef REGISTER
-  kTiaRegisters,  // so many; addresses from here to kNone have no register
+  kTiaRegisters,  // their number; addresses from here to kNone have no register
   kNone = 0x3F,
 };
 

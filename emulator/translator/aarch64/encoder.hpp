@@ -1,5 +1,5 @@
 // Encodes the instructions of AArch64 that translated code uses. Names and the order of operands are those of
-// Arm's assembler language, but for what C++ reserves.
+// Arm's assembler language, except for words that C++ reserves.
 #pragma once
 
 #include <cstddef>

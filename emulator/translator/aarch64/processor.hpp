@@ -1,4 +1,4 @@
-// The AArch64 assembler of one batch of blocks, and what Host needs of it.
+// The AArch64 assembler of one batch of blocks, and the functions that Host needs.
 #pragma once
 
 #include <cstdint>
