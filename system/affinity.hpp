@@ -6,7 +6,7 @@
 
 namespace racebeam {
 
-// The numbers of those of the calling thread, in ascending order; empty if the system does not say.
+// The numbers of those of the calling thread, in ascending order; empty if the system does not report them.
 std::vector<unsigned> allowed_processors();
 
 // The thread runs on this processor only from now on. Throws InvalidInput if the system refuses that.

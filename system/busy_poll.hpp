@@ -1,7 +1,7 @@
-// Busy polling. Waking a thread that sleeps takes several times as long as an act on a virtual machine. After
-// a client that has sent its next request at once, the server therefore polls for a while before it sleeps. A
-// client that takes longer, or is idle, costs nothing. Where polling is often in vain, because other threads
-// need the processors, the server backs off.
+// Busy polling. Waking a sleeping thread takes several times as long as an act on a virtual machine. If a
+// client has sent its next request at once, the server therefore polls for a while before it sleeps. A client
+// that takes longer, or is idle, costs nothing. If polling is often in vain, because other threads need the
+// processors, the server backs off.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ class BusyPoll {
 
   explicit BusyPoll(std::chrono::microseconds longest) : longest_(longest) {}  // 0: never
 
-  // Something came, so long after the last reply: whether the next is worth waiting for.
+  // Records that input came this long after the last reply. Returns whether the next is worth waiting for.
   bool came_after(Clock::duration pause) {
     if (until_ != Clock::time_point{} && pause < longest_) vain_ /= 2;
     return pause < longest_;
@@ -42,7 +42,7 @@ class BusyPoll {
  private:
   const std::chrono::microseconds longest_;
   Clock::time_point until_{};   // none: asleep
-  int vain_ = 0, to_skip_ = 0;  // how often not to try after the last time, and from now on
+  int vain_ = 0, to_skip_ = 0;  // polls to skip: after the last time, and from now on
 };
 
 }  // namespace racebeam

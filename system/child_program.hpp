@@ -1,4 +1,4 @@
-// Another program, a child of this one, that reads what it is sent.
+// Another program, a child process of this one, that reads the bytes that it is sent.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ class ChildProgram {
   ChildProgram(const ChildProgram&) = delete;
   ChildProgram& operator=(const ChildProgram&) = delete;
 
-  // Sends what the program takes within 20 ms, and returns how many bytes that were; -1: it does not read any
+  // Sends what the program accepts within 20 ms, and returns the number of bytes; -1: it does not read any
   // more.
   std::ptrdiff_t send(std::string_view bytes);
   void close_input();

@@ -1,4 +1,4 @@
-// Clocks of the system, in nanoseconds from any beginning.
+// Clocks of the system, in nanoseconds from an arbitrary origin.
 #pragma once
 
 #include <cstdint>

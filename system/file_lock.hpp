@@ -1,4 +1,4 @@
-// Locks between processes. A lock is free when its process is gone, however that ended.
+// Locks between processes. A lock is released when its process ends, in any way.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ int open_lock_of_folder(const std::string& path);  // -1: it cannot be locked
 bool is_at(int file, const std::string& path);     // whether the name means this open file
 
 // A file that one process holds. It may remove the file: processes that wait for it then lock the one that is
-// there next.
+// created next.
 class FileLock {
  public:
   // Waits for the lock. Throws std::system_error if the file cannot be made.

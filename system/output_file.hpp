@@ -1,4 +1,4 @@
-// Files and folders that the program makes, as the numbers that the C library has for open files. What fails
+// Files and folders that the program creates, as file descriptors of the C library. A function that fails
 // returns false, or -1 for a number, and leaves the reason in errno.
 #pragma once
 
@@ -9,14 +9,14 @@
 
 namespace racebeam {
 
-// Who may read a file beside its owner. Windows takes that from the folder.
+// Who may read a file beside its owner. On Windows, the folder determines that.
 enum class Readers { kNobody, kEveryone };
 
 // Make and open a file. They fail if something of its name exists.
 int make_file(const std::string& path);
 int make_temporary_file(std::string& name);  // replaces XXXXXX at the end of the name; its owner can read it
 
-// Makes a file that is marked until unmark(). One that a process has marked and left behind is replaced.
+// Makes a file that is marked until unmark(). A marked file that a process has left behind is replaced.
 int make_marked_file(const std::string& path);
 void unmark(int file);
 
@@ -41,7 +41,7 @@ bool rename_anew(const std::string& from, const std::string& to);  // fails if `
 bool rename_over(const std::string& from, const std::string& to);
 bool remove_file(const std::string& path);
 
-// Tells a file from one that has replaced it.
+// Distinguishes a file from one that has replaced it.
 struct FileMark {
   std::uint64_t number = 0;  // of the file in its file system; 0 if the file does not exist
   std::int64_t seconds = 0, nanoseconds = 0;

@@ -1,6 +1,6 @@
 // The actions of a player: 18 of a joystick and its button, 8 of the switches of the console, and those of
-// other controllers, which a game file names.
-// All of it is values and constant tables, which any number of threads may use at the same time.
+// other controllers, which a game file names. It consists of values and constant tables, which any number of
+// threads may use at the same time.
 //
 //     const racebeam::Action action = racebeam::Action::kUpFire;
 //     std::cout << racebeam::name_of(action) << '\n';  // UPFIRE
@@ -38,7 +38,7 @@ enum class Action : std::uint8_t {
   kDownLeftFire,
   kReset,   // held during the step
   kSelect,  // held during the step
-  kLeftA,   // the left difficulty switch, which stays where it is until the next reset
+  kLeftA,   // the left difficulty switch, which keeps its position until the next reset
   kLeftB,
   kRightA,
   kRightB,

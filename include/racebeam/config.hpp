@@ -1,5 +1,5 @@
-// Shared by all public headers: the namespace with its version, and the mark of what the library exports.
-// It has only macros, so that threads do not matter. Programs use the classes as racebeam::Environment:
+// Shared by all public headers: the versioned namespace, and the export macro of the library. It has only
+// macros, so that threads do not matter. Programs use the classes as racebeam::Environment:
 //
 //     racebeam::Environment environment(racebeam::Image::load("builtin:beamfall"));
 //     racebeam::v0::Environment& same = environment;  // what the linker sees
@@ -16,7 +16,7 @@
 #define RACEBEAM_NAMESPACE racebeam::inline v0
 #endif
 
-// All else in the shared library is hidden.
+// All other symbols of the shared library are hidden.
 #ifdef __GNUC__
 #define RACEBEAM_API __attribute__((visibility("default")))
 #else

@@ -39,7 +39,7 @@ enum class Pixels {
   kRgb       // red, green and blue
 };
 
-// The rewards of the last step; those of player B are 0 if the game's rule knows only one player.
+// The rewards of the last step; those of player B are 0 if the game's rule has only one player.
 struct Rewards {
   int a = 0, b = 0;                   // between Settings::reward_min and reward_max
   std::int64_t raw_a = 0, raw_b = 0;  // without these limits; 0 after a restore
@@ -86,8 +86,8 @@ class RACEBEAM_API Environment {
   void set_ram(int index, std::uint8_t value);              // throws Error unless the index is 0 to 127
   std::span<const std::uint8_t, kAudioSize> audio() const;  // of the last frame; needs Settings::sound
 
-  // Saves the present moment, and returns to one of the same image and game. with_random: the generator of
-  // sticky actions is part of the snapshot; else it continues after a restore, as planners want.
+  // Saves the current state, and restores one of the same image and game. with_random: the generator of
+  // sticky actions is part of the snapshot; else it continues after a restore, as planners need.
   Snapshot save(bool with_random = false);
   void restore(const Snapshot& snapshot);  // throws Error for a snapshot of something else
 
@@ -96,13 +96,13 @@ class RACEBEAM_API Environment {
   std::uint64_t state_hash();
 
   // The choices of the game. A mode takes effect at the next reset, a difficulty at the next frame. Both
-  // throw Error, which names what the game has.
+  // throw Error, which lists what the game has.
   const Game& game() const;
   void set_mode(int mode);
   void set_difficulty(int difficulty);
 
-  // Calls the function after each frame of a step, for example to record it. An empty function ends that. The
-  // function may read this environment, and may throw.
+  // Calls the function after each frame of a step, for example to record it. An empty function stops the
+  // calls. The function may read this environment, and may throw.
   void on_frame(std::function<void()> function);
 
  private:

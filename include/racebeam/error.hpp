@@ -1,5 +1,5 @@
-// The one type of exception that the library throws for what a caller gave it.
-// An Error belongs to the thread that catches it; the object whose function threw can be used as before.
+// The only exception type that the library throws for invalid arguments. An Error belongs to the thread that
+// catches it; the object whose function threw can be used as before.
 //
 //     try {
 //       racebeam::Image::load("no_such_file.bin");

@@ -1,5 +1,5 @@
-// A game: its actions and modes, and the rule that turns memory into rewards and lives.
-// A Game never changes and its copies share what they hold, so that any number of threads may use one.
+// A game: its actions and modes, and the rule that turns memory into rewards and lives. A Game never changes
+// and its copies share their data, so any number of threads may use one.
 //
 //     const auto image = racebeam::Image::load("builtin:beamfall");
 //     const auto game = racebeam::Game::recognise(image);
@@ -41,7 +41,7 @@ class RACEBEAM_API Game {
   bool fits(const Image& image) const;
 
   std::vector<Action> legal_actions() const;    // in the order of their numbers
-  std::vector<Action> minimal_actions() const;  // those of them that make a difference
+  std::vector<Action> minimal_actions() const;  // those of them that have an effect
 
   std::vector<int> modes() const;  // ascending, as are the difficulties
   int default_mode() const noexcept;

@@ -1,5 +1,5 @@
-// A cartridge image: the bytes of a game, and the name and MD5 by which it is recognised.
-// An Image never changes and its copies share the bytes, so that any number of threads may use one.
+// A cartridge image: the bytes of a game, and the name and MD5 by which it is recognised. An Image never
+// changes and its copies share the bytes, so any number of threads may use one.
 //
 //     const auto image = racebeam::Image::load("builtin:beamfall");  // or a path: "roms/pong.bin"
 //     std::cout << image.name() << ' ' << image.md5() << '\n';

@@ -1,6 +1,6 @@
-// All of the library: a machine that plays Atari 2600 games in the process of its caller.
-// Each class says which threads may use it; an agent in each thread, with an Environment of its own, needs no
-// locks. This is a whole agent:
+// All of the library: a machine that plays Atari 2600 games in the process of its caller. Each class
+// documents which threads may use it; an agent in each thread, with its own Environment, needs no locks. This
+// is a whole agent:
 //
 //     racebeam::Environment environment(racebeam::Image::load("builtin:beamfall"));
 //     int score = 0;

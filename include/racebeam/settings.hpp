@@ -1,5 +1,5 @@
-// The settings of an Environment, which do not change after it was made.
-// They are plain values: each thread fills its own, and an environment copies what it is given.
+// The settings of an Environment, which do not change after its construction. They are plain values: each
+// thread fills its own, and an environment copies them.
 //
 //     racebeam::Settings settings;
 //     settings.seed = 7;
@@ -54,7 +54,7 @@ struct Settings {
   // Observations.
   int reward_min = std::numeric_limits<int>::min(), reward_max = std::numeric_limits<int>::max();
   bool color_averaging = false;  // a screen blends the last two frames
-  bool sound = false;            // each step makes audio()
+  bool sound = false;            // each step generates audio()
 
   // Speed only; results do not depend on these.
   Screens screens = Screens::kLast;

@@ -1,5 +1,5 @@
-// A saved moment of a game: whoever restores it sees the same picture, RAM, rewards and later frames.
-// A Snapshot never changes and its copies share what they hold, so that any number of threads may use one.
+// A saved state of a game: after a restore, picture, RAM, rewards and later frames are the same. A Snapshot
+// never changes and its copies share their data, so any number of threads may use one.
 //
 //     racebeam::Environment environment(racebeam::Image::load("builtin:beamfall"));
 //     const racebeam::Snapshot before = environment.save();
@@ -26,8 +26,8 @@ class RACEBEAM_API Snapshot {
   // some milliseconds, and 70 KB; the snapshot itself takes 4 KB, and shares its pictures.
   std::vector<std::uint8_t> to_bytes() const;
 
-  // Takes any bytes. restore() checks them later. It throws Error if they were cut or altered, are of another
-  // version, or have a value that no machine can have.
+  // Accepts any bytes. restore() checks them later. It throws Error if they were truncated or altered, are of
+  // another version, or have a value that no machine can have.
   static Snapshot from_bytes(std::span<const std::uint8_t> bytes);
 
  private:

@@ -32,7 +32,7 @@ namespace RACEBEAM_NAMESPACE {
 // The handling of a machine whose episode is over, as in Gymnasium.
 enum class Autoreset {
   kNextStep,  // its next step resets it and ignores the action
-  kSameStep,  // the same step resets it, and final_observations has what was seen last
+  kSameStep,  // the same step resets it, and final_observations has the last observation
   kDisabled   // its steps do nothing until reset()
 };
 
@@ -78,7 +78,7 @@ struct VectorArrays {
   std::span<std::int32_t> machines{};                            // the numbers of the machines, from 0
 };
 
-// Results in memory of their own. VectorEnvironment::make_results() gives every array its size.
+// Results in their own memory. VectorEnvironment::make_results() gives every array its size.
 struct VectorResults {
   std::vector<std::uint8_t> observations, final_observations, ram;
   std::vector<std::int32_t> rewards, lives, episode_frames;
@@ -125,7 +125,7 @@ class RACEBEAM_API VectorEnvironment {
   void send(std::span<const int> actions, std::span<const std::int32_t> machines);
   void receive(const VectorArrays& out);
 
-  // They work as Environment's. A snapshot has the stack of screens, too.
+  // They work like those of Environment. A snapshot has the stack of screens, too.
   Snapshot save(std::size_t machine, bool with_random = false);
   void restore(std::size_t machine, const Snapshot& snapshot);
 

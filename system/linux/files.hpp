@@ -1,4 +1,4 @@
-// What Linux and macOS do differently with files, for output_file.cpp.
+// The file functions that differ between Linux and macOS, for output_file.cpp.
 #pragma once
 
 #include <sys/stat.h>
@@ -6,7 +6,7 @@
 
 namespace racebeam {
 
-// A mark of a file that means nothing to others.
+// A mark of a file, which other programs ignore.
 extern const mode_t kModeOfMarked;  // of a new file
 void mark(int file);                // after it was made
 void unmark(int file, const struct stat& facts);
