@@ -306,7 +306,7 @@ function Session:branch(name, lists, settings)
   return branches
 end
 
--- Closes the machines, as close_machines() does. The session goes on.
+-- Closes the machines, as close_machines() does. The session continues.
 function Session:close()
   self:close_machines()
 end

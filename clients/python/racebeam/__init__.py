@@ -1,4 +1,4 @@
-"""Atari 2600 games for agents: exact to ALE 0.12, in this process or on a server.
+"""Atari 2600 games for agents: bit-exact with ALE 0.12, in this process or on a server.
 
 With Gymnasium installed, `import racebeam` registers ids such as racebeam/Pong-v5 and racebeam/PongNoFrameskip-v4:
 

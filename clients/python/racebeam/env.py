@@ -112,14 +112,14 @@ class AtariEnv(EnvWithView):
         two_player: Whether an action is a pair of indices for players A and B. `info` then has `reward_a`, which is
             also the reward, and `reward_b`.
         noop_max: Upper limit of the random number of NOOP frames that begin an episode: 0 to `noop_max` - 1.
-        life_loss: Effect of a lost life. "ignored": none. "reported": the step is terminated, and the episode goes on.
+        life_loss: Effect of a lost life. "ignored": none. "reported": the step is terminated; the episode continues.
             "end": the episode ends, and the next one continues the game, as in DQN. "restart": the episode ends, and
             the next one is a new game.
         life_loss_ends: Old word: a lost life truncates the episode, and the next one is a new game.
         reward_range: Pair (low, high) to which the reward of a step is clipped. (-inf, inf) overrides that of a preset.
         sound: Whether the window plays the sound.
         server: Address of the server that runs the game.
-        token: Token that the server asks for.
+        token: Token that the server requires.
         timeout: Seconds to wait for each reply of the server. Default: no limit.
 
     Attributes:

@@ -1,4 +1,4 @@
-"""Logs of episodes, which `racebeam verify` plays again. docs/episodes.md describes the file."""
+"""Logs of episodes, which `racebeam verify` replays. docs/episodes.md describes the file."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ class Start(NamedTuple):
 
 
 class Origin(NamedTuple):
-    """Who played.
+    """The player of an episode, and its number.
 
     Attributes:
         agent: Name of the agent, a word.
@@ -173,13 +173,13 @@ def _is_terminated(ale: ALEInterface, start: Start) -> bool:
 def log_of(
     start: Start, actions: Sequence[int], episode: Episode, origin: Origin, strengths: Sequence[float] | None = None
 ) -> tuple[bytes, dict[str, str]]:
-    """Makes the log of an episode, and its row of results.csv.
+    """Creates the log of an episode, and its row of results.csv.
 
     Args:
-        start: How it began.
-        actions: What was played.
-        episode: How it ended.
-        origin: Who played.
+        start: The beginning of the episode.
+        actions: Its actions.
+        episode: Its result.
+        origin: Its player and number.
         strengths: For each action, how far a paddle was turned; 1 if None.
 
     Returns:
@@ -256,7 +256,7 @@ def write_log(
     agent: str = "agent",
     agent_seed: int = 0,
 ) -> Episode:
-    """Plays an episode again, and writes its log, which `racebeam verify PATH` confirms.
+    """Replays an episode, and writes its log, which `racebeam verify PATH` confirms.
 
     Args:
         path: Path of the log. It ends in ".episode".

@@ -67,7 +67,7 @@ class AtariVectorEnv(PlayedVector):
             unknown one has no score.
         server: Address of the server that runs the environments, or a list of addresses to spread them over. Needs one
             game, and `batch_size` equal to `num_envs`.
-        token: Token that the server asks for.
+        token: Token that the server requires.
         timeout: Seconds to wait for each reply of the server. Default: no limit.
         log: A dict with "folder", and with other arguments of `RecordLog` except `env` and `phrase`. `step` then writes
             a log of each game into this new folder, a submission. Environment i plays the trial `trial` + i. Each game
@@ -107,7 +107,7 @@ class AtariVectorEnv(PlayedVector):
         difficulty: Difficulty of the game. Default: that of the game.
         obs_type: "rgb" or "grayscale" for screens of full size, or "ram" for the 128 bytes of RAM. Default: screens of
             `img_height` x `img_width`.
-        life_loss: Effect of a lost life. "ignored": none. "reported": the step is terminated, and the episode goes on.
+        life_loss: Effect of a lost life. "ignored": none. "reported": the step is terminated; the episode continues.
             "end": the episode ends, and the next one continues the game, as in DQN. "restart": the episode ends, and
             the next one is a new game. Default: the preset's, "ignored" with "ale".
         start: How an episode begins: "fire-noops" as in ale_py, "noops-fire" as in EnvPool, or "baselines" as in

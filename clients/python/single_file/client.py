@@ -11,7 +11,7 @@
 
 A session has a method for each command, in the order of the document. It returns numbers as int or float, and bytes as
 bytes; or as arrays of NumPy, if it was opened with arrays=True. If the server refuses a request, the method raises
-Refused, and the session goes on. It raises ConnectionError if the server is gone, and TimeoutError if the server does
+Refused, and the session continues. It raises ConnectionError if the server is gone, and TimeoutError if the server does
 not answer in time. Both end the session.
 """
 
@@ -44,7 +44,7 @@ Values = dict[str, Any]  # numbers, texts, and bytes or arrays, by key
 
 
 class Refused(Exception):
-    """The server refused a request. The session goes on.
+    """The server refused a request. The session continues.
 
     Args:
         code: Code of the error, such as "bad-value".
@@ -752,7 +752,7 @@ class Connection:
         self.longest_reply = LONGEST_REPLY
 
     def close_connection(self) -> None:
-        """Ends the session. A second call does nothing. In a child process, the parent's session goes on."""
+        """Ends the session. A second call does nothing. In a child process, the parent's session continues."""
         self._end("the session was closed")
 
     def _abort(self) -> None:
@@ -1337,7 +1337,7 @@ class Commands(Exchange):
         ]
 
     def close(self) -> None:
-        """Close the machines, as `close_machines` does. The session goes on."""
+        """Close the machines, as `close_machines` does. The session continues."""
         self.close_machines()
 
     def save_png(self, path: str | os.PathLike[str], machine: int | None = None) -> None:
@@ -1897,7 +1897,7 @@ def connect(
             PREFIX_out and PREFIX_in; stdio for the standard streams of this process; file:PATH for the first usable
             address of a --ready-file or --announce file; or file:PATH?wait=SECONDS, which waits for the file and its
             server. Default: the value of RACEBEAM_ADDRESS.
-        token: Token that the server asks for. Default: that of the announce file, if there is one.
+        token: Token that the server requires. Default: that of the announce file, if there is one.
         tls: Context that verifies the server's certificate. Default: the authorities of the system.
         timeout: Seconds to wait for the connection and for each reply on a socket. Default: no limit.
         longest_reply: Bytes of the longest reply that is accepted.

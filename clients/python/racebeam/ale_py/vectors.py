@@ -213,7 +213,7 @@ class ALEVectorInterface:
         noop_max: Upper limit of the random number of NOOP frames that begin an episode.
         use_fire_reset: Whether an episode begins with FIRE.
         episodic_life: Whether a lost life ends the episode, and restarts the game.
-        life_loss_info: Whether a lost life terminates the step, and the episode goes on.
+        life_loss_info: Whether a lost life terminates the step, and the episode continues.
         reward_clipping: Whether rewards are clipped to [-1, 1].
         max_episode_steps: Frames after which an episode is truncated, as in ale_py; 0 for no limit.
         repeat_action_probability: Probability that a frame repeats the previous action.

@@ -25,10 +25,10 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
 
     It wraps the environment directly, or what `gymnasium.make` returns: wrappers that change actions go around it. A
     game that `life_loss` splits into several episodes is one episode of the log. Without a seed, `reset` draws one
-    and powers the game on with it, because a log contains the seed of its episode. `reset(seed=S)` also decides what
+    and powers the game on with it, because a log contains the seed of its episode. `reset(seed=S)` also determines what
     later resets draw.
 
-    An episode gets no log if it was left before its end, if a state was restored in it, or if the log cannot be
+    An episode gets no log if it was abandoned before its end, if a state was restored in it, or if the log cannot be
     written. It then causes a warning.
 
     Args:

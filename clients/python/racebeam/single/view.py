@@ -105,7 +105,7 @@ def closed_error(what: str, game: str) -> error.ClosedEnvironmentError:
     """Makes the exception for a closed environment.
 
     Args:
-        what: What was asked of it.
+        what: The attempted call, such as "render()".
         game: Name of its game.
     """
     return error.ClosedEnvironmentError(f"{what} is not possible: this environment of {game} was closed")

@@ -101,7 +101,7 @@ def make_remote_machines(
         rom: Path or bytes of the image to send, or None for the server's own.
         options: Options of the environments.
         server: Address of the server, or a list of addresses.
-        token: Token that the server asks for, or None.
+        token: Token that the server requires, or None.
         timeout: Seconds to wait for each reply, or None.
 
     Returns:

@@ -43,7 +43,7 @@ async def connect(
     Args:
         address: A tcp://, tls:// or unix: address, or a file: address of a file that has one. Default: the value of
             RACEBEAM_ADDRESS.
-        token: Token that the server asks for. Default: that of the announce file, if there is one.
+        token: Token that the server requires. Default: that of the announce file, if there is one.
         tls: Context that verifies the server's certificate. Default: the authorities of the system.
         timeout: Seconds to wait for the connection and for each reply. Default: no limit.
         longest_reply: Bytes of the longest reply that is accepted.

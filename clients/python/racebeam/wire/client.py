@@ -10,7 +10,7 @@
 
 A session has a method for each command, in the order of the document. It returns numbers as int or float, and bytes as
 bytes; or as arrays of NumPy, if it was opened with arrays=True. If the server refuses a request, the method raises
-Refused, and the session goes on. It raises ConnectionError if the server is gone, and TimeoutError if the server does
+Refused, and the session continues. It raises ConnectionError if the server is gone, and TimeoutError if the server does
 not answer in time. Both end the session.
 """
 

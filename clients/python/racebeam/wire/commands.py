@@ -139,7 +139,7 @@ class Commands(Exchange):
         ]
 
     def close(self) -> None:
-        """Close the machines, as `close_machines` does. The session goes on."""
+        """Close the machines, as `close_machines` does. The session continues."""
         self.close_machines()
 
     def save_png(self, path: str | os.PathLike[str], machine: int | None = None) -> None:

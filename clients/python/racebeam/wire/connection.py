@@ -40,7 +40,7 @@ class Connection:
         self.longest_reply = LONGEST_REPLY
 
     def close_connection(self) -> None:
-        """Ends the session. A second call does nothing. In a child process, the parent's session goes on."""
+        """Ends the session. A second call does nothing. In a child process, the parent's session continues."""
         self._end("the session was closed")
 
     def _abort(self) -> None:

@@ -14,7 +14,7 @@ Values = dict[str, Any]  # numbers, texts, and bytes or arrays, by key
 
 
 class Refused(Exception):
-    """The server refused a request. The session goes on.
+    """The server refused a request. The session continues.
 
     Args:
         code: Code of the error, such as "bad-value".

@@ -58,7 +58,7 @@ def connect(
             PREFIX_out and PREFIX_in; stdio for the standard streams of this process; file:PATH for the first usable
             address of a --ready-file or --announce file; or file:PATH?wait=SECONDS, which waits for the file and its
             server. Default: the value of RACEBEAM_ADDRESS.
-        token: Token that the server asks for. Default: that of the announce file, if there is one.
+        token: Token that the server requires. Default: that of the announce file, if there is one.
         tls: Context that verifies the server's certificate. Default: the authorities of the system.
         timeout: Seconds to wait for the connection and for each reply on a socket. Default: no limit.
         longest_reply: Bytes of the longest reply that is accepted.

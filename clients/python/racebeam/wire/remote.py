@@ -27,7 +27,7 @@ class RemoteInterface(RemotePlay):
 
     Args:
         server: Address of the server, as `racebeam.connect` takes it.
-        token: Token that the server asks for, or None.
+        token: Token that the server requires, or None.
         timeout: Seconds to wait for each reply, or None for no limit.
 
     Attributes:

@@ -33,7 +33,7 @@ class RemoteMachines(Halves):
 
     Args:
         server: Address of the server.
-        token: Token that the server asks for, or None.
+        token: Token that the server requires, or None.
         timeout: Seconds to wait for each reply, or None.
         game: Name of the game.
         rom: Path or bytes of the image to send, or None for the server's own.
