@@ -133,7 +133,7 @@ class Conditions(Part):
             "\n".join(
                 textwrap.fill("- " + " ".join(text.split()), WIDTH, subsequent_indent="  ")
                 for text in (
-                    """The emulator: the paper used ALE of 2012. racebeam is exact to ALE 0.12, whose emulator and
+                    """The emulator: the paper used ALE of 2012. racebeam is bit-exact with ALE 0.12, whose emulator and
                     games' rules have changed
             since.""",
                     """Starts: each episode begins at power-on with its own seed, and without the human
