@@ -127,6 +127,19 @@ class TestWith:
     def test_the_status_is_that_of_the_command(self, command, expected):
         assert self.run_with("--", *command) == (expected, "", "")
 
+    def test_the_server_has_ended_when_the_status_is_there(self):
+        for _ in range(3):
+            # A server without a pipe of ours does not keep us waiting.
+            done = subprocess.run(
+                [BINARY, "with", "--", "true"],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                timeout=PATIENCE,
+                env=self.environment,
+            )
+            assert (done.returncode, self.processes(), os.listdir(self.place)) == (0, [], [])
+
     def test_a_command_that_cannot_be_executed_has_the_status_of_shells(self):
         assert self.run_with("--", "no-such-program", "x") == (
             127,
