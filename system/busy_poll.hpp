@@ -18,8 +18,8 @@ class BusyPoll {
   explicit BusyPoll(std::chrono::microseconds longest) : longest_(longest) {}  // 0: never
 
   // Records that input came this long after the last reply. Returns whether the next is worth waiting for.
-  bool came_after(Clock::duration pause) {
-    if (until_ != Clock::time_point{} && pause < longest_) vain_ /= 2;
+  bool received_after(Clock::duration pause) {
+    if (until_ != Clock::time_point{} && pause < longest_) backoff_ /= 2;
     return pause < longest_;
   }
 
@@ -35,14 +35,14 @@ class BusyPoll {
   bool again() {
     if (until_ == Clock::time_point{} || Clock::now() < until_) return until_ != Clock::time_point{};
     until_ = {};
-    to_skip_ = vain_ = std::min(4 * vain_ + 4, tuning::kMostSkippedPolls);
+    to_skip_ = backoff_ = std::min(4 * backoff_ + 4, tuning::kMostSkippedPolls);
     return false;
   }
 
  private:
   const std::chrono::microseconds longest_;
-  Clock::time_point until_{};   // none: asleep
-  int vain_ = 0, to_skip_ = 0;  // polls to skip: after the last time, and from now on
+  Clock::time_point until_{};      // none: asleep
+  int backoff_ = 0, to_skip_ = 0;  // polls to skip: after the last time, and from now on
 };
 
 }  // namespace racebeam

@@ -49,8 +49,8 @@ void WrongTokens::make_room() {
   rows_.erase(std::ranges::min_element(rows_, earlier));
 }
 
-Guesser::Heard Guesser::heard(int wrong) {
-  Heard all{wrong - wrong_};
+Guesser::Update Guesser::update(int wrong) {
+  Update all{wrong - wrong_};
   for (; wrong_ < wrong; ++wrong_) {
     const auto [in_a_row, delay] = all_->count(source_);
     all.in_a_row = in_a_row;

@@ -54,12 +54,12 @@ class Guesser {
   const std::string& source() const { return source_; }
   int wrong() const { return wrong_; }  // tokens
 
-  struct Heard {
+  struct Update {
     int more = 0;  // wrong tokens than before
     int in_a_row = 0;
     WrongTokens::Delay delay{};
   };
-  Heard heard(int wrong);  // how many of its tokens have been wrong
+  Update update(int wrong);  // wrong: its number of wrong tokens so far
   void admitted() { all_->forgive(source_); }
 
  private:

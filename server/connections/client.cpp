@@ -22,13 +22,13 @@ Client::Client(Socket connection, Loop& home, std::string who, const std::shared
 
 Client::~Client() { --loop.sessions; }
 
-void Client::came_in() { loop.clients.insert(this); }
+void Client::enter_loop() { loop.clients.insert(this); }
 void Client::left() { loop.clients.erase(this); }
 
 void Client::received(std::size_t bytes) {
   const auto answered = active_;
   is_active();
-  quick_ = loop.busy.came_after(active_ - answered);
+  quick_ = loop.busy.received_after(active_ - answered);
   loop.meter.bytes_in.add(static_cast<std::int64_t>(bytes));
 }
 

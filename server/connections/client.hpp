@@ -32,7 +32,7 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  void came_in();  // adds it to the loop's clients
+  void enter_loop();  // adds it to the loop's clients
   void left();
 
   void is_active() {

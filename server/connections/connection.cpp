@@ -108,7 +108,7 @@ Task<> hold_back(Client& client, WrongTokens::Delay delay) {
 
 // Returns for how long the answer is delayed.
 WrongTokens::Delay judge(Client& client, const LineSession& session, Metrics& metrics) {
-  const auto [more, in_a_row, delay] = client.guesser->heard(session.wrong_tokens());
+  const auto [more, in_a_row, delay] = client.guesser->update(session.wrong_tokens());
   metrics.wrong_tokens += more;
   if (more > 0) {
     log_warning(client.name + ": a wrong token from " + client.guesser->source() + ", number " +
@@ -361,7 +361,7 @@ Task<> play_over_tls(std::shared_ptr<Client> client, const Service& service, Car
 // During a session.
 class Presence {
  public:
-  explicit Presence(Client& client) : client_(client) { client.came_in(); }
+  explicit Presence(Client& client) : client_(client) { client.enter_loop(); }
   ~Presence() { client_.left(); }
   Presence(const Presence&) = delete;
   Presence& operator=(const Presence&) = delete;

@@ -46,7 +46,7 @@ std::string payload(LogLevel level, const std::string& sentence, std::initialize
   return mark + printable(sentence);
 }
 
-std::string tell_of_lost(std::int64_t lines) {
+std::string loss_text(std::int64_t lines) {
   return payload(LogLevel::kWarning,
                  std::to_string(lines) + " lines of the log are lost: its reader is too slow",
                  {{"event", "lost"}});
@@ -57,7 +57,7 @@ const std::shared_ptr<LogSink>& sink() {
     const std::shared_ptr<LogSink> sink;
     ~Closing() { sink->close(); }
   };
-  static const Closing closing{LogSink::start(kStandardError, kind_of_output(kStandardError), tell_of_lost)};
+  static const Closing closing{LogSink::start(kStandardError, kind_of_output(kStandardError), loss_text)};
   return closing.sink;
 }
 

@@ -27,14 +27,14 @@ void write_whole(int descriptor, std::string_view line) {
 
 // The thread shares the sink, and may outlive its owner: it can hang in a write for ever.
 std::shared_ptr<LogSink> LogSink::start(int descriptor, OutputKind kind,
-                                        std::function<std::string(std::int64_t)> tell) {
-  std::shared_ptr<LogSink> sink(new LogSink(descriptor, kind, std::move(tell)));
+                                        std::function<std::string(std::int64_t)> loss_text) {
+  std::shared_ptr<LogSink> sink(new LogSink(descriptor, kind, std::move(loss_text)));
   if (kind == OutputKind::kFile) std::thread([sink] { sink->write_file(); }).detach();
   return sink;
 }
 
-LogSink::LogSink(int descriptor, OutputKind kind, std::function<std::string(std::int64_t)> tell)
-    : descriptor_(descriptor), kind_(kind), tell_(std::move(tell)) {}
+LogSink::LogSink(int descriptor, OutputKind kind, std::function<std::string(std::int64_t)> loss_text)
+    : descriptor_(descriptor), kind_(kind), loss_text_(std::move(loss_text)) {}
 
 void LogSink::close() {
   const auto end = std::chrono::steady_clock::now() + kLastMoment;
@@ -61,26 +61,26 @@ void LogSink::add(const spdlog::details::log_msg& message) {
 
 void LogSink::lose_oldest() {
   waiting_.erase(waiting_.begin() + (has_begun_ ? 1 : 0));
-  ++untold_;
+  ++unreported_;
   ++lost_;
 }
 
 // Reports lost lines at their place, before the remaining ones. Without memory for that, it does so later.
-void LogSink::tell_of_lost() {
+void LogSink::report_lost() {
   try {
-    const std::string sentence = tell_(untold_);
+    const std::string sentence = loss_text_(unreported_);
     add({{}, "racebeam", spdlog::level::warn, sentence});
   } catch (const std::bad_alloc&) {
     return;
   }
-  untold_ = 0;
+  unreported_ = 0;
   std::rotate(waiting_.begin() + (has_begun_ ? 1 : 0), waiting_.end() - 1, waiting_.end());
 }
 
 void LogSink::flush_() {
   if (kind_ == OutputKind::kFile) return changed_.notify_all();
   while (!waiting_.empty() && has_room(descriptor_)) {
-    if (untold_ > 0) tell_of_lost();
+    if (unreported_ > 0) report_lost();
     if (!write(waiting_.front())) return;
     waiting_.pop_front();
   }
@@ -91,7 +91,7 @@ void LogSink::write_file() {
   for (;;) {
     changed_.wait(lock, [this] { return closed_ || !waiting_.empty(); });
     if (closed_) return;
-    if (untold_ > 0) tell_of_lost();
+    if (unreported_ > 0) report_lost();
     const std::string line = std::move(waiting_.front());
     waiting_.pop_front();
     writing_ = true;

@@ -23,9 +23,9 @@ class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
   static constexpr std::size_t kMostWaiting = 1024;  // lines
 
-  // tell: makes the line, in the log's format, that reports how many lines were lost.
+  // loss_text: makes the line, in the log's format, that reports how many lines were lost.
   static std::shared_ptr<LogSink> start(int descriptor, OutputKind kind,
-                                        std::function<std::string(std::int64_t)> tell);
+                                        std::function<std::string(std::int64_t)> loss_text);
 
   void close();                                // at the end: waits for a moment for the remaining lines
   std::int64_t lost() const { return lost_; }  // lines; thread-safe
@@ -35,20 +35,20 @@ class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
   void flush_() override;  // writes what there is room for
 
  private:
-  LogSink(int descriptor, OutputKind kind, std::function<std::string(std::int64_t)> tell);
+  LogSink(int descriptor, OutputKind kind, std::function<std::string(std::int64_t)> loss_text);
 
   void write_file();  // until the sink is closed
   void add(const spdlog::details::log_msg& message);
   void lose_oldest();
-  void tell_of_lost();
+  void report_lost();
   bool write(std::string& line);  // returns false if it is full; the rest of the line stays in it
 
   const int descriptor_;
   const OutputKind kind_;
-  const std::function<std::string(std::int64_t)> tell_;
+  const std::function<std::string(std::int64_t)> loss_text_;
   std::deque<std::string> waiting_;
-  bool has_begun_ = false;   // the first waiting line is written in part
-  std::int64_t untold_ = 0;  // lines lost since the last report
+  bool has_begun_ = false;       // the first waiting line is written in part
+  std::int64_t unreported_ = 0;  // lines lost since the last report
   std::atomic<std::int64_t> lost_ = 0;
 
   // For a file; under the mutex of the base.

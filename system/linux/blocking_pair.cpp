@@ -81,7 +81,7 @@ std::size_t BlockingPair::read(std::span<char> space) {
   const auto began = BusyPoll::Clock::now();
   const auto found = quick_ ? read_awake(space) : std::nullopt;
   const std::size_t count = found ? *found : read_asleep(space);
-  quick_ = busy_.came_after(BusyPoll::Clock::now() - began);
+  quick_ = busy_.received_after(BusyPoll::Clock::now() - began);
   return count;
 }
 

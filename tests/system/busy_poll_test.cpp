@@ -30,9 +30,9 @@ TEST_CASE("A busy poll begins only when asked, and lasts no longer than told") {
 
 TEST_CASE("Only who asked again within that time is worth it") {
   BusyPoll busy(100us), never(0us);
-  CHECK(busy.came_after(99us));
-  CHECK_FALSE(busy.came_after(100us));
-  CHECK_FALSE(never.came_after(0us));
+  CHECK(busy.received_after(99us));
+  CHECK_FALSE(busy.received_after(100us));
+  CHECK_FALSE(never.received_after(0us));
 }
 
 TEST_CASE("What is in vain is tried ever more seldom, until it was not") {
@@ -41,7 +41,7 @@ TEST_CASE("What is in vain is tried ever more seldom, until it was not") {
   for (int turn = 0; turn < 30; ++turn) tries += looks(busy) > 0;
   CHECK(tries == 3);  // before 4, 20 and 84 that are left out
   while (!busy.again()) busy.begin();
-  for (int turn = 0; turn < 10; ++turn) busy.came_after(1ms);
+  for (int turn = 0; turn < 10; ++turn) busy.received_after(1ms);
   tries = 0;
   for (int turn = 0; turn < 6; ++turn) tries += looks(busy) > 0;
   CHECK(tries == 2);

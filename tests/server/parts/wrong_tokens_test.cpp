@@ -67,15 +67,15 @@ TEST_CASE("the wrong tokens of 4096 addresses are known") {
 TEST_CASE("a guesser counts each of its wrong tokens once") {
   WrongTokens all(1s);
   Guesser one(all, "a"), other(all, "a");
-  CHECK(one.heard(0).more == 0);
-  const auto [more, in_a_row, delay] = one.heard(2);
+  CHECK(one.update(0).more == 0);
+  const auto [more, in_a_row, delay] = one.update(2);
   CHECK(more == 2);
   CHECK(in_a_row == 2);
   CHECK(delay == 100ms + 200ms);
-  CHECK(one.heard(2).delay == 0ms);
-  CHECK(other.heard(1).in_a_row == 3);
+  CHECK(one.update(2).delay == 0ms);
+  CHECK(other.update(1).in_a_row == 3);
   other.admitted();
-  CHECK(one.heard(3).in_a_row == 1);
+  CHECK(one.update(3).in_a_row == 1);
 }
 
 TEST_CASE("the source is an address of IPv4, or 64 bits of one of IPv6") {
