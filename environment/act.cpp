@@ -63,8 +63,8 @@ void Environment::Impl::run_frame(const Presses& presses, bool draw) {
 }
 
 void Environment::Impl::step_console(bool draw) {
-  went_on = console.frame_is_open();
-  if (went_on) {
+  frame_continues = console.frame_is_open();
+  if (frame_continues) {
     const auto picture = console.picture();
     open_picture.assign(picture.begin(), picture.end());
   }

@@ -154,7 +154,7 @@ int Environment::episode_frame_number() const { return static_cast<int>(impl_->p
 int Environment::height() const { return impl_->console.height(); }
 std::span<const std::uint8_t> Environment::screen() const { return impl_->screen(); }
 std::span<const std::uint8_t> Environment::previous_screen() const {
-  if (impl_->went_on) return impl_->open_picture;
+  if (impl_->frame_continues) return impl_->open_picture;
   return impl_->console.previous_picture();
 }
 std::span<const std::uint64_t> Environment::screen_lines() const {
@@ -162,7 +162,7 @@ std::span<const std::uint64_t> Environment::screen_lines() const {
   return impl_->console.picture_lines();
 }
 std::span<const std::uint64_t> Environment::previous_screen_lines() const {
-  if (impl_->went_on) return {};
+  if (impl_->frame_continues) return {};
   return impl_->console.previous_picture_lines();
 }
 Format Environment::format() const { return impl_->console.format(); }

@@ -50,7 +50,7 @@ struct Environment::Impl {
   Drawing drawing;
 
   // A frame that took more than one step shows one picture, which changes: what it showed before the last.
-  bool went_on = false;
+  bool frame_continues = false;
   std::vector<std::uint8_t> open_picture;
 
   // With colour averaging, the screen is computed when it is first read.

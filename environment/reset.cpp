@@ -64,7 +64,7 @@ void Environment::Impl::copy_reset(const ResetEnd& end) {
   raw_rewards = {};
   play.ram_is_stale = 0;
   blend_is_due = true;
-  went_on = false;
+  frame_continues = false;
 }
 
 void Environment::Impl::run_reset() {
@@ -76,7 +76,7 @@ void Environment::Impl::run_reset() {
   for (const int action : game->starting_actions) run_frames(action, 1);
   play.rewards = {};
   raw_rewards = {};
-  went_on = false;
+  frame_continues = false;
 }
 
 // Between these frames, only the rule uses the bus (docs/spec/console.md, 4).

@@ -70,7 +70,7 @@ void Environment::Impl::restore(const Saved& saved) {
   raw_rewards = {};
   if (saved.random) random = *saved.random;
   blend_is_due = true;
-  went_on = false;
+  frame_continues = false;
 }
 
 // Two game files can have the same name and different properties.

@@ -104,7 +104,7 @@ struct Batch::Impl final : VectorHost {
   void run_all(std::size_t count, const std::function<void(std::size_t)>& task) override {
     Lookout lookout(watch);
     pool.run(count, [&](std::size_t number) {
-      if (lookout.goes_on()) task(number);
+      if (lookout.may_continue()) task(number);
     });
     lookout.check();
   }

@@ -30,7 +30,7 @@ class Lookout {
 
   // Checks on behalf of a task that runs on any thread and must not throw. False: the request has ended, and
   // the task does nothing.
-  bool goes_on() {
+  bool may_continue() {
     if (std::this_thread::get_id() == caller_ && !ended_) {
       try {
         look();

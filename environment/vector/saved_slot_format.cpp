@@ -30,7 +30,7 @@ struct SlotValues {
   std::int32_t depth, width, height;  // of the stack
   std::uint32_t machine_size;         // bytes of the machine's state
   std::uint8_t rgb;
-  std::uint8_t finished, goes_on, terminated, truncated, blends;
+  std::uint8_t finished, game_continues, terminated, truncated, blends;
   std::uint8_t has_noops;
   std::uint8_t unused;
 
@@ -58,7 +58,7 @@ void check_values(const SlotValues& values) {
               std::numeric_limits<std::int16_t>::max());
   check_flag("the flag of colours", values.rgb);
   check_flag("the flag of the episode's end", values.finished);
-  check_flag("the flag of a game that goes on", values.goes_on);
+  check_flag("the flag of a game that goes on", values.game_continues);
   check_flag("the flag of termination", values.terminated);
   check_flag("the flag of truncation", values.truncated);
   check_flag("the flag of two frames", values.blends);
@@ -81,7 +81,7 @@ std::vector<std::uint8_t> to_bytes(const Slot::Saved& saved, const Environment& 
                           static_cast<std::uint32_t>(machine.size()),
                           stack.rgb,
                           progress.finished,
-                          progress.goes_on,
+                          progress.game_continues,
                           progress.terminated,
                           progress.truncated,
                           progress.blends,
@@ -134,7 +134,7 @@ Slot::Saved saved_slot(std::span<const std::uint8_t> bytes, const Environment& e
                     .elapsed = values.elapsed,
                     .lives = values.lives,
                     .finished = values.finished != 0,
-                    .goes_on = values.goes_on != 0,
+                    .game_continues = values.game_continues != 0,
                     .terminated = values.terminated != 0,
                     .truncated = values.truncated != 0,
                     .blends = values.blends != 0};

@@ -90,17 +90,17 @@ void Slot::look_at_ends() {
 void Slot::look_at_lives() {
   const Ends ends = ends_of(environment_, settings_.life_loss);
   const bool lost_life = outcome_.lives_lost > 0 && environment_.lives() > 0;
-  const bool by_life = settings_.life_loss == LifeLoss::kEnds && (progress_.goes_on || lost_life);
+  const bool by_life = settings_.life_loss == LifeLoss::kEnds && (progress_.game_continues || lost_life);
   progress_.terminated =
       ends.terminated || by_life || (settings_.life_loss == LifeLoss::kReported && lost_life);
   progress_.truncated = ends.truncated;
-  progress_.goes_on = by_life && !environment_.game_over();
+  progress_.game_continues = by_life && !environment_.game_over();
   progress_.finished = by_life || environment_.game_over();
 }
 
 void Slot::end_episode(std::optional<std::uint32_t> seed) {
   progress_.finished = true;
-  progress_.goes_on = false;
+  progress_.game_continues = false;
   if (seed) next_seed_ = seed;
   look_at_ends();
 }
@@ -113,7 +113,7 @@ void Slot::act(const Act& act) { settings_.steps == Steps::kActs ? run_act(act) 
 
 void Slot::run_act(const Act& act) {
   const int before = environment_.frame_number();
-  if (!progress_.goes_on) environment_.act(act);
+  if (!progress_.game_continues) environment_.act(act);
   const int frames = frames_between(before, environment_.frame_number());
   if (frames == 0) {  // no reward, even if reward_min is above 0
     outcome_.over = outcome_.acts == 0;
@@ -165,7 +165,7 @@ void Slot::run_frames(const Act& act) {
   progress_.finished |= lost && settings_.life_loss == LifeLoss::kEnds;
   outcome_.lives_lost += std::max(0, progress_.lives - environment_.lives());
   progress_.lives = environment_.lives();
-  progress_.goes_on = settings_.life_loss == LifeLoss::kEnds && lost && !over && !too_long;
+  progress_.game_continues = settings_.life_loss == LifeLoss::kEnds && lost && !over && !too_long;
   progress_.terminated = over || (settings_.life_loss != LifeLoss::kIgnored && lost);
   progress_.truncated = too_long && !progress_.terminated;
   progress_.blends = pools() && (remaining == 1 || settings_.reset_order == ResetOrder::kFireNoops);
@@ -231,7 +231,7 @@ void Slot::put_back(const Saved& saved) {
   progress_.lives = environment_.lives();
   outcome_.lives_lost = 0;
   if (environment_.terminal()) progress_.finished = progress_.terminated = true;
-  if (settings_.steps == Steps::kActs) progress_.goes_on &= settings_.life_loss == LifeLoss::kEnds;
+  if (settings_.steps == Steps::kActs) progress_.game_continues &= settings_.life_loss == LifeLoss::kEnds;
   if (saved.noops) noops_.set_generator(*saved.noops);
   look_at_ends();
   if (!stack_) return;

@@ -142,11 +142,11 @@ class Slot {
  private:
   // The facts about the episode that the environment does not keep.
   struct Progress {
-    std::int64_t score = 0;  // sum of player A's rewards in this game, before clamping
-    int elapsed = 0;         // frames of play in this game
-    int lives = 0;           // after the last step
-    bool finished = false;   // the episode
-    bool goes_on = false;    // finished only by a lost life: the next episode continues the game
+    std::int64_t score = 0;       // sum of player A's rewards in this game, before clamping
+    int elapsed = 0;              // frames of play in this game
+    int lives = 0;                // after the last step
+    bool finished = false;        // the episode
+    bool game_continues = false;  // finished only by a lost life: the next episode continues the game
     bool terminated = false, truncated = false;  // how the last step ended
     bool blends = false;  // the last step ran at least two frames, so its screen blends them
   };

@@ -42,10 +42,10 @@ void Slot::reset(std::optional<std::uint32_t> seed) {
   const std::optional<std::uint32_t> next_seed = next_seed_;
   std::optional<Environment> replaced;
   if (!seed) seed = next_seed;
-  if (!seed && watcher_ != nullptr && !progress_.goes_on) seed = watcher_->next_seed();
+  if (!seed && watcher_ != nullptr && !progress_.game_continues) seed = watcher_->next_seed();
   try {
     if (seed) replaced = reload(*seed);
-    progress_.goes_on && !seed ? begin_life() : begin_episode();
+    progress_.game_continues && !seed ? begin_life() : begin_episode();
   } catch (...) {
     if (replaced) environment_ = std::move(*replaced);
     if (before) put_back(*before);

@@ -167,7 +167,7 @@ void ThreadPool::help(std::size_t own) {
     ++job->helpers;
     ++working_;
     lock.unlock();
-    quick = busy.came_after(BusyPoll::Clock::now() - idle);
+    quick = busy.received_after(BusyPoll::Clock::now() - idle);
     job->work(own);
     lock.lock();
     --working_;

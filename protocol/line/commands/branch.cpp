@@ -41,7 +41,7 @@ Slot::Saved leaf(const Slot::Saved& root, const Branching& branching,
   saved.progress.terminated = end.terminated;
   saved.progress.truncated = end.truncated;
   saved.progress.finished = branching.over();
-  saved.progress.goes_on = branching.life_ended() && !end.truncated;
+  saved.progress.game_continues = branching.life_ended() && !end.truncated;
   saved.progress.blends = false;
   return saved;
 }
