@@ -160,7 +160,7 @@ int run(int argc, char** argv) {
     std::cerr << "racebeam: " << racebeam::printable(explain(app, error)) << "\n";
     return racebeam::kExitUsage;
   } catch (const std::bad_alloc&) {
-    std::cerr << "racebeam: there is too little memory: the machine or a limit (ulimit -v) refuses more\n";
+    std::cerr << "racebeam: out of memory: the machine or a limit (ulimit -v) allows no more\n";
     return racebeam::kExitFailure;
   } catch (const std::exception& error) {
     std::cerr << "racebeam: " << racebeam::printable(error.what()) << "\n";

@@ -70,7 +70,7 @@ void add_cpu_option(Subcommand& command, CpuKind& cpu) {
        {"translator", CpuKind::kTranslator}},
       "auto",
       "How instructions are executed; auto: translated where that saves time and the system permits it; "
-      "translator: all code is translated at once, whatever that costs; interpreter: no code is");
+      "translator: all code is translated at once, at any cost; interpreter: no code is");
 }
 
 void add_machine_options(Subcommand& command, MachineOptions& options) {

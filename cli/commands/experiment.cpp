@@ -183,7 +183,7 @@ void run(const ExperimentOptions& options) {
                    [&](const Progress& at) { line.report(at); });
   } catch (const Interrupted&) {
     line.end();
-    std::fprintf(stderr, "racebeam: a signal ended the experiment; the same command goes on with it\n");
+    std::fprintf(stderr, "racebeam: a signal ended the experiment; the same command continues it\n");
     throw;
   }
   if (!line.has_reported())

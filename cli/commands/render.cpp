@@ -128,7 +128,7 @@ void run(const RenderOptions& options) {
   if (!to.has_filename()) to = to.parent_path();  // NAME/
   check_place(to);
   if (const std::string name = to.filename().string(); name[0] == '.' && media_kind(name.substr(1)))
-    throw UsageError("--to: '" + options.to + "' is only an ending; accepted: names such as a" + name);
+    throw UsageError("--to: '" + options.to + "' is only an extension; accepted: names such as a" + name);
   const std::string ending = to.extension().string();
   const auto kind = ending.empty() ? MediaKind::kPng : media_kind(ending.substr(1));
   if (!kind || ending == ".png") {

@@ -110,7 +110,7 @@ void add_limits(Subcommand& command, ServeOptions& options) {
              "Seconds without a byte after which a session on a socket is closed; 0: never");
   add_number(command, "--handshake", server.handshake_seconds, 1, "Seconds for TLS and the client's token");
   add_number(command, "--grace", server.grace_seconds, 0,
-             "Seconds that sessions have to end after the server was told to stop");
+             "Seconds that sessions have to end after the server is asked to stop");
   add_number(command, "--until-idle", server.until_idle_seconds, 0,
              "Seconds without a session after which the server stops, as on SIGTERM; 0: never");
 }

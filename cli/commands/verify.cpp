@@ -195,7 +195,8 @@ void add_verify(Subcommand& program) {
       .required();
   command.option("--table", options->tables, "A table or report that was made from them; may be repeated")
       .one_a_time();
-  add_count(command, "--rerun", options->rerun, 0, "Play so many units of the plan again, with their agents");
+  add_count(command, "--rerun", options->rerun, 0,
+            "Run this many units of the plan again, with their agents");
   command.option("--rerun-seed", options->rerun_seed, "What chooses these units: a number, or random")
       .value_name("SEED");
   add_image_options(command, options->images);

@@ -29,7 +29,7 @@ struct ServerSettings {
   int max_connections = 1 << 20;             // on sockets, those included that are being closed
   int idle_seconds = 86400;                  // timeout without a byte to or from a client; 0: never
   int handshake_seconds = 10;                // timeout for TLS and the token
-  int grace_seconds = 5;                     // until sessions end after the server was told to stop
+  int grace_seconds = 5;                     // until sessions end after the server is asked to stop
   int until_idle_seconds = 0;  // without an admitted session, after which the server stops; 0: never
 };
 

@@ -109,7 +109,7 @@ class TestExperiment:
             _, errors = process.communicate(timeout=PATIENCE)
             assert (process.returncode, errors) == (
                 -number,
-                "racebeam: a signal ended the experiment; the same command goes on with it\n",
+                "racebeam: a signal ended the experiment; the same command continues it\n",
             )
             assert (into / "results.csv").read_text().count("\n") == 1 + 19 * 3
 
@@ -172,7 +172,7 @@ class TestExperiment:
         for words, status, sentence in (
             (["no"], 1, "unknown plan 'no'; accepted: paper, hour, smoke, baselines, "),
             (["./none.toml"], 1, "plan ./none.toml: no such file"),
-            (["paper"], 1, "no image is here of: asterix, beam_rider, freeway, seaquest, space_invaders, alien, "),
+            (["paper"], 1, "no image was found of: asterix, beam_rider, freeway, seaquest, space_invaders, alien, "),
             *(
                 (
                     ["smoke", "--shard", shard, *more],

@@ -135,7 +135,7 @@ class TestRender:
             ("there.gif", None, 1, "exists; no file is replaced"),
             ("x.avi", None, 2, "accepted: .gif"),
             ("x.png", None, 2, "none for a folder of PNGs"),
-            (".gif", None, 2, ".gif' is only an ending; accepted: names such as a.gif"),
+            (".gif", None, 2, ".gif' is only an extension; accepted: names such as a.gif"),
             ("x.gif", broken, 1, "broken.episode"),
             ("x.gif", self.place / "nothing", 1, "nothing"),
             ("no/x.gif", None, 1, f"cannot make {self.place}/no/x.gif: the folder does not exist: {self.place}/no"),
