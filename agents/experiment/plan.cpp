@@ -92,7 +92,7 @@ void bind(Plan& plan, const Images& images, const std::string& version) {
   for (const std::string& name : games_without_image(plan, images))
     (missing += missing.empty() ? "" : ", ") += name;
   if (!missing.empty())
-    throw InvalidInput("no image was found of: " + missing + "; --roms names the folder that holds them");
+    throw InvalidInput("no image was found for: " + missing + "; --roms names the folder that holds them");
   for (PlanGame& game : plan.games) {
     const std::string& found = images.find(game.name)->image->md5;
     if (!game.image_md5.empty() && game.image_md5 != found)

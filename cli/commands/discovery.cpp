@@ -43,7 +43,7 @@ const Cartridge& cartridge_of(const Images& images, const DiscoveryOptions& opti
   if (!find_game(options.game))
     throw InvalidInput("unknown game '" + options.game + "';" + did_you_mean(options.game, game_names()) +
                        " racebeam games lists them");
-  throw InvalidInput("no image was found of '" + options.game + "'; --roms names the folder that holds it");
+  throw InvalidInput("no image was found for '" + options.game + "'; --roms names the folder that holds it");
 }
 
 Background background_of(const Cartridge& cartridge, DiscoveryOptions& options) {

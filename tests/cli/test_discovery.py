@@ -75,5 +75,5 @@ class TestBackground:
 
     def test_a_game_that_is_not_here_is_refused(self):
         self.refuse(1, "unknown game 'beamfal'; did you mean beamfall? racebeam games lists them", "beamfal")
-        self.refuse(1, "no image was found of 'pong'; --roms names the folder that holds it", "pong")
+        self.refuse(1, "no image was found for 'pong'; --roms names the folder that holds it", "pong")
         self.refuse(1, "background none.csv: no such file", "beamfall", "--csv", "none.csv")

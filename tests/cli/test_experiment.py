@@ -172,7 +172,7 @@ class TestExperiment:
         for words, status, sentence in (
             (["no"], 1, "unknown plan 'no'; accepted: paper, hour, smoke, baselines, "),
             (["./none.toml"], 1, "plan ./none.toml: no such file"),
-            (["paper"], 1, "no image was found of: asterix, beam_rider, freeway, seaquest, space_invaders, alien, "),
+            (["paper"], 1, "no image was found for: asterix, beam_rider, freeway, seaquest, space_invaders, alien, "),
             *(
                 (
                     ["smoke", "--shard", shard, *more],

@@ -147,7 +147,7 @@ TEST_CASE("Mistakes in a plan are named with their line") {
 TEST_CASE("All games without an image are named at once") {
   Plan plan = parse_plan("games = [\"asterix\", \"beamfall\", \"pong\"]\nagents = [\"random\"]\n", "");
   CHECK_THROWS_WITH(bind(plan, Images(), "0.1.0"),
-                    "no image was found of: asterix, pong; --roms names the folder that holds them");
+                    "no image was found for: asterix, pong; --roms names the folder that holds them");
 }
 
 TEST_CASE("A mode or a difficulty that a game lacks is refused with its line") {
