@@ -42,8 +42,9 @@ inline constexpr std::uint8_t kBiosCode[] = {
 inline constexpr std::array<std::uint8_t, kBank> kBiosRom = [] {
   std::array<std::uint8_t, kBank> rom{};
   std::copy(std::begin(kBiosCode), std::end(kBiosCode), rom.begin());
-  rom[0x7FC] = 0x0A;  // the reset vector
-  rom[0x7FD] = 0xF8;
+  constexpr std::uint8_t kVectors[] = {0x02, 0x02, 0x0A,
+                                       0xF8, 0x0A, 0xF8};  // NMI, reset, IRQ: the reference's
+  std::copy(std::begin(kVectors), std::end(kVectors), rom.end() - std::size(kVectors));
   return rom;
 }();
 

@@ -189,6 +189,14 @@ TEST_CASE("AR: the BIOS starts load 0 at its address, under its configuration") 
   CHECK(int{bench.state.cartridge.bank[0]} == 0x1C);
 }
 
+TEST_CASE("AR: BRK starts the BIOS as a reset does, as in the reference") {
+  Bench bench(ar_image(0), asking_for("AR"));
+  bench.see(0x1004);
+  bench.see(0x1FF8);  // configuration 1: bank 0 and the BIOS
+  std::uint16_t place = 0x1FFA;
+  for (const int byte : {0x02, 0x02, 0x0A, 0xF8, 0x0A, 0xF8}) expect(bench, place++, byte);
+}
+
 struct RamScheme {
   const char* name;
   std::size_t size;
