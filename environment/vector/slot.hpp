@@ -188,7 +188,7 @@ class Slot {
   void begin_episode();
   void begin_life();
   void begin_progress();
-  void begin_stack(bool goes_on, bool stepped);
+  void begin_stack(bool continues, bool stepped);
   void draw_nothing();
   void run_noops(int frames);
   void run_noops_and_fire(bool fire);  // EnvPool's order

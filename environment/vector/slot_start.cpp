@@ -109,14 +109,14 @@ void Slot::begin_life() {
       break;
   }
   if (environment_.game_over()) return begin_episode();
-  const bool goes_on = environment_.episode_frame_number() > frames;
+  const bool continues = environment_.episode_frame_number() > frames;
   environment_.begin_audio();
   begin_progress();
-  if (goes_on) {
+  if (continues) {
     progress_.score = before.score;
     progress_.elapsed = before.elapsed;
   }
-  begin_stack(goes_on, settings_.reset_order == ResetOrder::kBaselines);
+  begin_stack(continues, settings_.reset_order == ResetOrder::kBaselines);
 }
 
 void Slot::begin_progress() {
@@ -127,10 +127,10 @@ void Slot::begin_progress() {
 }
 
 // stepped: a whole step came last, so that the screen may be seen as the brighter of two frames.
-void Slot::begin_stack(bool goes_on, bool stepped) {
+void Slot::begin_stack(bool continues, bool stepped) {
   progress_.blends = stepped && pools();
   if (!stack_) return;
-  const bool keeps = settings_.stack_start == StackStart::kRepeats && goes_on;
+  const bool keeps = settings_.stack_start == StackStart::kRepeats && continues;
   if (!keeps) stack_->clear();
   show(progress_.blends);
   if (settings_.stack_start == StackStart::kRepeats && !keeps) stack_->repeat();
