@@ -104,8 +104,10 @@ class AtariEnv(EnvWithView):
         game_file: Path of a game file with the rules of `rom`, instead of `game`. Without both, the image decides; an
             unknown one has no score.
         scheme: Cartridge scheme of the image, such as "F8", or "auto". Default: that of the game.
-        left: Controller in the left port, "joystick" or "paddles". Default: that of the game.
-        right: Controller in the right port, "joystick" or "paddles". Default: that of the game.
+        left: Controller in the left port, such as "joystick" or "paddles". Default: that of the game. The
+            setting `left` of the line protocol lists them all.
+        right: Controller in the right port, such as "joystick" or "paddles". Default: that of the game. The
+            setting `right` of the line protocol lists them all.
         format: Television standard, "ntsc", "pal", "pal60", "secam" or "auto". Default: that of the game.
         ystart: First line of the picture, 0 to 50. Default: that of the game.
         height: Lines of the picture, 100 to 256. Default: that of the game.

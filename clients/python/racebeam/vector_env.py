@@ -116,8 +116,10 @@ class AtariVectorEnv(PlayedVector):
             "zeros".
         rules: "ale-0.12" for the rewards and ends of ALE 0.12, or "fixed" for corrected ones. Default: "ale-0.12".
         scheme: Cartridge scheme of the images, such as "F8", or "auto". Default: those of the games.
-        left: Controller in the left port, "joystick" or "paddles". Default: that of the game.
-        right: Controller in the right port, "joystick" or "paddles". Default: that of the game.
+        left: Controller in the left port, such as "joystick" or "paddles". Default: that of the game. The
+            setting `left` of the line protocol lists them all.
+        right: Controller in the right port, such as "joystick" or "paddles". Default: that of the game. The
+            setting `right` of the line protocol lists them all.
         format: Television standard, "ntsc", "pal", "pal60", "secam" or "auto". Default: that of the game.
         ystart: First line of the picture, 0 to 50. Default: that of the game.
         height: Lines of the picture, 100 to 256. Default: that of the game.
