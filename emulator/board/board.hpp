@@ -35,10 +35,9 @@ class Board {
   Tia tia;
   Sound sound;
   CartridgeSlot slot;
-  std::vector<std::uint8_t>
-      cartridge_ram;        // the part that does not fit into the state; empty for most schemes
-  WriteLog* log = nullptr;  // of the step that runs
-  CodeWindow code;          // where the CPU fetches; empty after the map has changed or the frame has closed
+  std::vector<std::uint8_t> cartridge_ram;  // what does not fit into the state; empty for most schemes
+  WriteLog* log = nullptr;                  // of the step that runs
+  CodeWindow code;    // where the CPU fetches; empty after the map has changed or the frame has closed
   bool stop = false;  // the CPU stops after this instruction: the frame has closed, or must be run again
 
   // Accesses of the CPU outside of plain memory. `latch` is the data bus before the access.

@@ -42,8 +42,7 @@ inline constexpr std::uint8_t kBiosCode[] = {
 inline constexpr std::array<std::uint8_t, kBank> kBiosRom = [] {
   std::array<std::uint8_t, kBank> rom{};
   std::copy(std::begin(kBiosCode), std::end(kBiosCode), rom.begin());
-  constexpr std::uint8_t kVectors[] = {0x02, 0x02, 0x0A,
-                                       0xF8, 0x0A, 0xF8};  // NMI, reset, IRQ: the reference's
+  constexpr std::uint8_t kVectors[] = {0x02, 0x02, 0x0A, 0xF8, 0x0A, 0xF8};  // as the reference's
   std::copy(std::begin(kVectors), std::end(kVectors), rom.end() - std::size(kVectors));
   return rom;
 }();
