@@ -302,16 +302,14 @@ class TestTyped:
         output = self.run_typed("load beamfall seed=7\n", "look screen\n", ":quit\n")
         assert re.search(r"ok screen=[0-9A-F]{20}\.\.\.\(\d+\)", output)
 
+    @pytest.mark.usefixtures("libedit")
     def test_history_lasts(self):
-        if not self.edits():
-            pytest.skip("built without libedit")
         self.run_typed("games all\n", ":quit\n")
         output = self.run_typed("\x1b[A\x1b[A\n", ":quit\n")  # up, up, enter
         assert "ok count=" in output
 
+    @pytest.mark.usefixtures("libedit")
     def test_the_folder_of_the_history_is_made(self):
-        if not self.edits():
-            pytest.skip("built without libedit")
         self.state = os.path.join(self.state, "state", "of programs")
         self.run_typed("games all\n", ":quit\n")
         assert "games\\040all" in pathlib.Path(self.state, "racebeam_history").read_text().splitlines()
@@ -341,9 +339,8 @@ class TestTyped:
                 printed += os.read(terminal, 65536)
         return printed.decode()
 
+    @pytest.mark.usefixtures("libedit")
     def test_the_newest_thousand_lines_are_kept(self):
-        if not self.edits():
-            pytest.skip("built without libedit")
         self.run_typed("hello\n", ":quit\n")
         path = pathlib.Path(self.state, "racebeam_history")
         heading = path.read_text().splitlines()[0]
@@ -353,19 +350,16 @@ class TestTyped:
         assert len(lines) == 1000
         assert lines[-3:] == ["act\\0401199", "stats", ":quit"]
 
+    @pytest.mark.usefixtures("libedit")
     def test_headings_of_help_are_not_completed(self):
-        if not self.edits():
-            pytest.skip("built without libedit")
         assert "commands: " not in self.visible(self.run_typed("comman\t\n", ":quit\n"))
 
+    @pytest.mark.usefixtures("libedit")
     def test_a_command_is_completed(self):
-        if not self.edits():
-            pytest.skip("built without libedit")
         assert "error no-game" in self.run_typed("difficul\t\n", ":quit\n")
 
+    @pytest.mark.usefixtures("libedit")
     def test_games_keys_fields_actions_and_states_are_completed(self):
-        if not self.edits():
-            pytest.skip("built without libedit")
         output = self.run_typed(
             "load beam\tseed=7 stic\t0 life_loss=rep\tpreset=dq\t\n",
             "act fi\t\n",
@@ -390,9 +384,8 @@ class TestTyped:
         assert "racebeam> act FIRE/RIGHT" in self.visible(output)
         assert "error" not in output
 
+    @pytest.mark.usefixtures("libedit")
     def test_shared_sessions_words_of_lists_and_choices_are_completed(self):
-        if not self.edits():
-            pytest.skip("built without libedit")
         output = self.run_typed(
             "load beamfall seed=7 sticky=0\n",
             "share somewhere\n",
@@ -416,9 +409,8 @@ class TestTyped:
             assert f"racebeam> {line}" in self.visible(output)
         assert "error" not in output
 
+    @pytest.mark.usefixtures("libedit")
     def test_a_word_that_is_offered_twice_is_completed_like_others(self):
-        if not self.edits():
-            pytest.skip("built without libedit")
         output = self.run_typed("help state\t\n", ":quit\n")  # a command, and a subject of help
         assert "racebeam> help states \n" in self.visible(output)
 
@@ -435,9 +427,8 @@ class TestTyped:
             rows.append(row)
         return "\n".join(rows)
 
+    @pytest.mark.usefixtures("libedit")
     def test_what_the_server_refuses_is_not_completed(self):
-        if not self.edits():
-            pytest.skip("built without libedit")
         assert "error no-game" in self.run_typed("act fi\t\n", ":quit\n")
 
     def test_help_has_the_width_of_the_terminal(self):
@@ -452,3 +443,9 @@ class TestTyped:
     def edits():
         """Whether the program was built with libedit."""
         return b"libedit" in subprocess.run(["ldd", BINARY], capture_output=True).stdout
+
+    @pytest.fixture
+    def libedit(self):
+        """Skips a test if the program was built without libedit."""
+        if not self.edits():
+            pytest.skip("built without libedit")
