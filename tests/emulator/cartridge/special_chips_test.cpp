@@ -189,7 +189,7 @@ TEST_CASE("AR: the BIOS starts load 0 at its address, under its configuration") 
   CHECK(int{bench.state.cartridge.bank[0]} == 0x1C);
 }
 
-TEST_CASE("AR: BRK starts the BIOS as a reset does, as in the reference") {
+TEST_CASE("AR: BRK leads to where a reset does, as in the reference") {
   Bench bench(ar_image(0), asking_for("AR"));
   bench.see(0x1004);
   bench.see(0x1FF8);  // configuration 1: bank 0 and the BIOS
