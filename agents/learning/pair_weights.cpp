@@ -11,7 +11,7 @@ namespace racebeam {
 namespace {
 
 constexpr std::int64_t kSettlesAfter = 32;  // decisions without a change
-constexpr std::int64_t kSettleEvery = 48;   // decisions
+constexpr std::int64_t kSettleEvery = 8;    // decisions
 constexpr std::size_t kRowsAhead = 12;      // rows of weights that are on their way from memory
 
 constexpr std::uint64_t history_of(std::size_t decisions) {
@@ -44,8 +44,9 @@ void add(To& to, const From& from) {
   for (std::size_t action = 0; action < to.size(); ++action) to[action] += from[action];
 }
 
-void subtract(ActionValues& from, const auto& values) {
-  for (std::size_t action = 0; action < from.size(); ++action) from[action] -= double{values[action]};
+template <typename From, typename Values>
+void subtract(From& from, const Values& values) {
+  for (std::size_t action = 0; action < from.size(); ++action) from[action] -= values[action];
 }
 
 void add_times(ActionValues& to, const ActionValues& values, double times) {
@@ -190,6 +191,9 @@ void PairWeights::take(int action) {
 void PairWeights::move(float step) {
   if (step == 0) return;
   is_deferred_ = true;
+  recent_.clear();
+  for (std::size_t action = 0; action < taken_.size(); ++action)
+    if (taken_[action] != 0) recent_.push_back(action);
   std::ranges::transform(trace_sizes_, amounts_.begin(), [step](float size) { return step * size; });
   for (const Move& move : moves_of(episode_)) of_steady_[move.action] += double{move.amount};
   group_unsettled();
@@ -205,9 +209,9 @@ void PairWeights::move(float step) {
 // How a feature moves that was active in the decisions of this history.
 std::span<const PairWeights::Move> PairWeights::moves_of(History history) {
   std::size_t count = 0;
-  const History last = history & -history;
-  for (std::size_t action = 0; action < taken_.size(); ++action) {
-    const History taken = taken_[action] & (clear_other_traces_ ? last : history);
+  if (clear_other_traces_) history &= -history;
+  for (const std::size_t action : recent_) {
+    const History taken = taken_[action] & history;
     if (taken != 0) moves_[count++] = {action, amounts_[static_cast<std::size_t>(std::countr_zero(taken))]};
   }
   return {moves_.data(), count};
@@ -271,16 +275,43 @@ void PairWeights::enter_all_moves() {
 
 // A bit settles only after its last change has left all traces.
 void PairWeights::settle() {
-  enter_all_moves();
   const std::int64_t after = std::max<std::int64_t>(kSettlesAfter, std::ssize(trace_sizes_));
-  varying_.clear();
-  std::erase_if(unsettled_, [&](Bit bit) {
-    knows_with_steady_[bit] = false;
-    is_unsettled_[bit] = now_ - changed_at_[bit] <= after;
-    if (is_one(bit)) insert(is_unsettled_[bit] ? varying_ : steady_, bit);
-    return !is_unsettled_[bit];
-  });
+  const auto settling = std::partition(unsettled_.begin(), unsettled_.end(),
+                                       [&](Bit bit) { return now_ - changed_at_[bit] <= after; });
+  for (auto left = unsettled_.end() - settling; left != 0; --left) {
+    const Bit bit = unsettled_.back();
+    unsettled_.pop_back();
+    is_unsettled_[bit] = false;
+    is_one(bit) ? enter_steady(bit) : enter_moves_with_steady(bit);
+  }
   settled_at_ = now_;
+}
+
+// The deferred moves of a bit's pairs with steady ones enter the table.
+void PairWeights::enter_moves_with_steady(Bit bit) {
+  if (!is_deferred_) return;
+  const Row moves = narrow<Row>(of_unsettled_[bit]);
+  for (const Bit other : steady_) add(table_[place(bit, other)], moves);
+}
+
+// From now on, the deferred moves of steady bits hold for the pairs of this one, too. The table subtracts
+// those that were made before.
+void PairWeights::enter_steady(Bit bit) {
+  erase(varying_, bit);
+  enter_moves_with_steady(bit);
+  const auto others = static_cast<double>(steady_.size());
+  add_times(sums_, of_unsettled_[bit], others);
+  add_times(sums_, of_steady_, -(1 + others));
+  const Row of_steady = narrow<Row>(of_steady_);
+  subtract(table_[place(bit, bit)], of_steady);
+  for (const Bit other : steady_) subtract(table_[place(bit, other)], of_steady);
+  for (const Bit other : unsettled_) {
+    Row& row = table_[place(bit, other)];
+    subtract(row, narrow<Row>(of_unsettled_[other]));
+    if (knows_with_steady_[other]) add(with_steady_[other], row);
+  }
+  for (const Bit other : varying_) subtract(sums_, of_unsettled_[other]);
+  insert(steady_, bit);
 }
 
 void PairWeights::end() { enter_all_moves(); }

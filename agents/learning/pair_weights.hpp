@@ -6,7 +6,7 @@
 // Moves are deferred. A bit that has not changed for a while is settled, any other is unsettled. All pairs of
 // two settled bits move alike, so that one number an action tells how far. So do all pairs of a settled bit
 // with the same unsettled one. Only pairs of two unsettled bits are moved one by one. What was deferred
-// enters the table where a settled bit changes, and from time to time.
+// enters the table where a bit settles, where a settled one changes, and at the end of an episode.
 #pragma once
 
 #include <array>
@@ -80,6 +80,8 @@ class PairWeights {
   void enter_moves_of(Bit bit);
   void enter_all_moves();
   void settle();
+  void enter_moves_with_steady(Bit bit);
+  void enter_steady(Bit bit);
   void group_unsettled();
   std::span<const Move> moves_of(History history);
   void move_pairs(const Group& one, const Group& other, std::span<const Move> moves);
@@ -106,6 +108,7 @@ class PairWeights {
 
   History episode_ = 0;                    // has a bit for each of the last decisions of the episode
   std::array<History, kActions> taken_{};  // in which of them each action was taken
+  std::vector<std::size_t> recent_;        // the actions that were taken in any of them
   std::vector<float> amounts_;             // of a move, by age
   std::vector<Group> groups_;
   std::size_t group_count_ = 0;
