@@ -9,27 +9,8 @@
 namespace racebeam {
 namespace {
 
-// The names of opcodes.inc.
-// NOLINTBEGIN(readability-identifier-naming)
-// clang-format off
-enum class Mode : std::uint8_t {
-  implied, accumulator, relative, immediate, zero_page, zero_page_x, zero_page_y, absolute, absolute_x, absolute_y,
-  indirect_x, indirect_y, indirect
-};
-// clang-format on
-enum class Kind : std::uint8_t { Read, Write, Modify, Immediate, Accumulator, Implied, Jump, Branch };
-// NOLINTEND(readability-identifier-naming)
-
-struct Shape {
-  Mode mode;
-  Kind kind;
-};
-
-constexpr std::array<Shape, 256> kShapes = {{
-#define OP(code, operation, mode, access, cycles) {Mode::mode, Kind::access},
-#include "emulator/base/opcodes.inc"
-#undef OP
-}};
+using opcode::Mode;
+using Kind = opcode::Access;
 
 // Plain memory; null if a device is there.
 const std::uint8_t* byte_at(const Board& board, unsigned address) {
@@ -42,9 +23,9 @@ class Operand {
  public:
   explicit Operand(const Board& board) : board_(board) {
     const CpuState& cpu = board.state.cpu;
-    const std::uint8_t *opcode = byte_at(board, cpu.PC), *low = byte_at(board, cpu.PC + 1U),
+    const std::uint8_t *code = byte_at(board, cpu.PC), *low = byte_at(board, cpu.PC + 1U),
                        *high = byte_at(board, cpu.PC + 2U);
-    if (opcode != nullptr && low != nullptr && high != nullptr) find(kShapes[*opcode], *low, *high, cpu);
+    if (code != nullptr && low != nullptr && high != nullptr) find(kOpcodes[*code], *low, *high, cpu);
   }
 
   // last: the byte on the bus behind the instruction.
@@ -66,10 +47,10 @@ class Operand {
     if (kind_ != Kind::Read) add(address, kind_ == Kind::Write ? before : std::uint8_t{0}, true);
   }
 
-  void find(Shape shape, std::uint8_t low, std::uint8_t high, const CpuState& cpu) {
+  void find(const Opcode& row, std::uint8_t low, std::uint8_t high, const CpuState& cpu) {
     const unsigned word = low | high * 256U;
-    kind_ = shape.kind;
-    switch (shape.mode) {
+    kind_ = row.access;
+    switch (row.mode) {
       case Mode::zero_page: use(low, low); break;
       case Mode::zero_page_x: use((low + cpu.X) & 0xFFU, low); break;
       case Mode::zero_page_y: use((low + cpu.Y) & 0xFFU, low); break;

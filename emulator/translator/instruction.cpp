@@ -1,30 +1,10 @@
 #include "emulator/translator/instruction.hpp"
 
-#include <array>
-
-#include "emulator/base/opcodes.hpp"
-
 namespace racebeam::translator {
-namespace {
-
-struct OpcodeRow {
-  Operation operation;
-  Mode mode;
-  Access access;
-  std::uint8_t cycles;
-};
-
-constexpr std::array<OpcodeRow, 256> kRows = {{
-#define OP(code, operation, mode, access, cycles) {Operation::operation, Mode::mode, Access::access, cycles},
-#include "emulator/base/opcodes.inc"
-#undef OP
-}};
-
-}  // namespace
 
 Instruction decode(const std::uint8_t* bytes, std::uint16_t pc) {
-  const OpcodeRow& row = kRows[bytes[0]];
-  const std::uint8_t length = row.operation == Operation::jsr ? 3 : kOpcodes[bytes[0]].length;
+  const Opcode& row = kOpcodes[bytes[0]];
+  const std::uint8_t length = row.operation == Operation::jsr ? 3 : row.length;
   const unsigned low = length > 1 ? bytes[1] : 0U, high = length > 2 ? bytes[2] : 0U;
   return {pc,
           row.operation,

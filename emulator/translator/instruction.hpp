@@ -3,110 +3,13 @@
 
 #include <cstdint>
 
+#include "emulator/base/opcodes.hpp"
+
 namespace racebeam::translator {
 
-// Enumerators are named as in opcodes.inc, which the interpreter's functions have to match, too.
-// NOLINTBEGIN(readability-identifier-naming)
-enum class Mode : std::uint8_t {
-  implied,
-  accumulator,
-  relative,
-  immediate,
-  zero_page,
-  zero_page_x,
-  zero_page_y,
-  absolute,
-  absolute_x,
-  absolute_y,
-  indirect_x,
-  indirect_y,
-  indirect
-};
-
-enum class Operation : std::uint8_t {
-  // documented
-  adc,
-  and_,
-  asl,
-  bcc,
-  bcs,
-  beq,
-  bit,
-  bmi,
-  bne,
-  bpl,
-  brk,
-  bvc,
-  bvs,
-  clc,
-  cld,
-  cli,
-  clv,
-  cmp,
-  cpx,
-  cpy,
-  dec,
-  dex,
-  dey,
-  eor,
-  inc,
-  inx,
-  iny,
-  jmp,
-  jsr,
-  lda,
-  ldx,
-  ldy,
-  lsr,
-  nop,
-  ora,
-  pha,
-  php,
-  pla,
-  plp,
-  rol,
-  ror,
-  rti,
-  rts,
-  sbc,
-  sec,
-  sed,
-  sei,
-  sta,
-  stx,
-  sty,
-  tax,
-  tay,
-  tsx,
-  txa,
-  txs,
-  tya,
-  // undocumented
-  anc,
-  ane,
-  arr,
-  asr,
-  dcp,
-  isb,
-  jam,
-  las,
-  lax,
-  lxa,
-  rla,
-  rra,
-  sax,
-  sbx,
-  sha,
-  shs,
-  shx,
-  shy,
-  slo,
-  sre
-};
-
-// How the operation accesses memory: the fourth column of opcodes.inc.
-enum class Access : std::uint8_t { Read, Immediate, Write, Modify, Accumulator, Implied, Jump, Branch };
-// NOLINTEND(readability-identifier-naming)
+using opcode::Access;
+using opcode::Mode;
+using opcode::Operation;
 
 struct Instruction {
   std::uint16_t pc;

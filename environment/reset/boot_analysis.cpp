@@ -5,10 +5,14 @@
 #include <bitset>
 #include <optional>
 
+#include "emulator/base/opcodes.hpp"
 #include "emulator/tia/registers/registers.hpp"
 
 namespace racebeam {
 namespace {
+
+using opcode::Mode;
+using opcode::Operation;
 
 constexpr int kMostInstructions = 20000;
 constexpr std::array<std::string_view, 8> kPlainSchemes = {"2K", "4K", "F8", "F8 swapped",
@@ -23,7 +27,7 @@ class BootAnalysis {
 
   BootFacts facts() {
     try {
-      for (int n = 0; n < kMostInstructions && !all_known(); ++n) execute(fetch());
+      for (int n = 0; n < kMostInstructions && !all_known(); ++n) execute(kOpcodes[fetch()]);
     } catch (Unknown) {
     }
     return {ram_known_.all(), timer_known_, sound_known_.all()};
@@ -62,8 +66,20 @@ class BootAnalysis {
     const unsigned low = fetch();
     return low | static_cast<unsigned>(fetch()) << 8;
   }
-  unsigned zero_page(std::uint8_t index = 0) { return (fetch() + index) & 0xFF; }
-  unsigned absolute(std::uint8_t index = 0) { return (fetch_word() + index) & 0xFFFF; }
+
+  // Pointers in memory are not followed.
+  unsigned address(Mode mode) {
+    switch (mode) {
+      case Mode::zero_page: return fetch();
+      case Mode::zero_page_x: return (fetch() + x_) & 0xFFU;
+      case Mode::zero_page_y: return (fetch() + y_) & 0xFFU;
+      case Mode::absolute: return fetch_word();
+      case Mode::absolute_x: return (fetch_word() + x_) & 0xFFFFU;
+      case Mode::absolute_y: return (fetch_word() + y_) & 0xFFFFU;
+      default: throw Unknown{};
+    }
+  }
+  std::uint8_t operand(Mode mode) { return mode == Mode::immediate ? fetch() : read(address(mode)); }
 
   void set(std::uint8_t& to, std::uint8_t value) { result_ = to = value; }
   void change(unsigned address, int by) {
@@ -100,7 +116,7 @@ class BootAnalysis {
     pc_ = static_cast<std::uint16_t>((low | static_cast<unsigned>(pull()) << 8) + 1);
   }
 
-  void execute(std::uint8_t opcode);
+  void execute(const Opcode& opcode);
 
   const Console& console_;
   std::uint16_t pc_;
@@ -114,62 +130,54 @@ class BootAnalysis {
 };
 
 // clang-format off
-void BootAnalysis::execute(std::uint8_t opcode) {
-  switch (opcode) {
-    case 0x78: case 0xD8: case 0xB8: case 0xEA: return;  // SEI CLD CLV NOP
-    case 0x18: carry_ = false; return;                   // CLC
-    case 0x38: carry_ = true; return;                    // SEC
-    case 0xA9: return set(a_, fetch());                  // LDA LDX LDY #
-    case 0xA2: return set(x_, fetch());
-    case 0xA0: return set(y_, fetch());
-    case 0xA5: return set(a_, read(zero_page()));        // LDA LDX LDY zp, zp,X
-    case 0xA6: return set(x_, read(zero_page()));
-    case 0xA4: return set(y_, read(zero_page()));
-    case 0xB5: return set(a_, read(zero_page(x_)));
-    case 0xAD: return set(a_, read(absolute()));         // LDA abs, abs,X, abs,Y
-    case 0xBD: return set(a_, read(absolute(x_)));
-    case 0xB9: return set(a_, read(absolute(y_)));
-    case 0xAE: return set(x_, read(absolute()));         // LDX LDY abs
-    case 0xAC: return set(y_, read(absolute()));
-    case 0x85: return write(zero_page(), a_);            // STA STX STY zp, zp,X
-    case 0x86: return write(zero_page(), x_);
-    case 0x84: return write(zero_page(), y_);
-    case 0x95: return write(zero_page(x_), a_);
-    case 0x94: return write(zero_page(x_), y_);
-    case 0x8D: return write(absolute(), a_);             // STA STX STY abs, abs,X, abs,Y
-    case 0x8E: return write(absolute(), x_);
-    case 0x8C: return write(absolute(), y_);
-    case 0x9D: return write(absolute(x_), a_);
-    case 0x99: return write(absolute(y_), a_);
-    case 0xAA: return set(x_, a_);                       // TAX TXA TAY TYA TSX TXS
-    case 0x8A: return set(a_, x_);
-    case 0xA8: return set(y_, a_);
-    case 0x98: return set(a_, y_);
-    case 0xBA: return set(x_, sp_);
-    case 0x9A: sp_ = x_; return;
-    case 0xE8: return set(x_, static_cast<std::uint8_t>(x_ + 1));  // INX DEX INY DEY
-    case 0xCA: return set(x_, static_cast<std::uint8_t>(x_ - 1));
-    case 0xC8: return set(y_, static_cast<std::uint8_t>(y_ + 1));
-    case 0x88: return set(y_, static_cast<std::uint8_t>(y_ - 1));
-    case 0xE6: return change(zero_page(), 1);            // INC DEC zp
-    case 0xC6: return change(zero_page(), -1);
-    case 0x29: return set(a_, a_ & fetch());             // AND ORA EOR #
-    case 0x09: return set(a_, a_ | fetch());
-    case 0x49: return set(a_, a_ ^ fetch());
-    case 0xC9: return compare(a_, fetch());              // CMP CPX CPY #
-    case 0xE0: return compare(x_, fetch());
-    case 0xC0: return compare(y_, fetch());
-    case 0xD0: return branch(!zero());                   // BNE BEQ BPL BMI BCC BCS
-    case 0xF0: return branch(zero());
-    case 0x10: return branch(!negative());
-    case 0x30: return branch(negative());
-    case 0x90: return branch(!known(carry_));
-    case 0xB0: return branch(known(carry_));
-    case 0x48: return push(a_);                          // PHA PLA
-    case 0x68: return set(a_, pull());
-    case 0x4C: pc_ = static_cast<std::uint16_t>(fetch_word()); return;  // JMP JSR RTS
-    case 0x20: return call();
-    case 0x60: return return_from_call();
+void BootAnalysis::execute(const Opcode& opcode) {
+  const Mode mode = opcode.mode;
+  switch (opcode.operation) {
+    case Operation::lda: return set(a_, operand(mode));
+    case Operation::ldx: return set(x_, operand(mode));
+    case Operation::ldy: return set(y_, operand(mode));
+    case Operation::sta: return write(address(mode), a_);
+    case Operation::stx: return write(address(mode), x_);
+    case Operation::sty: return write(address(mode), y_);
+
+    case Operation::tax: return set(x_, a_);
+    case Operation::txa: return set(a_, x_);
+    case Operation::tay: return set(y_, a_);
+    case Operation::tya: return set(a_, y_);
+    case Operation::tsx: return set(x_, sp_);
+    case Operation::txs: sp_ = x_; return;
+
+    case Operation::inx: return set(x_, static_cast<std::uint8_t>(x_ + 1));
+    case Operation::dex: return set(x_, static_cast<std::uint8_t>(x_ - 1));
+    case Operation::iny: return set(y_, static_cast<std::uint8_t>(y_ + 1));
+    case Operation::dey: return set(y_, static_cast<std::uint8_t>(y_ - 1));
+    case Operation::inc: return change(address(mode), 1);
+    case Operation::dec: return change(address(mode), -1);
+
+    case Operation::and_: return set(a_, a_ & operand(mode));
+    case Operation::ora: return set(a_, a_ | operand(mode));
+    case Operation::eor: return set(a_, a_ ^ operand(mode));
+    case Operation::cmp: return compare(a_, operand(mode));
+    case Operation::cpx: return compare(x_, operand(mode));
+    case Operation::cpy: return compare(y_, operand(mode));
+
+    case Operation::bne: return branch(!zero());
+    case Operation::beq: return branch(zero());
+    case Operation::bpl: return branch(!negative());
+    case Operation::bmi: return branch(negative());
+    case Operation::bcc: return branch(!known(carry_));
+    case Operation::bcs: return branch(known(carry_));
+
+    case Operation::pha: return push(a_);
+    case Operation::pla: return set(a_, pull());
+    case Operation::jmp: pc_ = static_cast<std::uint16_t>(address(mode)); return;
+    case Operation::jsr: return call();
+    case Operation::rts: return return_from_call();
+
+    case Operation::clc: carry_ = false; return;
+    case Operation::sec: carry_ = true; return;
+    case Operation::sei: case Operation::cld: case Operation::clv: return;
+    case Operation::nop: if (mode == Mode::implied) return; throw Unknown{};
     default: throw Unknown{};
   }
 }
