@@ -17,7 +17,9 @@ SOURCE = pathlib.Path(__file__).resolve().parent
 SKIPPED = 77  # the exit status that ctest reads as "skipped"
 
 os.environ.setdefault("RACEBEAM_BINARY", str(SOURCE / "build/release/racebeam"))
-sys.path[:0] = [str(SOURCE / folder) for folder in ("tests/server", "tests/support", "scripts/measure")]
+sys.path[:0] = [
+    str(SOURCE / folder) for folder in ("tests/server", "tests/support", "scripts/measure", "scripts/measure/load")
+]
 
 import harness  # noqa: E402
 

@@ -1,4 +1,5 @@
-"""Draws ratios as SVG: of all games, a bar for each, the shortest first; and a summary, a bar for each setting."""
+"""Draws figures as SVG: ratios of all games, a bar for each, the shortest first; a summary, a bar for each setting; and
+the course of figures over time."""
 
 import html
 import math
@@ -66,4 +67,34 @@ def draw_summary(means, games):
             f'<rect x="{left}" y="{y + 2}" width="{ratio * scale:.1f}" height="{row - 10}" fill="{colour}"/>',
             text(left + ratio * scale + 6, y + 17, f"{ratio:.1f}", 12, weight="bold"),
         ]
+    return "\n".join([*parts, "</svg>"]) + "\n"
+
+
+def draw_course(hours, rows, headings):
+    """Returns the course of figures over time as SVG text, a panel for each of them.
+
+    hours: the time of each row. rows: {column: value}, one for each time. headings: {column: what it is}."""
+    panel, left, width = 110, 60, 640
+    height = 20 + len(headings) * panel
+    end = max(hours)
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + width + RIGHT}" height="{height}" '
+        f'font-family="sans-serif">',
+        '<rect width="100%" height="100%" fill="white"/>',
+    ]
+    for number, (column, heading) in enumerate(headings.items()):
+        values = [row[column] for row in rows]
+        top, bottom, most = number * panel + 28, (number + 1) * panel, max(*values, 1e-9)
+        points = " ".join(
+            f"{left + width * hour / end:.1f},{bottom - (bottom - top) * value / most:.1f}"
+            for hour, value in zip(hours, values, strict=True)
+        )
+        parts += [
+            text(left, top - 8, f"{heading}: at most {max(values):.4g}", weight="bold"),
+            *(f'<line x1="{left}" y1="{y}" x2="{left + width}" y2="{y}" stroke="{LINE}"/>' for y in (top, bottom)),
+            text(left - 6, top + 4, f"{most:.4g}", 10, "end"),
+            text(left - 6, bottom + 4, "0", 10, "end"),
+            f'<polyline points="{points}" fill="none" stroke="{BAR}"/>',
+        ]
+    parts += [text(left, height - 5, "0", 10, "middle"), text(left + width, height - 5, f"{end:.2f} h", 10, "middle")]
     return "\n".join([*parts, "</svg>"]) + "\n"

@@ -20,7 +20,6 @@ LEFT_OUT = {
     "scripts/demo": "tests/cli/test_demo.py runs it",
     "scripts/evaluation": "a test of ctest",
     "scripts/instructions": "a test of ctest",
-    "scripts/load": "it measures, on a quiet machine",
     "scripts/reference": "scripts/test runs it",
     "scripts/run-tests": "scripts/test runs it",
     "scripts/setup": "it installs",

@@ -150,6 +150,8 @@ class Helper:
         self.answers, back = multiprocessing.Pipe()
         self.process = multiprocessing.Process(target=function, args=(*arguments, there, back), daemon=True)
         self.process.start()
+        there.close()  # so that ask() fails once the process has ended
+        back.close()
 
     def ask(self):
         self.requests.send(None)
