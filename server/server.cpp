@@ -25,9 +25,9 @@ namespace {
 namespace net = boost::asio;
 using namespace std::chrono_literals;
 
-// Times after the grace period: to say farewell, to send pending bytes, to finish recordings. With the
-// Recorder's own limit, no more than a second in total.
-constexpr auto kBetweenSteps = 5ms;  // of the end
+// Times after the grace period: to send each client a last error, to send pending bytes, to finish
+// recordings. Together with the Recorder's own limit, they are a second at most.
+constexpr auto kBetweenSteps = 5ms;  // between two checks of whether all has ended
 constexpr auto kFarewell = 700ms, kLastBytes = 100ms, kLastFrames = 50ms;
 
 std::shared_ptr<Recorder> recorder_of(const Services& services) {
@@ -42,14 +42,14 @@ class Server {
  private:
   void start();
   void open_http();
-  void tell_limits() const;       // to the log
+  void tell_limits() const;       // writes the limits to the log
   int files_for_clients() const;  // throws std::runtime_error if no file is left
-  void publish();                 // the ready file and the announce file
+  void publish();                 // writes the ready file and the announce file
   std::string announcement() const;
   Task<> obey();  // handles signals
   Task<> stop_when_idle();
-  void stop(const std::string& reason);  // for the log
-  Task<> wind_down();                    // waits for the grace period, then ends all
+  void stop(const std::string& reason);  // `reason` is for the log
+  Task<> wind_down();                    // waits for the grace period, then ends all sessions
   Task<> look_again();
   Task<> end_with_recordings();
   bool sessions_ended() const;
@@ -73,7 +73,7 @@ class Server {
   std::list<StreamSession> streams_;
   std::unique_ptr<Http> http_;
   bool told_to_stop_ = false, patient_ = true;
-  std::string reason_;              // to stop; empty once it is logged
+  std::string reason_;              // why the server stops; empty once it is logged
   Clock::time_point grace_;         // the end of the grace period, once the server is told to stop
   std::atomic<bool> ready_ = true;  // for /readyz
 };
@@ -114,9 +114,9 @@ void Server::tell_limits() const {
   log("caches: " + settings_.caches, {{"event", "caches"}});
 }
 
-// Returns how many files are left for clients. If the process may open few, these are the ones that are not
-// open yet, except some: a client that is refused takes one, too, and so do --http and the token file. The
-// settings have accounted for many.
+// Returns how many files are left for clients. If the process may open only few, these are the files that are
+// not open yet, less a reserve: a client that is refused takes one, too, and so do --http and the token file.
+// If it may open many, the settings have already limited the number of sessions.
 int Server::files_for_clients() const {
   constexpr std::uint64_t kMany = 1024, kOthers = 4;
   const std::uint64_t files = usable_files();
@@ -154,7 +154,7 @@ void Server::start() {
       insist([this] { keep_running(first_, "the end", [this] { return end_with_recordings(); }); });
     });
   }
-  publish();  // may be refused
+  publish();  // may throw
   for (StreamSession& stream : streams_) stream.begin();
   notify_manager("READY=1");
 }
@@ -169,7 +169,7 @@ void Server::open_http() {
 }
 
 int Server::run() {
-  loops_.start();  // the first: whoever reads that the server is ready finds a thread
+  loops_.start();  // first, so that a client that reads that the server is ready finds a thread
   keep_running(first_, "handling signals", [this] { return obey(); });
   if (settings_.until_idle_seconds > 0)
     keep_running(first_, "looking for sessions", [this] { return stop_when_idle(); });
@@ -191,8 +191,8 @@ Task<> Server::obey() {
   }
 }
 
-// Only admitted sessions count as use: strangers who knock keep no server alive. Sessions that come and go
-// between two looks are seen in the number of all.
+// Only admitted sessions count as use: clients without a token do not keep a server alive. A session that
+// comes and goes between two checks shows in the total number of admitted sessions.
 Task<> Server::stop_when_idle() {
   const auto limit = std::chrono::seconds(settings_.until_idle_seconds);
   net::steady_timer timer(first_);
@@ -207,7 +207,7 @@ Task<> Server::stop_when_idle() {
   if (!told_to_stop_) stop("no session for " + std::to_string(settings_.until_idle_seconds) + " seconds");
 }
 
-// The signal has come, and comes only once.
+// Does not fail, since the signal that asks the server to stop may not come again.
 void Server::stop(const std::string& reason) {
   grace_ = Clock::now() + std::chrono::seconds(settings_.grace_seconds);
   insist([&] {
@@ -219,7 +219,8 @@ void Server::stop(const std::string& reason) {
 
 Task<> Server::look_again() { return pause(first_, kBetweenSteps); }
 
-// After the last session. Unless the server is told to stop, recordings take as long as they need.
+// Ends the server after the last session. Unless the server is told to stop, recordings take as long as they
+// need.
 Task<> Server::end_with_recordings() {
   if (!sessions_ended()) co_return;
   while (!all_ended()) co_await look_again();

@@ -61,8 +61,8 @@ std::optional<TcpAddress> parse_tcp(std::string_view text) {
   return TcpAddress{host, *port};
 }
 
-// A path may have the form of a URL: unix:///run/s is /run/s. So is unix:////run/s, and the path that is
-// written must not begin with two slashes.
+// A path may have the form of a URL: unix:///run/s stands for /run/s. unix:////run/s does so, too: the result
+// must not begin with two slashes.
 std::string path_of(std::string_view text) {
   cut(text, "//");
   while (text.starts_with("//")) text.remove_prefix(1);

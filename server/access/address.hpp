@@ -23,21 +23,21 @@ struct UnixAddress {
   std::string path;
 };
 
-// Sockets that systemd has opened: all, or those of a name (systemd.socket(5), FileDescriptorName).
+// Sockets that systemd has opened: all, or those with a name (systemd.socket(5), FileDescriptorName).
 struct InheritedAddress {
   std::string name;
 };
 
 struct StandardStreams {};
 
-// PREFIX_out for replies and PREFIX_in for requests. The server makes missing pipes, and removes them at its
-// end.
+// Named pipes: PREFIX_out for replies and PREFIX_in for requests. The server makes missing pipes, and removes
+// these when it ends.
 struct Pipes {
   std::string prefix;
 };
 
 // ale_fifo_out and ale_fifo_in, which the client creates. If ale_fifo_out is missing, the server writes a
-// regular file of that name, as the classic server does; if ale_fifo_in is missing, it ends.
+// regular file of that name, as ALE does; if ale_fifo_in is missing, the server ends.
 struct AlePipes {};
 
 using Address = std::variant<TcpAddress, UnixAddress, InheritedAddress, StandardStreams, Pipes, AlePipes>;
@@ -50,8 +50,8 @@ struct Endpoint {
 };
 
 // Parses [classic+][tls+]ADDRESS, where ADDRESS is tcp://HOST:PORT, unix:PATH, systemd, systemd:NAME, stdio
-// or pipes:PREFIX. tls:// is short for tls+tcp://. Also parses ws://HOST:PORT and wss://HOST:PORT, which take
-// nothing before them. Throws std::invalid_argument with a sentence.
+// or pipes:PREFIX. tls:// is short for tls+tcp://. Also parses ws://HOST:PORT and wss://HOST:PORT, which do
+// not take a prefix. Throws std::invalid_argument with a sentence.
 Endpoint parse_endpoint(const std::string& text);
 
 TcpAddress parse_host_and_port(const std::string& text);  // throws std::invalid_argument
@@ -60,8 +60,8 @@ TcpAddress parse_host_and_port(const std::string& text);  // throws std::invalid
 std::string to_string(const Address& address);
 std::string to_string(const Endpoint& endpoint);
 
-bool is_ip_address(const std::string& host);  // not a name
-bool is_stream(const Address& address);       // one session, over streams that block
-bool is_loopback(const std::string& host);    // an IP address, only reachable from this machine
+bool is_ip_address(const std::string& host);  // false for a name
+bool is_stream(const Address& address);       // whether it has a single session, over streams that block
+bool is_loopback(const std::string& host);    // whether it is an IP address that only this machine can reach
 
 }  // namespace racebeam

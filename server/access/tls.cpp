@@ -28,7 +28,7 @@ std::shared_ptr<ssl::context> Tls::context() const {
 std::shared_ptr<ssl::context> Tls::read() const {
   auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
   context->set_options(ssl::context::no_tlsv1 | ssl::context::no_tlsv1_1 | ssl::context::no_compression);
-  // No one can be asked for the password of a key.
+  // A server cannot ask anyone for the password of a key.
   context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string(); });
   error_code error;
   constexpr std::size_t kLargestFile = 1 << 20;
@@ -38,7 +38,7 @@ std::shared_ptr<ssl::context> Tls::read() const {
   if (error) throw std::runtime_error("cannot use the certificate " + certificate_ + ": " + error.message());
   context->use_private_key(boost::asio::buffer(key), ssl::context::pem, error);
   if (error) throw std::runtime_error("cannot use the key " + key_ + ": " + error.message());
-  // A key of another kind than the certificate's is not compared with it when it is loaded.
+  // When OpenSSL loads a key of another type than the certificate's, it does not compare the two.
   if (SSL_CTX_check_private_key(context->native_handle()) != 1)
     throw std::runtime_error("the key " + key_ + " does not belong to the certificate " + certificate_);
   return context;

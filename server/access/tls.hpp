@@ -16,7 +16,7 @@ class Tls {
   // Throws std::runtime_error with a sentence.
   Tls(std::string certificate, std::string key);
 
-  void read_again();  // throws as the constructor, and then changes nothing
+  void read_again();  // throws like the constructor, and then does not change anything
 
   // The context for a new connection, which holds it during its lifetime.
   std::shared_ptr<boost::asio::ssl::context> context() const;

@@ -13,14 +13,14 @@ namespace racebeam {
 class Tokens {
  public:
   // Reads a file with one token a line: 16 to 1024 printable characters without blanks. Empty lines, and
-  // lines that begin with #, are ignored. Throws std::runtime_error with a sentence that names the line.
-  // An empty path: no file. own: admitted as well; empty: none.
+  // lines that begin with #, are ignored. Throws std::runtime_error with a sentence that names the line. If
+  // the path is empty, there is no file. own: another token that is admitted, or empty.
   explicit Tokens(std::string path, const std::string& own = {});
 
-  void read_again();  // throws as the constructor, and then changes nothing
+  void read_again();  // throws like the constructor, and then does not change anything
   std::size_t count() const;
 
-  // Thread-safe. The time does not depend on how much of the token is right.
+  // Thread-safe. The time that it takes does not depend on how much of the token is right.
   bool admits(std::string_view token) const;
 
  private:
@@ -32,7 +32,7 @@ class Tokens {
   std::string path_;
   std::vector<Digest> own_;  // at most one
   mutable std::mutex mutex_;
-  std::vector<Digest> digests_;  // SHA-256: all have one length, so that comparisons take constant time
+  std::vector<Digest> digests_;  // SHA-256: all have the same length, so that comparisons take constant time
 };
 
 std::string random_token();  // 64 hexadecimal digits

@@ -1,6 +1,6 @@
-// Slows down clients that guess tokens. The answer to a wrong token is delayed by 100 ms, doubled with each
-// consecutive wrong token from the same address, over any connection. Right tokens are answered at once:
-// clients that share the address of a guesser are not locked out. A delay blocks no thread.
+// Slows down clients that guess tokens. The answer to a wrong token is delayed by 100 ms. The delay doubles
+// with each consecutive wrong token from the same address, over any connection. Right tokens are answered at
+// once: clients that share the address of a guesser are not locked out. A delay blocks no thread.
 #pragma once
 
 #include <chrono>
@@ -27,7 +27,7 @@ class WrongTokens {
   static std::string source_of(const boost::asio::ip::address& address);
 
   struct Verdict {
-    int in_a_row = 0;  // wrong tokens from there
+    int in_a_row = 0;  // consecutive wrong tokens from the source
     Delay delay{};     // of the answer
   };
   Verdict count(const std::string& source);  // reports a wrong token
@@ -55,7 +55,7 @@ class Guesser {
   int wrong() const { return wrong_; }  // tokens
 
   struct Update {
-    int more = 0;  // wrong tokens than before
+    int more = 0;  // number of wrong tokens since the last call
     int in_a_row = 0;
     WrongTokens::Delay delay{};
   };

@@ -1,5 +1,5 @@
-// Who may open a session: tokens, the certificate, and origins of pages. Sessions refer to it, so it outlives
-// the loops that they run on.
+// Decides who may open a session: tokens, the certificate, and origins of pages. Sessions refer to it, so it
+// must outlive the loops that they run on.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ namespace racebeam {
 
 class AccessControl {
  public:
-  // own_token: admitted besides those of the token file; empty: none. The other parameters must outlive it.
-  // Throws std::runtime_error if a file is wrong.
+  // own_token: a token that is admitted besides those of the token file, or empty. The other parameters must
+  // outlive this object. Throws std::runtime_error if a file is wrong.
   AccessControl(const ServerSettings& settings, const Services& services, const std::string& own_token);
   AccessControl(const AccessControl&) = delete;
   AccessControl& operator=(const AccessControl&) = delete;
@@ -28,14 +28,14 @@ class AccessControl {
   bool requires_token() const { return tokens_.has_value(); }
   const Service& guarded() const {
     return guarded_ ? *guarded_ : *services_.line;
-  }  // a token, if one is required
+  }  // a client needs a token, if one is required
   bool guards(const Service& service) const { return guarded_ && &service == &*guarded_; }
   const std::optional<Tls>& tls() const { return tls_; }
   const Site& site() const { return site_; }  // of ws:// and wss:// addresses
   WrongTokens& wrong_tokens() { return wrong_tokens_; }
 
-  // Which pages may open a session over HTTP. Nothing: none may, because other machines can reach the server,
-  // and it requires no token, or because it does not speak the line protocol.
+  // Returns the rules for pages that open a session over HTTP. Returns nothing if no page may: other machines
+  // can reach the server and it does not require a token, or it does not speak the line protocol.
   std::optional<OriginRules> session_rules(bool is_loopback) const;
 
  private:

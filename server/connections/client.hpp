@@ -32,7 +32,7 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  void enter_loop();  // adds it to the loop's clients
+  void enter_loop();  // adds this client to the loop's clients
   void left();
 
   void is_active() {
@@ -42,16 +42,16 @@ class Client {
   void received(std::size_t bytes);
   void sent(std::size_t bytes);
 
-  // Ends the session: cancels what it waits for, and sends it the error. A client that does not read the
-  // error within two seconds is disconnected by the next end().
+  // Ends the session: cancels what it waits for, so that it sends the error to the client. If the client has
+  // not read the error within two seconds, the next call of end() disconnects it.
   void end(ErrorCode code, const std::string& sentence);
   bool ending() const { return !farewell_.empty(); }
   const std::string& farewell() const { return farewell_; }  // a reply of the line protocol
   ErrorCode code() const { return code_; }                   // of the farewell
   const std::string& reason() const { return reason_; }      // for the log
 
-  // What the session takes of the budget is a part of what its owner takes: a user of this machine, or an
-  // address. Null if it is unlimited.
+  // The session's part of the budget of its owner, which is a user of this machine, or an address. Null if
+  // memory is unlimited.
   const std::shared_ptr<MemoryBudget>& memory() const { return budget_; }
 
   // A reply of this many bytes is being sent. sent() reports how many were sent.
@@ -59,9 +59,9 @@ class Client {
   std::size_t unsent() const { return unsent_; }
   Clock::time_point sends_since() const { return sends_since_; }  // while there are unsent bytes
 
-  // Called once in each pause: the session releases caches.
+  // The client is idle. In each pause, the first call makes the session release its caches.
   void rest();
-  std::function<void()> on_rest;  // empty: nothing has to be released
+  std::function<void()> on_rest;  // empty if there are no caches to release
 
   Clock::time_point came() const { return came_; }
   Clock::time_point active() const { return active_; }  // when bytes were last received or sent
@@ -69,13 +69,13 @@ class Client {
   Socket socket;
   Loop& loop;
   const std::string name;
-  std::optional<Counted> open, admitted_open;  // in the metrics, while the session is
+  std::optional<Counted> open, admitted_open;  // count the session in the metrics while it is open
   std::optional<Guesser> guesser;              // while a token is required
   std::optional<Lobby::Place> place;           // while a token is required
   bool greeted = false;                        // the handshakes of TLS and HTTP are done
   bool admitted = false;                       // it has given its token, or does not need one
   bool working = false;                        // a slice of its requests is done, and the next is pending
-  Usage usage{};                               // of the event loop
+  Usage usage{};                               // how long it has used the event loop
 
  private:
   const std::shared_ptr<MemoryBudget> budget_;

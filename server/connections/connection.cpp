@@ -24,8 +24,8 @@ using boost::system::error_code;
 using namespace std::chrono_literals;
 using TlsStream = net::ssl::stream<Socket&>;
 
-// Sends at once what fits into the socket's buffer. For a short reply, that is one system call, and no turn
-// of the event loop. The rest is left to async_write.
+// Sends at once what fits into the socket's buffer. A short reply then takes one system call, and does not
+// wait for the event loop. The rest is left to async_write.
 std::size_t send_at_once(Socket& socket, std::string_view text) {
   error_code full;
   return socket.write_some(net::buffer(text), full);
@@ -67,7 +67,7 @@ Task<std::size_t> receive(WebSocket& stream, Client& client, std::span<char> spa
   co_return count;
 }
 
-// Sends the last error, if the server ends the session.
+// Sends the last error when the server ends the session.
 template <typename Stream>
 Task<> take_leave(Stream& stream, Client& client) {
   error_code ignored;
@@ -87,7 +87,7 @@ Task<> take_leave(WebSocket& stream, Client& client) {
   throw std::runtime_error("closed: " + client.reason());
 }
 
-// A message has at most one longest line, with its end.
+// A message may be as long as the longest line and its end.
 template <typename Stream>
 void limit_message(Stream&, const LineSession&) {}
 void limit_message(WebSocket& stream, const LineSession& session) {
@@ -98,8 +98,8 @@ void limit_message(WebSocket& stream, const LineSession& session) {
 // algorithm). The system delays acknowledgements by 40 ms.
 void acknowledge(Socket& socket) { acknowledge_at_once(static_cast<SocketNumber>(socket.native_handle())); }
 
-// Delays the answer to a wrong token, and what the client has sent after it. Returns early if the session is
-// to end.
+// Delays the answer to a wrong token, and the requests that the client has sent after it. Returns early if
+// the session is to end.
 Task<> hold_back(Client& client, WrongTokens::Delay delay) {
   constexpr WrongTokens::Delay kBetweenLooks = 100ms;
   for (const auto end = Clock::now() + delay; Clock::now() < end && !client.ending();)
@@ -153,7 +153,7 @@ Task<> work(Client& client, PacedClassic& session) {
 template <typename Stream>
 Task<> serve_connection(Stream& stream, Client& client, PacedClassic& session, Metrics&) {
   error_code error;
-  bool piece = false;  // part of a line
+  bool piece = false;  // everything that was received last is part of a line
   while (!session.ended()) {
     co_await work(client, session);
     if (const auto text = session.reply()) {
@@ -171,7 +171,8 @@ Task<> serve_connection(Stream& stream, Client& client, PacedClassic& session, M
   }
 }
 
-// Waits as long as a recording needs for a few frames; its queue has room for more.
+// Waits for the time in which a recording writes a few frames. Its queue holds more frames, so it does not
+// run empty.
 Task<> await_recording(Client& client) {
   client.working = true;
   co_await pause(client.loop.context, 1ms);
@@ -187,8 +188,8 @@ Task<> read(Stream& stream, Client& client, LineSession& session, bool piece) {
   if (count > 0 || !client.ending()) session.received(count);
 }
 
-// Between two slices of a long request, or of many that were sent ahead, other sessions of the loop have
-// their turn. Requests that were sent ahead are split further: each part ends by sending its replies.
+// Between two slices of a long request, or of many requests that were sent ahead, other sessions of the loop
+// get their turn. Requests that were sent ahead are split further: each part ends when its replies are sent.
 template <typename Stream>
 Task<> serve_connection(Stream& stream, Client& client, LineSession& session, Metrics& metrics) {
   using Next = SessionLoop::Next;
@@ -265,7 +266,7 @@ class Resting {
   Client& client_;
 };
 
-// A session of the classic protocol, which may leave thousands of states.
+// A session of the classic protocol. It may leave thousands of saved states, which `disposal` destroys.
 class ClassicPlace {
  public:
   ClassicPlace(const ClassicService& service, const std::shared_ptr<MemoryBudget>& memory)
@@ -311,7 +312,7 @@ Task<> play(Stream& stream, Client& client, const Service& service, Metrics& met
   return std::visit([&](const auto& kind) { return play(stream, client, kind, metrics); }, service);
 }
 
-// Answers the request of a client of the site. If that opens a session, plays it over a WebSocket.
+// Answers the request of a client of the site. If the request opens a session, plays it over a WebSocket.
 Task<> play_over_http(ByteStream stream, Client& client, const Service& service, Carrier& carrier,
                       Metrics& metrics) {
   if (!carrier.request) {
@@ -354,11 +355,11 @@ Task<> play_over_tls(std::shared_ptr<Client> client, const Service& service, Car
   }
   const Patience patience(client);
   co_await stream.async_shutdown(
-      net::redirect_error(use_task, error));  // tells the client that nothing is cut off
+      net::redirect_error(use_task, error));  // tells the client that the output is complete
   if (reason) std::rethrow_exception(reason);
 }
 
-// During a session.
+// Lists the client among those of its loop during a session.
 class Presence {
  public:
   explicit Presence(Client& client) : client_(client) { client.enter_loop(); }

@@ -15,8 +15,8 @@ namespace net = boost::asio;
 using boost::system::error_code;
 using namespace std::chrono_literals;
 
-// The system does not let the buffer of a Unix socket grow, as that of TCP does. A buffer that is smaller
-// than a reply costs the client and the server a wakeup each time it is full.
+// The buffer of a Unix socket does not grow by itself, as that of TCP does. A buffer that is smaller than a
+// reply costs the client and the server a wakeup each time it is full.
 void set_options(Socket& socket) {
   constexpr int kUnixBuffer = 1 << 20;  // the system may give less
   error_code is_unix, ignored;
@@ -51,11 +51,11 @@ bool has_moved(Socket& socket, Loop& loop) {
   return true;
 }
 
-constexpr auto kPatience = 800ms;      // of a client that comes when the memory is short
-constexpr auto kBetweenChecks = 20ms;  // whether there is memory for it
+constexpr auto kPatience = 800ms;      // how long a client that comes when memory is short may wait
+constexpr auto kBetweenChecks = 20ms;  // of whether there is memory for it
 constexpr int kMostWaiting = 64;
 
-// A client waits for memory as long as this exists.
+// Counts a client that waits for memory, during its lifetime.
 class Waiting {
  public:
   explicit Waiting(int& count) : count_(++count) {}
@@ -73,15 +73,16 @@ bool has_memory_for_one_more(const Service& service) {
   return !memory || memory->has(kSession);
 }
 
-// What carries a session takes this much, measured, from the first byte of a handshake on. Its own memory is
-// counted by the session.
+// Returns how many bytes the transport of a session takes, from the first byte of a handshake on. The numbers
+// are measured. The session itself counts its other memory.
 std::size_t carrier_bytes(const Endpoint& endpoint) {
   constexpr std::size_t kSocket = std::size_t{4} << 10, kTls = std::size_t{96} << 10,
                         kHttp = std::size_t{16} << 10;
   return kSocket + (endpoint.tls ? kTls : 0) + (endpoint.web ? kHttp : 0);
 }
 
-// What a client gets that is refused: an error that it understands. Over TLS there has been no handshake.
+// Returns the error for a client that is refused, in its protocol. It is empty for the classic protocol,
+// which does not have errors, and over TLS, where the handshake has not taken place.
 std::string refusal(const Endpoint& endpoint, const Client& client) {
   if (endpoint.classic || endpoint.tls) return {};
   return endpoint.web ? http_refusal(client.reason()) : client.farewell();
@@ -186,14 +187,14 @@ void ConnectionAcceptor::close() {
 }
 
 Task<> ConnectionAcceptor::welcome(Listener& listener) {
-  bool failed = false;  // and the log says so
+  bool failed = false;  // the last attempt failed, and the log says so
   while (!closed_) {
     Loop& loop = loops_.idlest();
     error_code error;
     Socket socket =
         co_await listener.acceptor().async_accept(loop.context, net::redirect_error(use_task, error));
     if (closed_) break;
-    if (error) {  // most likely out of descriptors, which may pass
+    if (error) {  // most likely, the process is out of descriptors for a while
       if (!std::exchange(failed, true))
         log_warning("cannot take a client on " + listener.name() + ": " + error.message());
       co_await pause(loops_.first().context, 100ms);
@@ -205,8 +206,8 @@ Task<> ConnectionAcceptor::welcome(Listener& listener) {
   }
 }
 
-// If there are too many sessions, the oldest one without a token is closed. It ends as soon as its loop
-// handles that.
+// If there are too many sessions, closes the oldest one without a token. That session ends as soon as its
+// loop handles the event.
 std::optional<std::string> ConnectionAcceptor::obstacle(const Service& service) {
   if (!has_memory_for_one_more(service)) return "the server's sessions hold all the memory that they may";
   if (loops_.sessions() > max_connections_) return "the server may open no more files";
@@ -251,7 +252,8 @@ void ConnectionAcceptor::receive(std::shared_ptr<Client> client, const Service& 
           admit_after_relief(std::move(client), service, std::move(carrier), endpoint));
 }
 
-// Sessions that hold much are ended within two looks of IdleMonitor. Those who come meanwhile wait for that.
+// IdleMonitor ends sessions that hold much memory at its second check. Clients that come meanwhile wait for
+// that.
 Task<> ConnectionAcceptor::admit_after_relief(std::shared_ptr<Client> client, const Service& service,
                                               Carrier carrier, Endpoint endpoint) {
   const Waiting place(waiting_);

@@ -26,7 +26,8 @@ class ConnectionAcceptor {
                      Loops& loops, Metrics& metrics);
 
   std::vector<std::string> names() const;  // of the listeners
-  // The addresses for clients of the line protocol; `host` stands for all addresses of this machine.
+  // The addresses for clients of the line protocol. If a listener has all addresses of this machine, `host`
+  // takes their place.
   std::vector<std::string> announced(const std::string& host) const;
   bool empty() const { return listeners_.empty(); }
   // Accepts clients from now on, up to this many connections, or up to the limit of the settings if that is
@@ -34,7 +35,7 @@ class ConnectionAcceptor {
   void open(int most_connections);
   void close();  // accepts no more
 
-  // Admits a client of --http, whose `request` opens a session. The socket is one of the first loop.
+  // Admits a client of --http, whose `request` opens a session. The socket belongs to the first loop.
   void admit_over_http(Socket socket, HttpRequest request, const std::string& address);
 
  private:
@@ -43,9 +44,9 @@ class ConnectionAcceptor {
   void check(const Listener& listener) const;  // throws unless it is safe
   const Service& service_of(const Listener& listener) const;
   Task<> welcome(Listener& listener);
-  // The reason against one more session; nothing if one more fits.
+  // Returns why there cannot be one more session; nothing if there can.
   std::optional<std::string> obstacle(const Service& service);
-  // Admits the client at once, or when memory has been made for it. All this is on the first loop's thread.
+  // Admits the client at once, or after memory has been freed for it. Runs on the first loop's thread.
   void receive(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
                const Endpoint& endpoint);
   Task<> admit_after_relief(std::shared_ptr<Client> client, const Service& service, Carrier carrier,

@@ -8,10 +8,10 @@ namespace racebeam {
 class Departure {
  public:
   // Does not block, and sends nothing. A client that has only closed its sending end is still connected: it
-  // may read the reply. On TCP, that looks like a client that has closed everything. The system knows the
-  // difference if the client runs on this machine (system/program/sockets.hpp). The system of another machine
-  // forgets a connection that its client has closed after a minute or so, and answers the next keep-alive
-  // probe, which has no data, with a reset.
+  // may read the reply. On TCP, that looks like a client that has closed everything. If the client runs on
+  // this machine, the system knows the difference (system/program/sockets.hpp). If it runs on another
+  // machine, that system forgets a closed connection after a minute or so. It then answers the next
+  // keep-alive probe, which does not carry data, with a reset.
   bool has_gone(Socket& socket);
 
  private:

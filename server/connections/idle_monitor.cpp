@@ -57,7 +57,7 @@ void IdleMonitor::look_at(Client& client) {
   const auto now = Clock::now();
   const auto idle = seconds(settings_.idle_seconds), handshake = seconds(settings_.handshake_seconds);
   if (client.ending()) {
-    client.end(ErrorCode::kIdle, {});  // with its second call, the client is disconnected
+    client.end(ErrorCode::kIdle, {});  // disconnects the client, if it has had time to read the error
   } else if (!client.admitted && now - client.came() > handshake) {
     ++metrics_.ended_handshake;
     client.end(ErrorCode::kUnauthorized, why_not_admitted(client, settings_.handshake_seconds));

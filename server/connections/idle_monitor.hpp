@@ -1,5 +1,5 @@
-// Examines all sessions from time to time, so that none needs a timer. Ends sessions that are idle, and those
-// that have not given a token in time.
+// Examines all sessions from time to time, so that a session does not need its own timer. Ends sessions that
+// are idle, and those that have not given a token in time.
 #pragma once
 
 #include "server/connections/client.hpp"
@@ -14,8 +14,8 @@ class IdleMonitor {
   IdleMonitor(const ServerSettings& settings, Loops& loops, Metrics& metrics)
       : settings_(settings), loops_(loops), metrics_(metrics) {}
 
-  void start();    // on each loop
-  void end_all();  // the server stops
+  void start();    // starts a task on each loop
+  void end_all();  // ends all sessions because the server stops
 
  private:
   Task<> look_after(Loop& loop);

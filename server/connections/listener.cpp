@@ -75,7 +75,8 @@ void Listener::bind(const Protocol::endpoint& endpoint) {
   if (error) throw AddressError("cannot listen on " + name_ + ": " + error.message());
 }
 
-// Finds the actual address, also of an inherited socket. A host name stays: a certificate may be for it.
+// Finds the actual address, also of an inherited socket. Keeps a host name, since a certificate may be for
+// it.
 void Listener::describe() {
   const Protocol::endpoint here = acceptor_.local_endpoint();
   const auto path = unix_path_of(here);

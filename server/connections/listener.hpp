@@ -17,11 +17,11 @@ using Acceptor = boost::asio::basic_socket_acceptor<Protocol>;
 
 class Listener {
  public:
-  // Listens from now on, on a TCP or Unix address. Throws std::runtime_error if that cannot be used. The
-  // socket file of a server that died is replaced; that of a live server is not.
+  // Listens from now on, on a TCP or Unix address. Throws std::runtime_error if the address cannot be used.
+  // Replaces the socket file of a server that died, but not that of a live server.
   Listener(const boost::asio::any_io_executor& executor, const Endpoint& endpoint);
 
-  // A socket that listens already. Its file, if it has one, is not removed.
+  // Takes a socket that listens already. Does not remove its file, if it has one.
   Listener(const boost::asio::any_io_executor& executor, const Endpoint& endpoint,
            const InheritedSocket& inherited);
 
@@ -32,13 +32,13 @@ class Listener {
   Acceptor& acceptor() { return acceptor_; }
   const std::string& name() const { return name_; }  // the address, with the port that was picked
   std::string full_name() const { return (endpoint_.classic ? "classic+" : "") + name_; }
-  std::string described() const;  // for the log: the name, with the IP address that a host name stands for
-  std::string announced(const std::string& host) const;  // for clients: `host` instead of all addresses
+  std::string described() const;  // for the log: the name, and the IP address of a host name
+  std::string announced(const std::string& host) const;  // for clients: `host` stands for all addresses
   const Endpoint& endpoint() const { return endpoint_; }
   bool is_local() const { return local_; }  // a Unix socket, protected by the file system
   bool is_loopback() const;                 // only this machine can reach it
 
-  int count_client() { return ++clients_; }  // returns how many have come
+  int count_client() { return ++clients_; }  // returns how many clients have come
 
   void close();  // from now on, the system refuses connections
 
@@ -54,7 +54,7 @@ class Listener {
   std::string name_, host_;
   int clients_ = 0;
   bool local_ = true;
-  UnlinkOnExit file_;  // of a Unix socket
+  UnlinkOnExit file_;  // the file of a Unix socket
 };
 
 }  // namespace racebeam

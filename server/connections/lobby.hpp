@@ -17,7 +17,7 @@ class Client;
 // Thread-safe.
 class Lobby : public std::enable_shared_from_this<Lobby> {
  public:
-  // A client's place: held from its first byte to its token, or to its end.
+  // A client's place. It is held until the client gives its token, or leaves.
   class Place {
    public:
     Place(std::shared_ptr<Lobby> lobby, std::uint64_t number) : lobby_(std::move(lobby)), number_(number) {}
@@ -32,9 +32,9 @@ class Lobby : public std::enable_shared_from_this<Lobby> {
 
   void enter(const std::shared_ptr<Client>& client);  // on the thread that has made `client`
 
-  // Ends the session that has been without a token for longest, with this sentence. Returns false if all
-  // sessions have given one. A session that gives its token meanwhile stays, and the next one is ended; if it
-  // was the last, the server has a session more than its limit for a while.
+  // Ends the session that has been without a token for longest, with this sentence as the error. Returns
+  // false if all sessions have given a token. If that session gives its token meanwhile, it stays, and the
+  // next one is ended. If it was the last one, the server has one session more than its limit for a while.
   bool make_room(const std::string& sentence);
 
  private:

@@ -10,12 +10,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kPause = 250ms;                            // of a session that is told to release its caches
-constexpr auto kLongPause = 2s;                           // of one that may be ended
-constexpr auto kSlow = 1s;                                // of a client that reads, for one reply
-constexpr std::size_t kOnItsWay = std::size_t{64} << 10;  // bytes; more is not being read
+constexpr auto kPause = 250ms;   // after which a session releases its caches
+constexpr auto kLongPause = 2s;  // after which a session may be ended
+constexpr auto kSlow = 1s;       // the longest time that a client which reads takes for a reply
+constexpr std::size_t kOnItsWay = std::size_t{64} << 10;  // bytes; a client that reads has no more unsent
 
-enum class Burden { kNone, kActive, kIdle, kUnread };  // the later, the sooner it is ended
+enum class Burden { kNone, kActive, kIdle, kUnread };  // sessions with the last of these are ended first
 
 bool holds_the_mean(const MemoryBudget& part) {
   const MemoryBudget& whole = *part.whole();
@@ -29,7 +29,7 @@ Burden burden_of(const Client& client, Clock::time_point now) {
   const MemoryBudget& owner = *session.whole();
   if (!holds_the_mean(session) || !holds_the_mean(owner)) return Burden::kNone;
   if (!client.working && now - client.active() > kLongPause) return Burden::kIdle;
-  // An owner that holds most of the memory with sessions that are busy loses some of them, for others' sake.
+  // An owner whose busy sessions hold most of the memory loses some of them, so that others have room.
   return owner.crowds_others_out() ? Burden::kActive : Burden::kNone;
 }
 
@@ -56,7 +56,7 @@ int MemoryRelief::look_at(const std::unordered_set<Client*>& clients) {
   for (Client* client : clients) {
     if (!client->working && now - client->active() > kPause) client->rest();
   }
-  if (!std::exchange(was_short_, true)) return 0;  // what rests takes a moment to go
+  if (!std::exchange(was_short_, true)) return 0;  // sessions take a moment to release their caches
   int ended = 0;
   for (std::uint64_t excess = all.shortage() / loops_ + 1; excess > 0; ++ended) {
     Client* const client = most_burdensome(clients, now);

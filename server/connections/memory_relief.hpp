@@ -1,6 +1,6 @@
 // Makes room when the memory of the sessions is short. First, idle sessions release what they can recreate.
-// If that is not enough, some are ended: clients that do not read their replies, then sessions that wait and
-// hold much, of the owners that hold most.
+// If that is not enough, some sessions are ended. The first are those whose clients do not read their
+// replies. Then come idle sessions that hold much memory, those of the owners that hold most first.
 #pragma once
 
 #include <unordered_set>
@@ -14,8 +14,8 @@ class MemoryRelief {
   // loops: the number of loops among which the sessions are divided; each relieves the memory of its part.
   explicit MemoryRelief(std::size_t loops) : loops_(loops) {}
 
-  // Call it a few times a second, on the thread of the loop that has the clients. Returns how many it has
-  // ended.
+  // The caller calls it a few times a second, on the thread of the loop that has the clients. Returns how
+  // many sessions it has ended.
   int look_at(const std::unordered_set<Client*>& clients);
 
  private:
@@ -23,8 +23,9 @@ class MemoryRelief {
   bool was_short_ = false;
 };
 
-// The session to end first; null: none is to end. Never those that hold less than the mean of their owner's
-// sessions, or whose owner holds less than the mean of all owners, unless they do not read.
+// Returns the client of the session to end first; null if there is no such session. A session whose client
+// reads is exempt if it holds less than the mean of its owner's sessions, or if its owner holds less than the
+// mean of all owners.
 Client* most_burdensome(const std::unordered_set<Client*>& clients, Clock::time_point now);
 
 }  // namespace racebeam

@@ -7,7 +7,7 @@
 
 namespace racebeam {
 
-// A client that has disconnected already is unknown: all of them are one owner.
+// The owner of a client that has disconnected already is unknown; all such clients have the same owner.
 std::string owner_of(const boost::asio::generic::stream_protocol::socket& socket);
 
 }  // namespace racebeam

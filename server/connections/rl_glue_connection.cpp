@@ -31,7 +31,7 @@ void connect_to(tcp::socket& socket, const tcp::endpoint& core) {
   socket.set_option(tcp::no_delay(true));
 }
 
-// False: the core closed the connection before the first byte.
+// Returns false if the core closed the connection before the first byte.
 bool read_whole(tcp::socket& socket, std::string& bytes) {
   error_code error;
   const std::size_t count = net::read(socket, net::buffer(bytes), error);

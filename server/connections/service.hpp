@@ -14,7 +14,7 @@ namespace racebeam {
 
 using Service = std::variant<ClassicService, LineService>;
 
-// Null for a protocol that no endpoint uses.
+// The services of the two protocols. A protocol that no endpoint uses has nothing here.
 struct Services {
   std::optional<Service> classic, line;
 };
@@ -25,7 +25,7 @@ inline const std::shared_ptr<MemoryBudget>& memory_of(const Service& service) {
       [](const auto& kind) -> const auto& { return kind.memory; }, service);
 }
 
-// For the log: with its seed, a session can be repeated.
+// Describes a session for the log, with the seed that is needed to repeat it.
 inline std::string describe(const Environment& machine) {
   return machine.game().name + ", seed " + std::to_string(machine.settings().random_seed);
 }

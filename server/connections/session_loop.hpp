@@ -10,11 +10,11 @@ namespace racebeam {
 
 class SessionLoop {
  public:
-  // What the transport does next. After each of these except kDone, it calls work().
+  // What the transport does next. After each step except kDone, it calls work().
   enum class Next {
     kSend,   // sends output(), then asks sent() what is next
     kRead,   // waits for input
-    kYield,  // lets other sessions work: there is more to do
+    kYield,  // lets other sessions work; this one has more to do
     kPause,  // waits for the recording, for about a millisecond
     kDone    // closes: no more output will follow
   };
@@ -30,7 +30,7 @@ class SessionLoop {
 
   std::string_view output() const { return session_.output(); }
 
-  // All of output() is on its way.
+  // The transport calls this after it has sent all of output().
   Next sent() {
     session_.sent(output().size());
     return next();
@@ -44,7 +44,7 @@ class SessionLoop {
   }
 
   LineSession& session_;
-  bool more_ = false;  // to do, before something comes in
+  bool more_ = false;  // there is more to do without further input
 };
 
 }  // namespace racebeam

@@ -43,8 +43,8 @@ bool refuse_other_file(const std::string& path) {
   return found == Found::kPipe;
 }
 
-// A client in the same step, which has made the pipe itself, is not slowed down. The two cannot be told
-// apart.
+// The warning also appears if a client in the same step has made the pipe itself, which is not slow. The
+// server cannot distinguish the two cases.
 void warn_of_srun() {
   if (std::getenv("SLURM_STEP_ID") == nullptr || !is_pipe(kStandardOutput)) return;
   log_warning(
@@ -52,7 +52,7 @@ void warn_of_srun() {
       "40 ms more; a socket avoids that: --listen, or cluster/slurm/racebeam-srun COMMAND");
 }
 
-// Returns the pipe if it was missing, to be removed at the end.
+// Makes the pipe if it is missing. Returns what removes the pipe at the end, if this call has made it.
 UnlinkOnExit make_if_missing(const std::string& path) {
   if (make_pipe(path)) {
     log("made the pipe " + path);
@@ -101,7 +101,7 @@ class StreamSession::LineConversation final : public Conversation {
   std::string description() const override { return "the line protocol"; }
 
  private:
-  // In the middle of a request, whose reply has not begun.
+  // Sends a last error. Called in the middle of a request whose reply has not begun.
   void say_farewell(BlockingPair& streams) {
     ++metrics_.ended_stopping;
     streams.write_at_once("error stopping the server stops\n");
@@ -170,7 +170,7 @@ StreamSession::StreamSession(const Endpoint& endpoint, const Service& service,
   }
   if (const auto* pipes = std::get_if<Pipes>(&address_)) {
     const std::array<std::string, 2> paths = {pipes->prefix + "_out", pipes->prefix + "_in"};
-    for (const std::string& path : paths) refuse_other_file(path);  // of both, before one is made
+    for (const std::string& path : paths) refuse_other_file(path);  // checks both pipes before it makes one
     for (const std::string& path : paths) made_.push_back(make_if_missing(path));
   }
 }
@@ -215,7 +215,8 @@ void StreamSession::run() {
   on_end_();
 }
 
-// Each open waits for the client's. A client that opens them in the other order waits for ever.
+// Each open() waits until the client opens the other end. A client that opens the pipes in the other order
+// waits for ever.
 bool StreamSession::connect() {
   const std::string what = conversation_->description();
   if (std::holds_alternative<StandardStreams>(address_)) {

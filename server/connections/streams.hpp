@@ -31,16 +31,17 @@ class StreamSession {
 
   const std::string& name() const { return name_; }
 
-  // Starts a thread that waits for begin(), then serves, and calls `ended` at the end. Throws
-  // std::system_error if the system gives no thread.
+  // Starts a thread, which waits for begin(), serves, and calls `ended` at the end. Throws std::system_error
+  // if the system does not have a thread.
   void start(std::function<void()> ended);
   void begin();
 
   bool ended() const { return ended_; }
   int status() const { return status_; }  // of the process, at the end: see the help of racebeam serve
 
-  // Reads no more requests; a request in progress is finished. Must be called repeatedly until ended(): each
-  // call wakes the thread, if it blocks. With `at_once`, the request in progress is cancelled.
+  // Stops the session: it does not read more requests. It finishes the request in progress, or cancels it
+  // with `at_once`. The caller calls stop() repeatedly until ended(), since each call wakes the thread if it
+  // blocks.
   void stop(bool at_once);
 
  private:

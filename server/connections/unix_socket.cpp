@@ -17,7 +17,7 @@ using Unix = net::local::stream_protocol;
 using SocketFile = net::detail::sockaddr_un_type;
 using boost::system::error_code;
 
-// A socket file remains after its server has died, and refuses connections.
+// Removes a socket file that remains after its server has died. Such a file refuses connections.
 void remove_stale(const std::string& path) {
   std::error_code unknown;
   if (!std::filesystem::exists(path, unknown)) return;
@@ -30,8 +30,8 @@ void remove_stale(const std::string& path) {
   if (error == net::error::connection_refused) std::filesystem::remove(path);
 }
 
-// A lock on the folder of a socket. A server that has bound its socket and does not listen yet looks dead;
-// others that hold the lock do not take its file.
+// A lock on the folder of a socket. A server that has bound its socket, but does not listen yet, looks dead
+// to others. With the lock, the others cannot remove its file then.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder)
@@ -48,7 +48,8 @@ class FolderLock {
   FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  // Something else may hold the lock for long, and a folder may lack one: the server then goes on without.
+  // After this time, or if the folder does not support locks, the server goes on without the lock: another
+  // program may hold it for long.
   static constexpr std::chrono::seconds kPatience{2};
   static constexpr std::chrono::milliseconds kBetweenTries{5};
 

@@ -7,19 +7,19 @@
 namespace racebeam {
 
 struct Announcement {
-  std::vector<std::string> addresses;  // for clients of the line protocol, in the order of --listen
+  std::vector<std::string> addresses;  // of endpoints with the line protocol, in the order of --listen
   std::string host, version, token;
   int process = 0;
-  std::vector<std::string> games;  // that clients may load
+  std::vector<std::string> games;  // the games that clients may load
 };
 
 std::string host_name();  // of this machine
 
-// A ready file: the addresses, one a line.
+// The text of a ready file: the addresses, one a line.
 std::string ready_text(const std::vector<std::string>& addresses);
 
-// An announce file: one object of JSON. Each member begins a line, and each address has its own line, so
-// that programs without a parser of JSON can read it.
+// The text of an announce file: one JSON object. Each member begins a line, and each address has its own
+// line, so that programs without a JSON parser can read it.
 std::string announce_text(const Announcement& announcement);
 
 }  // namespace racebeam

@@ -9,7 +9,7 @@ namespace racebeam {
 namespace {
 
 constexpr std::chrono::seconds kQuiet{1};
-constexpr std::int64_t kWorthwhile = 16;  // sessions; fewer leave little behind
+constexpr std::int64_t kWorthwhile = 16;  // sessions; fewer leave little memory behind
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void HeapKeeper::give_back() {
     thread_ = std::thread(trim_heap);
     ++times_;
   } catch (const std::system_error&) {
-    // The system has no thread now. Later sessions are followed by another attempt.
+    // The system has no thread to spare now. After later sessions, there is another attempt.
   }
 }
 

@@ -1,7 +1,6 @@
-// Returns the memory of ended sessions to the system. The C library keeps free memory between blocks that are
-// in use, until it is told to release it. That takes about 0.3 ms a MiB, during which threads that allocate
-// may have to wait. The keeper therefore waits until no session has ended for a while, and uses its own
-// thread.
+// Returns the memory of ended sessions to the system. Otherwise, the C library keeps free memory that lies
+// between blocks in use. To release it takes about 0.3 ms a MiB, during which threads that allocate may have
+// to wait. The keeper therefore waits until no session has ended for a while, and uses its own thread.
 #pragma once
 
 #include <chrono>
@@ -19,7 +18,7 @@ class HeapKeeper {
   HeapKeeper(const HeapKeeper&) = delete;
   HeapKeeper& operator=(const HeapKeeper&) = delete;
 
-  // Call it a few times a second. sessions: how many are open now.
+  // The caller calls it a few times a second. sessions: how many are open now.
   void look_at(std::int64_t sessions, Clock::time_point now = Clock::now());
 
   std::int64_t times() const { return times_; }  // how often it has returned memory

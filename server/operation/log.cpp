@@ -19,10 +19,10 @@ constexpr std::array kLevels = {spdlog::level::debug, spdlog::level::info, spdlo
 constexpr std::array kNames = {"debug", "info", "warning", "error", "off"};
 
 std::atomic<LogFormat> format = LogFormat::kText;
-std::atomic<std::int64_t> without_memory = 0;  // lines that are lost because there was no memory for them
+std::atomic<std::int64_t> without_memory = 0;  // lines that were lost because there was no memory for them
 
-// Makes text safe that may contain bytes of a client. A line must fit into a page, which a pipe accepts as a
-// whole or not at all.
+// Makes text that may contain a client's bytes safe to log. A line must fit into a page, which a pipe accepts
+// as a whole or not at all.
 std::string printable(std::string_view text) {
   constexpr std::size_t kLongest = 1000;
   std::string clean(text.substr(0, kLongest));

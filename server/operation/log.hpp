@@ -26,7 +26,7 @@ struct LogField {
 // It never blocks (log_sink.hpp), and never throws. Without memory for a line, the line is lost.
 void log(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields = {});
 
-void write_log();  // writes waiting lines, if there is room now
+void write_log();  // writes the lines that wait, if there is room now
 std::int64_t log_lines_lost();
 
 inline void log(const std::string& sentence, std::initializer_list<LogField> fields = {}) {

@@ -32,7 +32,7 @@ class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
 
  protected:
   void sink_it_(const spdlog::details::log_msg& message) override;
-  void flush_() override;  // writes what there is room for
+  void flush_() override;  // writes as much as there is room for
 
  private:
   LogSink(int descriptor, OutputKind kind, std::function<std::string(std::int64_t)> loss_text);
@@ -47,7 +47,7 @@ class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
   const OutputKind kind_;
   const std::function<std::string(std::int64_t)> loss_text_;
   std::deque<std::string> waiting_;
-  bool has_begun_ = false;       // the first waiting line is written in part
+  bool has_begun_ = false;       // a part of the first line that waits has been written
   std::int64_t unreported_ = 0;  // lines lost since the last report
   std::atomic<std::int64_t> lost_ = 0;
 

@@ -36,7 +36,7 @@ class Metrics {
   std::atomic<std::int64_t> sessions_open = 0, sessions_classic = 0, sessions_line = 0;
   std::atomic<std::int64_t> refused_busy = 0, refused_tls = 0, wrong_tokens = 0;
   std::atomic<std::int64_t> ended_idle = 0, ended_handshake = 0, ended_stopping = 0, ended_busy = 0;
-  // Sessions that gave their token or need none, for --until-idle: those that are open, and all.
+  // Sessions that gave their token or do not need one, for --until-idle: those that are open, and all so far.
   std::atomic<std::int64_t> admitted_open = 0, admitted = 0;
 
  private:

@@ -41,7 +41,7 @@ bool begins_with(const std::string_view mark, int file) {
 // follows no link.
 int open_ours(const FileKind& kind, const std::string& path) {
   const FileMark found = mark_of(path);
-  if (found.number == 0) return -1;  // other errors show when it is written
+  if (found.number == 0) return -1;  // other errors appear when the file is written
   if (!found.is_regular) refuse_another(kind, path);
   const int file = open_own_file(path);
   if (file < 0 && errno == ENOENT) return -1;
@@ -80,7 +80,7 @@ void PublishedFile::write(const FileKind& kind, const std::string& path, const s
   std::string temporary = path + ".XXXXXX";
   lock_ = make_temporary_file(temporary);
   if (lock_ < 0) fail(kind, path);
-  lock_file(lock_, Waiting::kNo);  // a file system without locks: the file counts as stale
+  lock_file(lock_, Waiting::kNo);  // if the file system does not have locks, the file counts as stale
   const bool written = write_at(lock_, 0, text) && set_readers(lock_, kind.readers) && sync_file(lock_);
   if (written && rename_over(temporary, path)) {
     file_ = UnlinkOnExit(path);

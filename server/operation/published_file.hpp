@@ -31,11 +31,11 @@ void remove_stale(const FileKind& kind, const std::string& path);
 
 class PublishedFile {
  public:
-  // Writes the file, and replaces that of a live server, with a warning in the log. `text` begins with the
-  // mark. Throws std::runtime_error if the file is of another kind, or cannot be written; nothing is left
-  // half-written.
+  // Writes the file. If it is the file of a live server, replaces it, with a warning in the log. `text`
+  // begins with the mark. Throws std::runtime_error if the file is of another kind, or cannot be written; a
+  // file written in part does not remain.
   PublishedFile(const FileKind& kind, const std::string& path, const std::string& text);
-  ~PublishedFile();  // removes it, unless it is another server's
+  ~PublishedFile();  // removes the file, unless another server has replaced it
   PublishedFile(const PublishedFile&) = delete;
   PublishedFile& operator=(const PublishedFile&) = delete;
 

@@ -23,7 +23,7 @@ class UnlinkOnExit {
     return *this;
   }
 
-  // Removes the file, unless it is gone or replaced. Only once.
+  // Removes the file, unless it is gone or replaced. A second call does nothing.
   void remove() {
     const FileMark mark = std::exchange(mark_, {});
     if (mark.number != 0 && mark_of(path_) == mark) remove_file(path_);

@@ -24,7 +24,7 @@ void tell(const std::string& what, const std::exception& failure) noexcept {
   }
 }
 
-// Without memory for a pause, the thread sleeps.
+// If there is no memory for a pause of the task, the whole thread sleeps.
 Task<> repeat(boost::asio::io_context& loop, std::string what, std::function<Task<>()> body) {
   Clock::time_point last_line{};
   for (bool failed = false;; failed = true) {

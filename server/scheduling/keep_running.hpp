@@ -11,12 +11,12 @@ namespace racebeam {
 
 Task<> pause(boost::asio::io_context& loop, std::chrono::milliseconds time);
 
-// Runs the task that `body` returns, on the thread of the loop, until it ends. After an exception, which most
-// likely means that memory or files are out, logs it, pauses, and runs it again. `what` is a subject for the
-// log. Both hold until the end. Throws std::bad_alloc.
+// Runs the task that `body` returns, on the thread of the loop, until it ends. After an exception, logs it,
+// pauses, and runs the task again; most likely, memory or file descriptors have run out. `what` is the
+// subject of the sentence in the log. Throws std::bad_alloc.
 void keep_running(boost::asio::io_context& loop, std::string what, std::function<Task<>()> body);
 
-// Calls `step` until it no longer throws std::bad_alloc. For threads that have nothing else to do.
+// Calls `step` until it no longer throws std::bad_alloc. It blocks, so the thread must not have other work.
 void insist(const std::function<void()>& step);
 
 }  // namespace racebeam

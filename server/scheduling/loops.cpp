@@ -13,13 +13,14 @@
 
 namespace racebeam {
 
-// A first timer opens the files that the context needs, now rather than with the first client.
+// Makes a timer, so that the context opens the files that it needs now rather than with the first client.
 Loop::Loop(Meter& counting, std::chrono::microseconds busy_poll) : meter(counting), busy(busy_poll) {
   const boost::asio::steady_timer first(context);
 }
 
-// Some clients send so much that an event is always ready. The sessions that wait for their turn do not wait
-// for the end of that. The work of sessions does not count: few events would be handled while it is long.
+// Some clients send so much that an event is always ready. The time is limited, so that the sessions that
+// wait get their turn. The work of sessions does not count: if it did, few events would be handled after long
+// work.
 void Loop::handle_events() {
   constexpr auto now = std::chrono::steady_clock::now;
   const auto begin = now();
@@ -27,7 +28,7 @@ void Loop::handle_events() {
   }
 }
 
-// While a loop polls, all its sessions get their turn, not only the one that it polls for.
+// While a loop polls for one session, its other sessions get their turn, too.
 void Loop::go_on() {
   if (!turns.empty()) {
     turns.wake_next();
@@ -39,7 +40,7 @@ void Loop::go_on() {
   }
 }
 
-// An exception leaves a handler if memory is out. It ends one session, not the loop.
+// If memory runs out, an exception leaves a handler. It ends one session, not the loop.
 void Loop::run() {
   const auto stay = boost::asio::make_work_guard(context);
   while (!context.stopped()) {
@@ -87,7 +88,7 @@ void Loops::start() {
 void Loops::work(Loop& loop) {
   std::optional<FiberStack> first;
   try {
-    first.emplace();  // the C library aborts if it cannot note at a later time what a thread's end frees
+    first.emplace();  // later, the C library would abort without memory to register a thread's destructors
   } catch (const std::bad_alloc&) {
     failure_ = std::current_exception();
   }

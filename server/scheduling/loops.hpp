@@ -1,5 +1,5 @@
-// A pool of threads, each with its own event loop. A session stays on one of them, so no lock is taken and no
-// thread is woken between two of its lines. One loop for all threads cost four futex calls a line.
+// A pool of threads, each with its own event loop. A session stays on one loop, so no lock is taken and no
+// thread is woken between two of its lines. With one loop for all threads, a line cost four futex calls.
 #pragma once
 
 #include <atomic>
@@ -24,19 +24,19 @@ class Client;
 struct Loop {
   Loop(Meter& counting, std::chrono::microseconds busy_poll);
 
-  void run();            // until its context is stopped
-  void handle_events();  // what is ready, or as much of it as takes a few milliseconds
+  void run();            // runs until its context is stopped
+  void handle_events();  // handles what is ready, for a few milliseconds at most
 
   Gate started;  // opens once its thread knows whether it can run
   std::atomic<int> sessions = 0;
   Meter& meter;
   BusyPoll busy;                        // only touched on the loop's thread
   Turns turns;                          // the same
-  std::unordered_set<Client*> clients;  // those in a session; only touched on the loop's thread
-  boost::asio::io_context context{1};   // the last, so that what waits in it goes first
+  std::unordered_set<Client*> clients;  // clients in a session; only touched on the loop's thread
+  boost::asio::io_context context{1};   // the last member, so that what waits in it is destroyed first
 
  private:
-  void go_on();  // with the next turn or event
+  void go_on();  // handles the next turn or event
 };
 
 class Loops {
@@ -50,14 +50,14 @@ class Loops {
   // threads, and std::bad_alloc if a thread gets no memory.
   void start();
   Loop& first() { return loops_.front(); }
-  Loop& idlest();  // with the fewest sessions
+  Loop& idlest();  // the loop with the fewest sessions
   std::list<Loop>& all() { return loops_; }
   int sessions() const;
   void run();  // until stop() is called
   void stop();
 
  private:
-  void work(Loop& loop);  // of its thread
+  void work(Loop& loop);  // the body of the loop's thread
   void let_go();
 
   std::list<Loop> loops_;

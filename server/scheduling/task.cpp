@@ -27,7 +27,7 @@ void TaskFrame::destroy_all() const noexcept {
 
 void Operation::abandoned() noexcept {
   if (!has_begun_) {
-    if (std::uncaught_exceptions() == 0)  // else begin() catches the exception
+    if (std::uncaught_exceptions() == 0)  // otherwise begin() catches the exception
       failure_ = std::make_exception_ptr(boost::system::system_error(boost::asio::error::operation_aborted));
   } else if (std::uncaught_exceptions() > 0) {
     next_ = std::exchange(first_abandoned, this);

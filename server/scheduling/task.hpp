@@ -33,7 +33,7 @@ class TaskFrame {
   void unhandled_exception() noexcept { failure_ = std::current_exception(); }
 
   void resume() const { self_.resume(); }
-  void destroy_all() const noexcept;  // this frame, and those that await it
+  void destroy_all() const noexcept;  // destroys this frame, and those that await it
 
  protected:
   struct Final {

@@ -8,7 +8,8 @@ namespace racebeam {
 
 namespace net = boost::asio;
 
-// Among those that wait, at the latest until the wait has ended or failed.
+// A session's place among those that wait. Its destructor removes the session, if wake_next() has not done
+// so.
 class Turns::Place {
  public:
   Place(std::vector<Waiting>& all, Waiting one) : all_(all), timer_(one.timer) { all_.push_back(one); }

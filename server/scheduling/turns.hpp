@@ -33,10 +33,11 @@ class Turns {
            std::ranges::all_of(waiting_, [usage](const Waiting& other) { return usage <= *other.usage; });
   }
 
-  // Returns when it is the session's turn, for one slice. Meanwhile, `loop` handles other events.
+  // Returns when it is the session's turn to work for one slice. Meanwhile, `loop` handles other events.
   Task<> wait(boost::asio::io_context& loop, const Usage& usage);
 
-  // For how long a session works before it asks again. If many wait, each waits for many slices.
+  // For how long a session works before it asks for another turn. If many sessions wait, slices are short,
+  // since each session waits for the slices of all others.
   std::chrono::microseconds slice() const;
 
   void worked(Usage& usage, Duration time) {
@@ -58,7 +59,7 @@ class Turns {
   class Place;
 
   std::vector<Waiting> waiting_;
-  Usage now_{};  // that of the session that worked last, before it did
+  Usage now_{};  // usage of the session that worked last, at the start of its slice
   Duration worked_{};
 };
 

@@ -15,7 +15,7 @@
 
 namespace racebeam {
 
-// A handler of any type, which is called once with an error and a number of bytes.
+// Holds a handler of any type, which is called once with an error and a number of bytes.
 class IoHandler {
  public:
   using executor_type = boost::asio::any_io_executor;
@@ -64,7 +64,7 @@ class ByteStream {
 
   executor_type get_executor() { return socket_->get_executor(); }
 
-  // See the stream beneath.
+  // Both do what the stream beneath does.
   template <typename Buffers, typename Token>
   auto async_read_some(const Buffers& buffers, Token&& token) {
     return boost::asio::async_initiate<Token, Signature>(

@@ -16,7 +16,7 @@ using Parser = http::request_parser<http::string_body>;
 constexpr std::uint64_t kLargestBody = 1024;
 constexpr std::uint32_t kLongestHeader = 8192;
 
-// A client that waits for this before it sends the body of its request (RFC 9110, 10.1.1).
+// Whether the client waits for "100 Continue" before it sends the body of its request (RFC 9110, 10.1.1).
 bool expects_continue(const HttpRequest& request) {
   return boost::beast::iequals(request[http::field::expect], "100-continue");
 }
@@ -26,7 +26,7 @@ Task<> send(ByteStream& stream, const HttpResponse& response, error_code& error)
   co_await http::async_write(stream, serializer, net::redirect_error(use_task, error));
 }
 
-// Does not read a body in chunks: on some ends of one, an assertion of Boost.Beast 1.74 fails.
+// Does not read a body in chunks: some bodies make an assertion of Boost.Beast 1.74 fail at their end.
 Task<> receive(ByteStream& stream, boost::beast::flat_buffer& buffer, Parser& parser, error_code& error) {
   parser.body_limit(kLargestBody);
   parser.header_limit(kLongestHeader);
@@ -37,7 +37,7 @@ Task<> receive(ByteStream& stream, boost::beast::flat_buffer& buffer, Parser& pa
   if (!error) co_await http::async_read(stream, buffer, parser, net::redirect_error(use_task, error));
 }
 
-// What a request gets that cannot be read; nothing: the client has gone.
+// The response to a request that cannot be read; nothing: the client has gone.
 std::optional<HttpResponse> refusal(const error_code& error) {
   if (error == http::error::header_limit)
     return refuse(status::request_header_fields_too_large,
@@ -67,7 +67,7 @@ Task<Exchange> exchange(ByteStream& stream, boost::beast::flat_buffer& buffer, c
   auto response = error ? refusal(error) : is_read ? answer(parser.get(), site) : refusal_of_chunks();
   if (error && !response) co_return done;
   if (!response) {
-    // A client speaks first again after the server has accepted.
+    // A client must not send anything after its request until the server has accepted it.
     if (buffer.size() == 0) done.session = parser.release();
     co_return done;
   }

@@ -84,7 +84,7 @@ void Http::make_room() {
   if (connections_.size() >= kMostConnections) close_oldest();
 }
 
-// The server's sessions may have all other files. An operator learns from /healthz that it runs.
+// The server's sessions may have taken all other files. An operator can then still read /healthz.
 bool Http::make_file_room() {
   if (spare_ < 0 && connections_.empty()) return false;
   if (spare_ < 0) {
@@ -104,7 +104,7 @@ void Http::ended(const Connection& connection) {
 
 void Http::close_oldest() {
   error_code ignored;
-  connections_.front()->socket.close(ignored);  // cancels what it waits for
+  connections_.front()->socket.close(ignored);  // cancels the operation that the connection waits for
   connections_.pop_front();
 }
 
@@ -127,7 +127,7 @@ Task<> Http::serve(Connection connection) {
   ended(connection);
 }
 
-// Answers requests until the client closes, times out, sends no valid HTTP, or opens a session.
+// Answers requests until the client closes, times out, sends invalid HTTP, or opens a session.
 Task<> Http::converse(Connection connection) {
   ByteStream::Socket& socket = connection->socket;
   ByteStream stream(socket);

@@ -61,9 +61,10 @@ class Http {
   Site site_;
   OnSession on_session_;
   std::string name_;
-  // Ordered by the latest request, or else the connection; the oldest is first.
+  // Ordered by the time of the latest request, or of the connection if there was no request; the oldest is
+  // first.
   std::list<Connection> connections_;
-  int spare_ = -1;  // a file that is given up for a connection when it is the last one
+  int spare_ = -1;  // a descriptor in reserve, which is closed for a connection when there are no others
 };
 
 }  // namespace racebeam

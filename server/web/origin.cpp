@@ -22,7 +22,7 @@ bool is_port(std::string_view text) {
   return error == std::errc{} && end == text.data() + text.size() && number <= 65535;
 }
 
-// The host of HOST[:PORT]; an address of IPv6 is in brackets there. Empty if the text is not that as a whole,
+// The host of HOST[:PORT]; an IPv6 address is in brackets there. Empty if the whole text is not of this form,
 // as in USER@HOST.
 std::string_view host_of(std::string_view place) {
   const bool six = place.starts_with('[');

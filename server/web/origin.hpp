@@ -10,8 +10,9 @@ namespace racebeam {
 
 struct OriginRules {
   std::vector<std::string> allowed;  // besides the server's own; as a browser writes them
-  // Whether the server's own page may have any host name. If clients need no token, it must not: a page of
-  // elsewhere can let its own name stand for this machine (DNS rebinding). IP addresses and localhost remain.
+  // Whether the server's own page may have any host name. It must not if clients do not need a token: another
+  // site can make its own name resolve to this machine (DNS rebinding). Then only IP addresses and localhost
+  // are allowed.
   bool any_name = false;
 };
 

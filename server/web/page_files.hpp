@@ -9,9 +9,9 @@ namespace racebeam {
 struct PageFile {
   std::string_view path;  // of the request, such as /viewer.js
   std::string_view type;  // for the field Content-Type
-  std::string tag;        // for the field ETag; differs if the bytes do
+  std::string tag;        // for the field ETag; files with different bytes have different tags
   std::string_view bytes;
-  std::string compressed;  // gzip
+  std::string compressed;  // the bytes, compressed with gzip
 };
 
 // Null for an unknown path. `/` stands for /index.html. Thread-safe.

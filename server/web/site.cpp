@@ -17,7 +17,7 @@ using http::status;
 constexpr auto kText = "text/plain; charset=utf-8";
 constexpr auto kPrometheusText = "text/plain; version=0.0.4; charset=utf-8";
 
-// The page loads nothing from elsewhere, and no other page can hold it in a frame.
+// The page does not load anything from other sites, and other pages cannot embed it in a frame.
 constexpr auto kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src "
     "'self'; "
@@ -43,7 +43,7 @@ bool takes_gzip(const HttpRequest& request) {
   return http::token_list(request[http::field::accept_encoding]).exists("gzip");
 }
 
-// A browser asks again each time, and is told if nothing has changed.
+// A browser asks for the file each time. If it has not changed, the response is only 304 (not modified).
 HttpResponse respond(const HttpRequest& request, const PageFile& file) {
   const bool is_current = field(request, http::field::if_none_match) == file.tag;
   const bool compressed = takes_gzip(request);

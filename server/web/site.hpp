@@ -24,18 +24,18 @@ struct OperatorPages {
   std::function<std::string()> metrics;
 };
 
-// The page for users is always there.
+// What the server offers besides the page for users, which is always there.
 struct Site {
   std::optional<OperatorPages> pages;
-  std::optional<OriginRules> sessions;  // of pages that may open a session at /session; nothing: none may
+  std::optional<OriginRules> sessions;  // for pages that open a session at /session; nothing: no page may
 };
 
-// The answer; nothing: the request opens a session, and becomes a WebSocket. Thread-safe if the functions of
-// the site are.
+// Returns the response; nothing if the request opens a session, so that the connection becomes a WebSocket.
+// Thread-safe if the functions of the site are.
 std::optional<HttpResponse> answer(const HttpRequest& request, const Site& site);
 
 // A response to a client whose request the server does not read.
 HttpResponse refuse(boost::beast::http::status code, const std::string& sentence);
-std::string http_refusal(const std::string& sentence);  // as text: with the status 503
+std::string http_refusal(const std::string& sentence);  // the text of a response with the status 503
 
 }  // namespace racebeam

@@ -18,7 +18,8 @@ namespace beast = boost::beast;
 namespace websocket = boost::beast::websocket;
 using boost::system::error_code;
 
-// What Beast asks of a stream besides reading and writing. The connection stays open: its owner closes it.
+// Beast requires these functions of a stream, besides reading and writing. They leave the connection open:
+// its owner closes it.
 template <typename Handler>
 void async_teardown(beast::role_type, ByteStream& stream, Handler&& handler) {
   net::post(stream.get_executor(), beast::bind_front_handler(std::forward<Handler>(handler), error_code()));
@@ -30,17 +31,17 @@ struct WebSocket::Impl {
 
   ByteStream lower;
   websocket::stream<ByteStream, false> stream;  // without compression
-  bool closed = false;                          // by the client, or because of what it sent
-  bool owes_end = false;                        // of a line, for which there was no space
-  char last = 0;                                // byte of the current message
+  bool closed = false;                          // by the client, or by leave()
+  bool owes_end = false;                        // the LF of a line, for which there was no space
+  char last = 0;                                // the last byte of the current message
 };
 
 namespace {
 
-// A frame of the server (RFC 6455, 5.2): not masked, and a whole message.
+// A frame from a server (RFC 6455, 5.2), which is not masked. It holds a whole message.
 std::string frame(unsigned char opcode, std::string_view payload) {
   constexpr unsigned char kFinal = 0x80;
-  constexpr std::size_t kShort = 125;  // of which the length is one byte
+  constexpr std::size_t kShort = 125;  // the longest payload whose length takes one byte
   std::string text(1, static_cast<char>(kFinal | opcode));
   if (payload.size() > kShort) (text += char{126}) += static_cast<char>(payload.size() >> 8);
   text += static_cast<char>(payload.size() & 0xFF);
@@ -119,7 +120,7 @@ Task<> WebSocket::write(std::string_view replies, const std::function<void(std::
   }
 }
 
-// Sends a message, a frame for each piece.
+// Sends a message in pieces, each in its own frame.
 Task<> WebSocket::send(std::string_view bytes, bool binary, const std::function<void(std::size_t)>& sent) {
   constexpr std::size_t kPiece = 1 << 16;
   impl_->stream.binary(binary);
@@ -134,7 +135,7 @@ Task<> WebSocket::send(std::string_view bytes, bool binary, const std::function<
   }
 }
 
-// Beast sends nothing after a read was cancelled, so that these frames are written without it.
+// Beast does not send anything after a read was cancelled, so these frames are written without it.
 Task<> WebSocket::leave(std::string_view line, CloseCode code) {
   constexpr unsigned char kTextFrame = 1, kCloseFrame = 8;
   if (std::exchange(impl_->closed, true)) co_return;

@@ -37,7 +37,7 @@ class WebSocket {
 
   void limit_message(std::size_t bytes);  // a longer one ends the connection
 
-  // Calls `heard` for each ping, pong and close.
+  // Sets a callback for each ping, pong and close that the client sends.
   void on_control(std::function<void()> callback);
 
   // Receives bytes of request lines; a message that does not end with LF gets one. Returns their number; 0:
