@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
   throw std::runtime_error("cannot " + what + " " + fs::path(path).filename().string() + ": " + reason);
 }
 
-// Hidden, and in the same folder, so that it can be renamed.
+// The temporary name is hidden, and in the same folder, so that the file can be renamed.
 std::string temporary_name(const std::string& path) {
   const fs::path whole(path);
   std::string name = ".";
@@ -44,7 +44,7 @@ std::string_view text_of(std::span<const std::uint8_t> bytes) {
 }
 
 // A new file beside `path`: .NAME.part, or .NAME.part1 and so on if another program has a file of that name.
-// What a kill left behind is replaced. The file is removed unless it is renamed.
+// Replaces a file that a killed process left behind. The destructor removes the file unless it was renamed.
 class Aside {
  public:
   explicit Aside(const std::string& path) {
@@ -76,11 +76,11 @@ class Aside {
  private:
   static constexpr int kMostNames = 100;
 
-  std::string name_;  // empty: renamed
+  std::string name_;  // empty once it is renamed
   int descriptor_ = -1;
 };
 
-// The file that a symbolic link names, be it there or not.
+// The file that a symbolic link names, whether it exists or not.
 std::string target_of(std::string path) {
   constexpr int kMostLinks = 40;
   std::error_code none;
@@ -139,8 +139,8 @@ void AtomicFile::count_growth() {
   size_ = size;
 }
 
-// Removes data that was written in part. The tail already had its space on the disk, so writing it needs no
-// more.
+// Cuts off data of which only a part was written. The tail already has its space on the disk, so it always
+// fits.
 void AtomicFile::commit() {
   write_all(descriptor_, size_, tail_, path_);
   if (!cut_file(descriptor_, size_ + tail_.size())) fail("write", path_);
@@ -179,7 +179,7 @@ void AtomicFolder::add(const std::string& name, std::span<const std::uint8_t> by
     write_all(descriptor, 0, text_of(bytes), file);
   } catch (...) {
     budget_.give_back(bytes.size());
-    if (descriptor < 0) throw;  // a file of that name may be there, and stays
+    if (descriptor < 0) throw;  // a file of that name may exist, and is not removed
     close_file(descriptor);
     remove_file(file);
     throw;
@@ -187,7 +187,7 @@ void AtomicFolder::add(const std::string& name, std::span<const std::uint8_t> by
   close_file(descriptor);
 }
 
-// One sync for all files: one for each file would stall the session.
+// Syncs all files at once: one sync for each file would stall the session.
 void AtomicFolder::commit() {
   if (!sync_disk_of(temporary_)) fail("sync", path_);
   open_folder_to_all(temporary_);

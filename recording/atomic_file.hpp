@@ -23,7 +23,7 @@ class DiskBudget {
  public:
   using Flag = std::shared_ptr<const std::atomic<bool>>;
 
-  // Another thread may set `given_up`: nothing needs to be written any more.
+  // Another thread sets `given_up` when nothing needs to be written any more.
   explicit DiskBudget(std::size_t bytes, Flag given_up = nullptr)
       : most_(bytes), given_up_(std::move(given_up)) {}
   void take(std::size_t bytes);  // throws BudgetSpent if less is left
@@ -36,13 +36,13 @@ class DiskBudget {
   Flag given_up_;
 };
 
-// All throw BudgetSpent, or std::runtime_error with a sentence if the system refuses to write.
+// All members throw BudgetSpent, or std::runtime_error with a sentence if the system refuses to write.
 class AtomicFile {
  public:
   // tail: the end of the file, which follows everything that is written. Its space is reserved at the start,
   // so that a full disk cannot prevent the end.
   AtomicFile(std::string path, DiskBudget& budget, std::string tail = {});
-  ~AtomicFile();  // without commit(), nothing remains
+  ~AtomicFile();  // removes the file, unless commit() was called
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
@@ -52,8 +52,8 @@ class AtomicFile {
   void overwrite(std::size_t place, std::span<const std::uint8_t> bytes);  // bytes that were written before
   void commit();  // refuses to replace an existing file
 
-  // For another program, which writes the file instead: its name until commit(), and a call that counts the
-  // bytes that the file has now.
+  // For another program that writes the file instead: the file's name until commit(), and a call that charges
+  // the budget for the bytes that the file has gained.
   const std::string& temporary() const { return temporary_; }
   void count_growth();
 
@@ -65,15 +65,15 @@ class AtomicFile {
   std::size_t size_ = 0;  // without the tail
 };
 
-// Whether a file that replaces another waits for the disk.
+// Whether replace_file() waits for the disk.
 enum class Durable {
-  kLater,  // a kill leaves the old file or the new one, a power cut perhaps neither
-  kNow     // the new file appears only after everything that was written to its disk before
+  kLater,  // after a kill, there is the old file or the new one; after a power cut, perhaps neither
+  kNow     // the new file appears only after everything written to its disk before is there
 };
 
-// Writes a whole file aside, under the name .NAME.part if no other program has a file of that name, and
-// renames it over the file at `path`, or over the file that `path` links to. One caller at a time. Throws
-// std::runtime_error; the file is then what it was before.
+// Writes a whole file aside, under the name .NAME.part if no other program has a file of that name. Renames
+// it over the file at `path`, or over the file that `path` links to. Only one thread may call it at a time.
+// Throws std::runtime_error; the file is then unchanged.
 void replace_file(const std::string& path, std::string_view bytes, Durable durable);
 
 class AtomicFolder {

@@ -8,12 +8,12 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kUnknown = 0;  // a size, in a stream whose end is not known
+constexpr std::size_t kUnknown = 0;  // the size of a stream whose end is not known
 constexpr std::size_t kWidth = 160;
 constexpr int kBitsAPixel = 8, kBitsASample = 8;
 constexpr std::size_t kColours = 256;
 
-// Numbers of this many bytes, the lowest byte first.
+// Appends numbers of this many bytes each, the lowest byte first.
 void put(std::string& out, int bytes, std::initializer_list<std::size_t> numbers) {
   for (const std::size_t number : numbers)
     for (int i = 0; i < bytes; ++i) out.push_back(static_cast<char>(number >> 8 * i));
@@ -45,7 +45,7 @@ std::string main_header(std::size_t rate, std::size_t height) {
   return header;
 }
 
-// A stream of `rate` units a second; a sample has `sample` bytes, or any number if it is 0.
+// The header of a stream of `rate` units a second. A sample has `sample` bytes; 0: their number varies.
 std::string stream_header(std::string_view kind, std::string_view handler, std::size_t rate,
                           std::size_t sample) {
   std::string header;
@@ -55,7 +55,7 @@ std::string stream_header(std::string_view kind, std::string_view handler, std::
   return header;
 }
 
-// BITMAPINFO
+// A BITMAPINFO structure.
 std::string picture_format(const Footage& footage) {
   std::string format;
   put(format, 4, {40, kWidth, footage.height});
@@ -68,7 +68,7 @@ std::string picture_format(const Footage& footage) {
   return format;
 }
 
-// WAVEFORMATEX
+// A WAVEFORMATEX structure.
 std::string sound_format(std::size_t rate) {
   std::string format;
   put(format, 2, {1, 1});        // PCM, one channel

@@ -1,4 +1,4 @@
-// AVI as a stream, for other programs: pictures as indices into a palette, and the sound, neither compressed.
+// AVI as a stream, for other programs: uncompressed pictures of palette indices, and uncompressed sound.
 #pragma once
 
 #include <cstddef>

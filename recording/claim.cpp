@@ -7,7 +7,7 @@
 namespace racebeam {
 namespace {
 
-// Whether one is the other, or a folder that contains it.
+// Whether `folder` is `name`, or a folder that contains it.
 bool is_above(const std::string& folder, const std::string& name) {
   return name.starts_with(folder) && (name.size() == folder.size() || name[folder.size()] == '/');
 }

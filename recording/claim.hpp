@@ -1,5 +1,5 @@
-// Names that recordings and logs use. If two have one name, or one is a folder that contains the other, the
-// second could not be committed at its end. It is refused at its start instead.
+// Names that recordings and logs use. If two had the same name, or one were a folder that contains the other,
+// the second could not be committed at its end. So it is refused at its start.
 #pragma once
 
 #include <memory>

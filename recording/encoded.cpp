@@ -11,19 +11,19 @@
 namespace racebeam {
 namespace {
 
-// What ffmpeg may still write when its input ends: frames that it has not encoded, and an index of all
-// frames.
+// How many bytes ffmpeg may still write when its input ends: for frames that it has not encoded, and for an
+// index of all frames.
 constexpr std::size_t kUnwritten = 200'000, kIndexBytesAFrame = 32;
 
-// The encoders hold no frame back, and write what they have, so that the size of the file says what frames
-// take.
+// The encoders do not hold frames back, and flush what they have. So the size of the file shows how much
+// space the frames take.
 constexpr std::string_view kWebm =
     "-c:v libvpx-vp9 -deadline realtime -cpu-used 6 -lag-in-frames 0 -b:v 0 -crf 20 -c:a libopus "
     "-f webm -cluster_size_limit 50000 -flush_packets 1";
 constexpr std::string_view kMp4 =
     "-c:v libx264 -preset veryfast -tune zerolatency -crf 20 -c:a aac -f mp4 -flush_packets 1";
 
-// A pixel becomes four wide and two high: the colours, which have half of the resolution, stay as sharp.
+// A pixel becomes four wide and two high. Chroma has half of the resolution, and then stays as sharp as luma.
 constexpr std::string_view kCommand =
     "ffmpeg -hide_banner -nostdin -loglevel error -f avi -i pipe:0 "
     "-filter_threads 1 -vf scale=iw*4:ih*2:flags=neighbor -pix_fmt yuv420p -ar 48000 -threads 1";

@@ -12,7 +12,7 @@ namespace racebeam {
 
 class EpisodeAccount {
  public:
-  // After each decision, with the frames that it took.
+  // The caller calls it after each decision, with the number of frames that it took.
   void add(const Environment& machine, int frames) {
     end_.score += machine.raw_rewards().a;
     end_.frames += frames;

@@ -23,7 +23,7 @@ constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMost64 = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
 
-// The lowest byte first.
+// Appends a number, the lowest byte first.
 template <class Number>
 void append_bytes(std::string& out, Number number) {
   for (unsigned byte = 0; byte < sizeof number; ++byte)
@@ -180,14 +180,14 @@ bool is_console_key(std::string_view name) {
   return std::ranges::find(kKeys, name) != kKeys.end();
 }
 
-// Logs have the words of version 0.1 where these say the same.
+// Whether another word says the same as this setting. Logs have the words of version 0.1 where these suffice.
 bool is_said_otherwise(std::string_view name, const PlaySettings& settings) {
   const bool is_new = settings.life_loss != LifeLoss::kIgnored;
   return (name == "life_loss" && !is_new) || (name == "life_loss_ends" && is_new);
 }
 
-// The rows that would show the machine's value. Mode and difficulty are written only where they were set,
-// since setting them begins another episode.
+// The value of a row that is not taken from the machine. Mode and difficulty are written only if they were
+// set, since setting them begins another episode.
 std::optional<std::int64_t> own_value(std::string_view name, const PlaySettings& settings) {
   if (name == "seed") return settings.machine.random_seed;
   return name == "mode" ? settings.mode : settings.difficulty;

@@ -11,9 +11,9 @@
 
 namespace racebeam {
 
-constexpr int kMostDecisions = 2'000'000;  // of an episode that has a log, which has at most two MiB
+constexpr int kMostDecisions = 2'000'000;  // of an episode, so that its log has at most two MiB
 constexpr int kMostTurns = 400'000;        // if the log has strengths
-constexpr int kDecisionsPerStretch = 256;  // after each, a log has the state's hash
+constexpr int kDecisionsPerStretch = 256;  // a log has the state's hash after each stretch
 
 enum class EpisodeOver { kTerminated, kTruncated };
 std::string_view name_of(EpisodeOver over);
@@ -37,32 +37,33 @@ struct EpisodeOrigin {
 
 struct EpisodeLog {
   std::string game, image_md5;
-  std::string settings;  // words of `load`, the seed among them
+  std::string settings;  // words of `load`, including the seed
   EpisodeOrigin origin;
   EpisodeEnd end;
-  std::vector<std::uint64_t> hashes;  // of the state after each stretch; the last is of the end
+  std::vector<std::uint64_t> hashes;  // of the state after each stretch, and at the end
   std::vector<std::uint8_t> actions;
   std::vector<float> strengths;  // of the paddle, for each action; empty if all are 1
 
   float strength(std::size_t decision) const { return strengths.empty() ? 1 : strengths[decision]; }
 };
 
-// The number of hashes of an episode with this many decisions.
+// The number of hashes in the log of an episode with this many decisions.
 std::size_t hashes_of(std::size_t decisions);
 
-// `pause` is seal()'s.
+// Returns the bytes of the log's file. `pause` is passed on to seal() (recording/sealed_file.hpp).
 std::string bytes_of(const EpisodeLog& log, const std::function<void()>& pause = {});
-// `name` is for errors. Throws InvalidInput for bytes that are not a log.
+// Reads a log from the bytes of its file. `name` is for errors. Throws InvalidInput for bytes that are not a
+// log.
 EpisodeLog log_of(const std::string& name, std::string_view bytes);
 
-// The largest file that is a log. A larger one is refused without being read.
+// The size of the largest log file, in bytes. A larger file is refused without being read.
 extern const std::size_t kMostLogBytes;
 
-// The words of `load` that restart this episode. `machine` runs it.
+// The words of `load` that restart this episode, which `machine` plays.
 std::string words_of(const PlaySettings& settings, const Environment& machine);
 
-// The settings of a log in the order of their names, without the seed: those that all logs of a submission
-// have.
+// The settings of a log in the order of their names, without the seed. All logs of a submission have the
+// same.
 std::string settings_without_seed(const std::string& settings);
 
 }  // namespace racebeam

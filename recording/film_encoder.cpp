@@ -68,7 +68,7 @@ void FilmEncoder::fail(const std::string& otherwise) {
   throw EncoderFailed(name_ + " failed: " + (words.empty() ? otherwise : words));
 }
 
-// Its last line, or the beginning of a long one.
+// The last line of the program's errors, or the beginning of a long one.
 std::string FilmEncoder::last_words() {
   said_ += program_->errors();
   while (said_.ends_with('\n') || said_.ends_with('\r')) said_.pop_back();

@@ -1,4 +1,4 @@
-// Another program that makes a film out of what it reads: a child process.
+// A child process that runs another program, which encodes a film.
 #pragma once
 
 #include <chrono>
@@ -18,13 +18,13 @@ class EncoderFailed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Not thread-safe. The program reads what write() sends. Its last line on standard error is the reason of a
-// failure. All throw EncoderFailed if the program is not there, fails, or does nothing for the time of
-// `patience`, or if the caller has given up.
+// Not thread-safe. The program reads what write() sends. If it fails, the last line on its standard error is
+// the reason. All members throw EncoderFailed if the program does not exist, fails, or does not make progress
+// for the time of `patience`, or if the caller has given up.
 class FilmEncoder {
  public:
-  // `words`: the program, found as a shell does, and its arguments.
-  // given_up: asked now and then while another call waits.
+  // words: the program, which is searched for in the PATH, and its arguments.
+  // given_up: called from time to time while another call waits; true: the caller has given up.
   explicit FilmEncoder(std::vector<std::string> words, std::function<bool()> given_up = {},
                        std::chrono::milliseconds patience = std::chrono::seconds(20));
 
@@ -39,7 +39,7 @@ class FilmEncoder {
   [[noreturn]] void fail(const std::string& otherwise);
   std::string last_words();
 
-  std::string name_, said_;  // on standard error
+  std::string name_, said_;  // said_: what it has written to standard error
   std::function<bool()> given_up_;
   std::chrono::milliseconds patience_;
   std::unique_ptr<ChildProgram> program_;

@@ -61,7 +61,7 @@ class Gif final : public Media {
  private:
   static constexpr int kEvery = 2;
 
-  // Rounded so that errors do not add up.
+  // The delay of the next image, in hundredths of a second. Rounding errors do not add up.
   std::size_t delay() {
     const auto time = [this](int frames) { return (frames * kEvery * 100 + rate_ / 2) / rate_; };
     const int number = number_++;

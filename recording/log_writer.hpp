@@ -22,7 +22,7 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
     std::string failure;  // the system's error, as a sentence
   };
 
-  // Recorder::begin_log() calls it. `given_up`: nothing more is written.
+  // Recorder::begin_log() calls it. When `given_up` is set, no more logs are written.
   LogWriter(SubmissionOrder order, std::size_t most_bytes, std::unique_ptr<Claim> claim, Recording::Post post,
             std::shared_ptr<const std::atomic<bool>> given_up);
   void begin();
@@ -30,11 +30,12 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   // Whether the last call has not been completed. The caller waits until it has. Thread-safe.
   bool is_behind() const;
 
-  // Not while is_behind(). Does nothing after a cut. `charge` is released when the log is written.
+  // Must not be called while is_behind(). Does nothing after a cut. `charge` is released when the log is
+  // written.
   void add(EpisodeLog log, std::shared_ptr<const void> charge);
 
   void finish();                                    // after the last log
-  bool finished() const;                            // nothing happens any more; thread-safe
+  bool finished() const;                            // all work is done; thread-safe
   std::optional<Recording::Cut> cut() const;        // why no more logs are written; thread-safe
   const Result& result() const { return result_; }  // not while is_behind()
   const std::string& name() const { return name_; }

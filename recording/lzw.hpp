@@ -10,7 +10,7 @@ namespace racebeam {
 
 class Lzw {
  public:
-  // Appends image data, with the size byte before it and the empty block after it.
+  // Appends the compressed pixels, with the code size before them and the empty block after them.
   void append(std::vector<std::uint8_t>& out, std::span<const std::uint8_t> pixels);
 
  private:

@@ -8,7 +8,7 @@ namespace {
 
 struct Form {
   MediaKind kind;
-  std::string_view name;  // as a recording's kind; empty if recordings lack it
+  std::string_view name;  // the kind in a request; empty: recordings do not have this kind
   std::string_view ending;
   decltype(&make_png) make;
 };

@@ -1,4 +1,4 @@
-// A recording of frames or of sound, in one of several forms.
+// A recording of frames or of sound, in one of several file formats.
 #pragma once
 
 #include <cstddef>
@@ -27,9 +27,9 @@ class Media {
  public:
   virtual ~Media() = default;
 
-  // Both throw BudgetSpent, or std::runtime_error if the system refuses to write. Nothing of this frame is
-  // then recorded, and the frames before it can still be committed; except after EncoderFailed
-  // (recording/film_encoder.hpp).
+  // Both throw BudgetSpent, or std::runtime_error if the system refuses to write. Then this frame is not
+  // recorded, and the frames before it can still be committed. After EncoderFailed
+  // (recording/film_encoder.hpp), they cannot.
   virtual void frame(std::span<const std::uint8_t> pixels) = 0;  // height x 160 palette indices
   virtual void sound(std::span<const std::uint8_t> samples) = 0;
 
@@ -40,9 +40,10 @@ class Media {
 enum class MediaKind { kPng, kGif, kY4m, kWav, kWebm, kMp4, kPicture };
 std::optional<MediaKind> media_kind(std::string_view name);  // png gif y4m wav webm mp4
 
-bool is_encoded(MediaKind kind);  // by ffmpeg, in its own process
+bool is_encoded(MediaKind kind);  // whether ffmpeg encodes it, in its own process
 
-// The name of the file, or of the folder of PNGs: NAME/, NAME.gif and so on; NAME.png of a picture.
+// The name of the file, such as NAME.gif, or NAME.png for a single picture. For a folder of PNGs, it is
+// NAME/.
 std::string file_name(MediaKind kind, const std::string& name);
 
 // `folder` must exist. Throws std::runtime_error.

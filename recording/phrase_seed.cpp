@@ -23,7 +23,7 @@ void check_phrase(std::string_view phrase) {
                        " bytes, without quotation marks, backslashes and control characters");
 }
 
-// The first 32 bits of a digest without the highest, so that any program can use the seed.
+// Returns the first 32 bits of a digest with the highest bit cleared, so that any program can use the seed.
 std::uint32_t seed_of_phrase(std::string_view phrase, std::string_view game, int trial, int episode) {
   std::string text(phrase);
   for (const std::string& part : {std::string(game), std::to_string(trial), std::to_string(episode)})

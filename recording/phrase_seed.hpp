@@ -1,5 +1,5 @@
-// Seeds of episodes that follow from a published phrase, so that nobody can pick them (docs/episodes.md,
-// "Seeds from a phrase").
+// Derives seeds of episodes from a published phrase, so that nobody can choose them (docs/episodes.md, "Seeds
+// from a phrase").
 #pragma once
 
 #include <cstdint>

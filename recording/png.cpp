@@ -46,7 +46,7 @@ class Pngs final : public Media {
   int number_ = 0;
 };
 
-// A file of one picture.
+// A file with a single picture.
 class Picture final : public Media {
  public:
   Picture(const std::string& path, const Footage& footage, DiskBudget& budget)
@@ -77,7 +77,7 @@ PngWriter::PngWriter(const Footage& footage) {
   Bytes header;
   put_big_endian(header, kPictureWidth);
   put_big_endian(header, static_cast<std::uint32_t>(footage.height));
-  // 8 bits, palette; the only compression, filter; no interlace
+  // 8 bits, palette, the only method of compression, the only one of filters, no interlace
   header.insert(header.end(), {8, 3, 0, 0, 0});
   put_chunk(head_, "IHDR", header);
   Bytes colors;

@@ -13,7 +13,8 @@ class PngWriter {
  public:
   explicit PngWriter(const Footage& footage);
 
-  // The file of a screen: height x 160 palette indices. It lasts until the next call.
+  // Returns the bytes of a screen's file. `pixels`: height x 160 palette indices. The result is valid until
+  // the next call.
   std::span<const std::uint8_t> file(std::span<const std::uint8_t> pixels);
 
  private:

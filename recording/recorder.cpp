@@ -16,7 +16,7 @@ namespace net = boost::asio;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kThreads = 2;  // so that one file's sync does not hold up all others
-constexpr auto kLastMoment = 100ms;  // to remove recordings that were aborted
+constexpr auto kLastMoment = 100ms;  // the time to remove recordings that were aborted
 
 }  // namespace
 

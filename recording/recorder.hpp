@@ -19,30 +19,29 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  // Begins to record `machine` under `name`, a file for each kind.
-  // The caller waits while is_behind(). If the recording has then finished(), the system refused to write.
-  // Releasing it is the same as finish(); the Recorder must outlive it. `charge`, if not null, is charged for
-  // its memory until all is written.
-  // It never waits for the disk. It throws std::runtime_error if a recording of that name runs already. It is
-  // thread-safe.
+  // Begins to record `machine` under `name`, in a file for each kind. Does not wait for the disk. The caller
+  // waits while the recording's is_behind() is true. If the recording has finished() then, the system refused
+  // to write. To release the recording is the same as finish(); the Recorder must outlive it. `charge`, if
+  // not null, is charged for the recording's memory until all is written. Throws std::runtime_error if a
+  // recording of that name runs already. Thread-safe.
   std::shared_ptr<Recording> begin(std::vector<MediaKind> kinds, const std::string& name,
                                    std::size_t most_bytes, const Environment& machine,
                                    const Charge& charge = {});
 
-  // Begins a unit of the submission in the folder `name`. The path of the order is set here. All else is as
-  // with begin().
+  // Begins a unit of the submission in the folder `name`, and sets the path of the order. Otherwise, it is
+  // like begin().
   std::shared_ptr<LogWriter> begin_log(const std::string& name, SubmissionOrder order,
                                        std::size_t most_bytes);
 
-  bool idle() const;  // all recordings have finished; thread-safe
+  bool idle() const;  // whether all recordings have finished; thread-safe
 
-  // Waits up to `patience` for all recordings to finish, then aborts them. Files that were not committed are
-  // removed, or remain where the system hangs. No more recordings are begun.
+  // Waits up to `patience` for all recordings to finish, then aborts the others. Removes files that were not
+  // committed; they remain where the system hangs. After it, begin() must not be called.
   void end(std::chrono::milliseconds patience);
 
  private:
   class Threads;
-  bool wait(std::chrono::milliseconds patience) const;  // until it is idle; false: the time is over
+  bool wait(std::chrono::milliseconds patience) const;  // waits until it is idle; false: the time is over
 
   const std::string folder_;
   const std::shared_ptr<Claims> claims_ = std::make_shared<Claims>();

@@ -9,12 +9,12 @@
 namespace racebeam {
 namespace {
 
-// Some milliseconds of the encoders' work. A frame of only sound has six bytes.
+// The most frames in the queue: some milliseconds of the encoders' work. A frame of only sound has six bytes.
 constexpr std::size_t kMostPictures = 16, kMostSounds = 1024;
 
 // The most memory that encoders need: buffers of six bytes a pixel, their output, and zlib's own memory.
 constexpr std::size_t kEncoderBytesAPixel = 12, kEncoderBytes = 1 << 19;
-constexpr std::size_t kEncoderProcess = 80 << 20;  // of ffmpeg, as measured
+constexpr std::size_t kEncoderProcess = 80 << 20;  // the memory of ffmpeg, as measured
 
 constexpr const char* kStopping = "the server stops";
 
@@ -169,7 +169,7 @@ void Recording::close() {
   end();
 }
 
-// The first failure is kept, since later ones follow from it.
+// Keeps the first failure, since later ones follow from it.
 void Recording::fail(Cut why, const std::exception& error) {
   if (!result_.failure.empty()) return;
   result_.failure = error.what();

@@ -23,13 +23,13 @@
 namespace racebeam {
 
 struct RecordedFrame {
-  std::vector<std::uint8_t> pixels;  // none if only sound is recorded
+  std::vector<std::uint8_t> pixels;  // empty if only sound is recorded
   std::array<std::uint8_t, 6> sound;
 };
 
 // What is recorded, and where.
 struct Order {
-  std::vector<MediaKind> kinds;  // at least one, each once
+  std::vector<MediaKind> kinds;  // at least one kind, each at most once
   std::string folder, name;
   std::size_t most_bytes;  // of all files together
   Footage footage;
@@ -39,13 +39,13 @@ struct Order {
   std::size_t memory() const;                   // bytes of the queue and the encoders, at most
 };
 
-// Charges bytes of memory to an account, until the returned object is released. Throws if the account has too
-// few.
+// Charges bytes of memory to an account, until the returned object is released. Throws if the account does
+// not have as many.
 using Charge = std::function<std::shared_ptr<const void>(std::size_t bytes)>;
 
 class Recording : public std::enable_shared_from_this<Recording> {
  public:
-  // Why it ended early. What was written before is committed.
+  // Why the recording ended early. The frames before that are committed.
   enum class Cut { kLimit, kDisk, kEncoder };
 
   struct Result {
@@ -58,21 +58,21 @@ class Recording : public std::enable_shared_from_this<Recording> {
   // Runs jobs one after the other, in their order, on another thread.
   using Post = std::function<void(std::function<void()>)>;
 
-  // Recorder::begin() calls it. `given_up`: nothing more is written or committed.
+  // Recorder::begin() calls it. When `given_up` is set, nothing more is written or committed.
   Recording(Order order, std::unique_ptr<Claim> claim, Post post,
             std::shared_ptr<const std::atomic<bool>> given_up);
   void begin();
 
-  // Whether the last call has not been completed: begin, add or finish. The caller waits until it has.
-  // Thread-safe.
+  // Whether the last call of begin(), add() or finish() has not been completed. The caller waits until it
+  // has. Thread-safe.
   bool is_behind() const;
 
-  // Adds one frame: a copy of the machine's screen and sound. Not while is_behind(); by one thread at a time.
-  // Does nothing after a cut.
+  // Adds one frame: a copy of the machine's screen and sound. Must not be called while is_behind(), and only
+  // by one thread at a time. Does nothing after a cut.
   void add(const Environment& machine);
 
   void finish();                                       // after the last frame: commits the files
-  bool finished() const;                               // nothing happens any more; thread-safe
+  bool finished() const;                               // all work is done; thread-safe
   std::optional<Cut> cut() const;                      // thread-safe
   const Result& result() const { return result_; }     // once it has finished
   const std::string& names() const { return names_; }  // of its files: "a.gif", "a.y4m,a.wav"
@@ -89,9 +89,9 @@ class Recording : public std::enable_shared_from_this<Recording> {
   void end();
 
   void post(void (Recording::*job)());
-  bool is_over() const;  // no frame is accepted any more
+  bool is_over() const;  // frames are no longer accepted
   template <typename Change>
-  void change(Change change);  // under the mutex
+  void change(Change change);  // makes the change under the mutex
 
   const Order order_;
   const std::string names_;
@@ -99,8 +99,8 @@ class Recording : public std::enable_shared_from_this<Recording> {
   const Post post_;
   const std::shared_ptr<const std::atomic<bool>> given_up_;
 
-  std::vector<RecordedFrame> queue_;  // a ring; a waiting frame belongs to the recorder's thread
-  std::size_t added_ = 0;             // by the playing thread
+  std::vector<RecordedFrame> queue_;  // a ring; frames that wait belong to the recorder's thread
+  std::size_t added_ = 0;             // frames that the playing thread has added
 
   // Used by the recorder's threads:
   DiskBudget budget_;

@@ -26,7 +26,7 @@ std::string line_of(const std::array<std::string_view, kSize>& columns) {
 
 std::string line_of(const ResultRow& row);
 
-// The row of this log. `digest` is that of the log's bytes.
+// The row of this log. `digest` is the digest of the log's bytes.
 ResultRow row_of(const EpisodeLog& log, const std::string& digest);
 
 ResultRow row_of_line(std::string_view line);  // throws InvalidInput

@@ -11,7 +11,7 @@
 namespace racebeam {
 namespace {
 
-// magic, version, size of the contents, checksum; then the deflated contents
+// A sealed file has magic, version, size of the contents and checksum, then the deflated contents.
 constexpr std::size_t kVersionAt = 8, kSizeAt = 12, kChecksumAt = 20, kHeadSize = 24;
 
 template <typename T>
@@ -30,7 +30,7 @@ T get(std::string_view bytes, std::size_t at) {
 
 const Bytef* bytes_of(std::string_view text) { return reinterpret_cast<const Bytef*>(text.data()); }
 
-// The checksum covers all bytes but its own four.
+// The checksum covers all bytes except its own four.
 std::uint32_t checksum(std::string_view head, std::string_view deflated) {
   const uLong sum = crc32_z(0, bytes_of(head), kChecksumAt);
   return static_cast<std::uint32_t>(crc32_z(sum, bytes_of(deflated), deflated.size()));
@@ -52,7 +52,7 @@ std::string inflated(const SealedKind& kind, const std::string& name, std::strin
   return contents;
 }
 
-// A stream of zlib that compresses.
+// A compressing stream of zlib.
 class Deflater {
  public:
   explicit Deflater(int level) {
@@ -64,7 +64,7 @@ class Deflater {
 
   std::size_t bound(std::size_t bytes) { return deflateBound(&stream_, static_cast<uLong>(bytes)); }
 
-  // Appends to `out`, which has room for all.
+  // Appends the compressed piece to `out`, which has room for all.
   void add(std::string_view piece, std::string& out, std::size_t& size, bool is_last) {
     stream_.next_in = const_cast<Bytef*>(bytes_of(piece));  // zlib does not write there
     stream_.avail_in = static_cast<uInt>(piece.size());
@@ -76,7 +76,7 @@ class Deflater {
   }
 
  private:
-  static constexpr std::size_t kMostOut = std::size_t{1} << 30;  // of a piece, which is far smaller
+  static constexpr std::size_t kMostOut = std::size_t{1} << 30;  // bytes for a piece, which has far fewer
 
   z_stream stream_{};
 };

@@ -8,7 +8,7 @@
 namespace racebeam {
 namespace {
 
-// FIPS 180-4, 4.2.2. The first 32 bits of the fractions of the cube roots of the first 64 primes.
+// FIPS 180-4, 4.2.2: the first 32 bits of the fractions of the cube roots of the first 64 primes.
 constexpr std::array<std::uint32_t, 64> kK = {
     0x428A2F98, 0x71374491, 0xB5C0FBCF, 0xE9B5DBA5, 0x3956C25B, 0x59F111F1, 0x923F82A4, 0xAB1C5ED5,
     0xD807AA98, 0x12835B01, 0x243185BE, 0x550C7DC3, 0x72BE5D74, 0x80DEB1FE, 0x9BDC06A7, 0xC19BF174,
@@ -19,7 +19,7 @@ constexpr std::array<std::uint32_t, 64> kK = {
     0x19A4C116, 0x1E376C08, 0x2748774C, 0x34B0BCB5, 0x391C0CB3, 0x4ED8AA4A, 0x5B9CCA4F, 0x682E6FF3,
     0x748F82EE, 0x78A5636F, 0x84C87814, 0x8CC70208, 0x90BEFFFA, 0xA4506CEB, 0xBEF9A3F7, 0xC67178F2};
 
-// 6.2.2, 1: the words of the block, and 48 that are made of them.
+// 6.2.2, 1: the words of the block, and 48 words that are computed from them.
 std::array<std::uint32_t, 64> schedule_of(const std::uint8_t* block) {
   std::array<std::uint32_t, 64> words{};
   for (unsigned i = 0; i < 16; ++i) words[i] = word_at<std::endian::big>(block + 4 * i);

@@ -26,7 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-// What a log counts beside its bytes, so that the budget also limits the number of files.
+// How many bytes a log is charged for in addition to its own, so that the budget also limits the number of
+// files.
 constexpr std::size_t kBytesBesideLog = 4096;
 constexpr std::size_t kMostAgentBytes = std::size_t{1} << 16, kMostLineBytes = std::size_t{1} << 16;
 
@@ -69,7 +70,7 @@ class SharedTable {
     return static_cast<std::size_t>(size);
   }
 
-  // All of the text, or nothing.
+  // Appends all of the text, or nothing.
   void append(std::string_view text) const {
     const std::size_t before = size();
     if (racebeam::append(descriptor_, text)) return;
@@ -96,7 +97,7 @@ void append_text(std::string& out, std::string_view key, std::string_view text) 
   if (!text.empty()) out.append(key).append(" = \"").append(text).append("\"\n");
 }
 
-// What a log of an evaluation preset has besides (docs/experiments.md).
+// The settings that a log of any evaluation preset also has (docs/experiments.md).
 constexpr std::string_view kOfAllPresets = "rules=ale-0.12 life_loss_ends=0";
 
 std::string text_of(const AboutAgent& about, std::string_view preset) {
@@ -111,8 +112,8 @@ std::string text_of(const AboutAgent& about, std::string_view preset) {
   return text;
 }
 
-// Makes the folder with its description and the columns of its table. Others see it whole, so that several
-// programs can begin it at the same time. Returns false if something of this name is there.
+// Makes the folder with its description and the columns of its table. It appears as a whole, so that several
+// programs can begin it at the same time. Returns false if something of this name exists.
 bool make_submission(const std::string& path, std::string_view about, DiskBudget& budget) {
   const auto bytes = [](std::string_view text) {
     return std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
@@ -124,7 +125,7 @@ bool make_submission(const std::string& path, std::string_view about, DiskBudget
     folder.add("results.csv", bytes(line_of(kResultColumns)));
     folder.commit();
   } catch (const std::runtime_error&) {
-    if (is_there(path)) return false;  // somebody else has begun it meanwhile
+    if (is_there(path)) return false;  // another program has begun it meanwhile
     throw;
   }
   return true;

@@ -26,22 +26,22 @@ struct SubmissionOrder {
   std::string settings;  // of its logs, without the seed: settings_without_seed()
 };
 
-// The evaluation preset of a log's settings (docs/experiments.md), or "other". They have every word, without
-// the seed.
+// The evaluation preset of a log's settings (docs/experiments.md), or "other". `settings` has every word
+// except the seed.
 std::string_view preset_of(std::string_view settings);
 
-// Several units, of several programs, may be added to a folder at the same time.
+// Several programs may add their units to a folder at the same time.
 class SubmissionFolder {
  public:
   // Creates the folder, or continues one that has the same agent.toml and logs with the same settings. The
   // unit must be new. Throws BudgetSpent, or std::runtime_error with a sentence. A folder that could not be
   // completed is then removed.
   SubmissionFolder(SubmissionOrder order, DiskBudget& budget);
-  ~SubmissionFolder();  // a unit without logs is removed
+  ~SubmissionFolder();  // removes a unit without logs
   SubmissionFolder(const SubmissionFolder&) = delete;
   SubmissionFolder& operator=(const SubmissionFolder&) = delete;
 
-  // Writes the log and its row, or neither. Throws as the constructor.
+  // Writes the log and its row, or neither. Throws like the constructor.
   void add(const EpisodeLog& log);
 
  private:

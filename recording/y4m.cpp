@@ -1,4 +1,5 @@
-// Y4M: every frame, uncompressed, 4:4:4, for video encoders. Colours as in ITU-R BT.601, studio swing.
+// Y4M for video encoders: every frame, uncompressed, 4:4:4. Colours are those of ITU-R BT.601, in studio
+// swing.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -43,7 +44,7 @@ class Y4m final : public Media {
  private:
   AtomicFile file_;
   std::array<Yuv, 256> colors_;
-  std::vector<std::uint8_t> planes_;  // of a frame, with its head
+  std::vector<std::uint8_t> planes_;  // the planes of a frame, after its header
 };
 
 }  // namespace
