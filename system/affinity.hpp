@@ -6,10 +6,11 @@
 
 namespace racebeam {
 
-// The numbers of those of the calling thread, in ascending order; empty if the system does not report them.
+// The numbers of the calling thread's processors, in ascending order; empty if the system does not report
+// them.
 std::vector<unsigned> allowed_processors();
 
-// The thread runs on this processor only from now on. Throws InvalidInput if the system refuses that.
+// From now on, the thread runs only on this processor. Throws InvalidInput if the system refuses that.
 void bind_to(std::jthread& thread, unsigned processor);
 
 }  // namespace racebeam

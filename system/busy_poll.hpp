@@ -17,7 +17,7 @@ class BusyPoll {
 
   explicit BusyPoll(std::chrono::microseconds longest) : longest_(longest) {}  // 0: never
 
-  // Records that input came this long after the last reply. Returns whether the next is worth waiting for.
+  // Records that input came this long after the last reply. Returns whether to poll for the next input.
   bool received_after(Clock::duration pause) {
     if (until_ != Clock::time_point{} && pause < longest_) backoff_ /= 2;
     return pause < longest_;
@@ -31,7 +31,7 @@ class BusyPoll {
     }
   }
 
-  // Whether to look again without sleeping.
+  // Whether to poll again instead of sleeping.
   bool again() {
     if (until_ == Clock::time_point{} || Clock::now() < until_) return until_ != Clock::time_point{};
     until_ = {};
@@ -41,7 +41,7 @@ class BusyPoll {
 
  private:
   const std::chrono::microseconds longest_;
-  Clock::time_point until_{};      // none: asleep
+  Clock::time_point until_{};      // the end of polling; 0: it does not poll
   int backoff_ = 0, to_skip_ = 0;  // polls to skip: after the last time, and from now on
 };
 

@@ -6,7 +6,7 @@
 namespace racebeam {
 
 std::int64_t wall_time();                  // never set back
-std::int64_t processor_time();             // what the calling thread has used
-std::int64_t processor_time_of_process();  // what all its threads have used
+std::int64_t processor_time();             // processor time that the calling thread has used
+std::int64_t processor_time_of_process();  // processor time that all its threads have used
 
 }  // namespace racebeam

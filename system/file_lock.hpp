@@ -7,19 +7,19 @@
 
 namespace racebeam {
 
-// Of an open file, until it is closed. Without waiting, they return false if another holds the lock, and
-// leave the reason in errno.
+// Locks an open file until it is closed. With Waiting::kNo, returns false if another process holds the lock,
+// and leaves the reason in errno.
 enum class Waiting { kNo, kYes };
 bool lock_file(int file, Waiting waiting);
 bool is_locked_elsewhere(int error);  // whether that was the reason
-bool is_locked(int file);             // by another that has opened it
+bool is_locked(int file);             // whether another descriptor of the file has locked it
 
 int open_lock(const std::string& path);            // makes the file; returns -1 if that fails
 int open_lock_of_folder(const std::string& path);  // -1: it cannot be locked
-bool is_at(int file, const std::string& path);     // whether the name means this open file
+bool is_at(int file, const std::string& path);     // whether the file at this path is the open file
 
-// A file that one process holds. It may remove the file: processes that wait for it then lock the one that is
-// created next.
+// A file that one process holds. That process may remove the file; processes that wait for it then lock the
+// file that is created next.
 class FileLock {
  public:
   // Waits for the lock. Throws std::system_error if the file cannot be made.

@@ -1,4 +1,4 @@
-// Text in lines, for people.
+// Breaks text for people into lines.
 #pragma once
 
 #include <cstddef>

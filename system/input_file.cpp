@@ -44,7 +44,7 @@ void each_piece(const std::string& what, const std::string& path,
   }
 }
 
-// The size that the system reports is not used: files of /proc report none.
+// Does not use the size that the system reports: it is 0 for files of /proc.
 std::string read_input_file(const std::string& what, const std::string& path, std::size_t most) {
   std::string text;
   each_piece(what, path, [&](std::string_view piece) {
@@ -57,7 +57,7 @@ std::string read_input_file(const std::string& what, const std::string& path, st
 
 void each_line(const std::string& what, const std::string& path, std::size_t most,
                const std::function<void(std::string_view, bool)>& visit) {
-  std::string line;  // what has been read of one that began in an earlier piece
+  std::string line;  // the beginning of a line from earlier pieces
   std::size_t number = 1;
   each_piece(what, path, [&](std::string_view piece) {
     for (std::size_t end; !piece.empty(); piece.remove_prefix(end)) {

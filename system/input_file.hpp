@@ -28,7 +28,7 @@ std::string read_input_file(const std::string& what, const std::string& path, st
 void each_piece(const std::string& what, const std::string& path,
                 const std::function<void(std::string_view piece)>& visit);
 
-// Calls visit() with each line, and with whether a newline ends it, as only the last may lack. Throws
+// Calls visit() with each line, and with whether a newline ends it; only the last line may lack one. Throws
 // InputFileError, also for a line of more than `most` bytes.
 void each_line(const std::string& what, const std::string& path, std::size_t most,
                const std::function<void(std::string_view line, bool ends)>& visit);

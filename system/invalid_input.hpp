@@ -6,7 +6,7 @@
 namespace racebeam {
 
 // what() is one sentence for the user or the client: what is wrong, and what is accepted. Any other
-// exception, std::invalid_argument itself included, is a fault of the program.
+// exception, including std::invalid_argument itself, is a fault of the program.
 class InvalidInput : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;

@@ -26,8 +26,9 @@ constexpr std::array<std::string_view, kRows> name_array(const std::array<Row, k
   return names;
 }
 
-// The row of this name, for a constant: if it is missing, the program does not compile. Not consteval: of
-// functions without captures that an immediate call takes, Clang 14 passes on no arguments.
+// The row of this name, for a constant: if it is missing, the program does not compile. It is not consteval
+// because of a fault in Clang 14: a captureless lambda that is passed to an immediate function loses its
+// arguments.
 template <typename Rows>
 constexpr const auto& row_named(const Rows& rows, std::string_view name) {
   for (const auto& row : rows)

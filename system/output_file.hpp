@@ -12,7 +12,7 @@ namespace racebeam {
 // Who may read a file beside its owner. On Windows, the folder determines that.
 enum class Readers { kNobody, kEveryone };
 
-// Make and open a file. They fail if something of its name exists.
+// Both make and open a file. They fail if something of its name exists.
 int make_file(const std::string& path);
 int make_temporary_file(std::string& name);  // replaces XXXXXX at the end of the name; its owner can read it
 
@@ -25,19 +25,19 @@ int open_own_file(const std::string& path);   // to read; follows no link
 
 bool set_readers(int file, Readers readers);
 bool write_at(int file, std::size_t place, std::string_view bytes);  // all bytes
-bool append(int file, std::string_view bytes);                       // all bytes, or some
+bool append(int file, std::string_view bytes);                       // if it fails, some may be written
 std::int64_t size_of_file(int file);
-bool cut_file(int file, std::size_t size);  // to this size
-bool sync_file(int file);                   // its bytes are on the disk
-bool sync_disk_of(int file);                // so is all that was written to its disk
+bool cut_file(int file, std::size_t size);  // truncates it to this size
+bool sync_file(int file);                   // waits until its bytes are on the disk
+bool sync_disk_of(int file);                // waits until all that was written to its disk is there
 bool sync_disk_of(const std::string& path);
 
 bool make_folder(const std::string& path);
 bool make_temporary_folder(std::string& name);  // see make_temporary_file()
 void open_folder_to_all(const std::string& path);
-bool remove_folder(const std::string& path);  // an empty one
+bool remove_folder(const std::string& path);  // it must be empty
 
-bool rename_anew(const std::string& from, const std::string& to);  // fails if `to` exists; is on the disk
+bool rename_anew(const std::string& from, const std::string& to);  // fails if `to` exists; syncs the folder
 bool rename_over(const std::string& from, const std::string& to);
 bool remove_file(const std::string& path);
 
@@ -50,6 +50,6 @@ struct FileMark {
 };
 FileMark mark_of(const std::string& path);  // follows no link
 
-bool all_may_read(const std::string& path);  // every user of this machine
+bool all_may_read(const std::string& path);  // whether every user of this machine may
 
 }  // namespace racebeam

@@ -21,15 +21,16 @@ class Pages {
   std::byte* data() const { return all_.data(); }
   std::size_t size() const { return all_.size(); }
 
-  // Changes the access to the pages from `offset` on that have `size` bytes. Throws std::system_error.
-  void make_executable(std::size_t offset, std::size_t size);  // of code; no longer writable
+  // Both change the access to the pages of the `size` bytes from `offset` on. They throw std::system_error.
+  void make_executable(std::size_t offset, std::size_t size);  // pages of code; they are no longer writable
   void forbid(std::size_t offset, std::size_t size);           // an access ends the process
 
  private:
   std::span<std::byte> all_;  // empty after a move
 };
 
-// While it lives, its thread writes to pages for code, and cannot execute what is in them. One at a time.
+// During its lifetime, its thread can write to pages for code, but cannot execute the code. Only one such
+// object may exist at a time.
 class CodeWriting {
  public:
   CodeWriting();
@@ -38,13 +39,13 @@ class CodeWriting {
   CodeWriting& operator=(const CodeWriting&) = delete;
 };
 
-// `size` in whole pages.
+// Returns `size`, rounded up to whole pages.
 std::size_t whole_pages(std::size_t size);
 
-// The contents of these pages are lost, and their memory goes back to the system until they are used.
+// Discards the contents of these pages, and returns their memory to the system until they are used again.
 void discard_pages(void* first, std::size_t size);
 
-// Large pages are better for this memory, if the system has them.
+// Asks the system to use large pages for this memory, if it has them.
 void prefer_large_pages(void* memory, std::size_t size);
 
 }  // namespace racebeam

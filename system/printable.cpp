@@ -22,7 +22,8 @@ bool is_character(std::uint32_t number) {
   return number <= 0x10FFFF && !(number >= 0xD800 && number <= 0xDFFF) && !is_control(number);
 }
 
-// Bytes of the first character of the text, which is not empty. Returns 0 if that must not be printed.
+// Returns the number of bytes of the first character of the text, which is not empty; 0 if that character
+// must not be printed.
 std::size_t shown_at_front(std::string_view text) {
   const auto first = static_cast<unsigned char>(text.front());
   for (std::size_t more = 0; more < kForms.size(); ++more) {

@@ -12,16 +12,17 @@ struct OpenedFile {
   std::string refusal;  // the reason, if the file is not open: "no such file"
 };
 
-// Opens a file without waiting. Anything but a regular file is refused, and opening it has no effect.
+// Opens a file without waiting. Refuses anything but a regular file, without an effect on it.
 OpenedFile open_regular_file(const std::string& path);
 
-// Reads at most so many bytes. Returns how many; 0: the file ends; -1: failed, and errno has the reason.
+// Reads at most as many bytes as fit. Returns how many; 0: the file ends; -1: failed, and errno has the
+// reason.
 std::ptrdiff_t read_from(int descriptor, std::span<char> bytes);
 
-int another_number(int descriptor);  // of the same open file; -1: failed, and errno has the reason
+int another_number(int descriptor);  // a duplicate of it; -1: failed, and errno has the reason
 void close_file(int descriptor);
 
-// "the file cannot be read", and why.
+// Returns "the file cannot be read", with the reason.
 std::string read_refusal(int error);
 
 }  // namespace racebeam

@@ -7,7 +7,7 @@
 
 namespace racebeam {
 
-// An amount, and its limit: "the affinity", "the control group", "the address space (ulimit -v)" or "the
+// An amount, and what limits it: "the affinity", "the control group", "the address space (ulimit -v)" or "the
 // machine".
 struct Allowance {
   std::uint64_t amount;
@@ -16,35 +16,36 @@ struct Allowance {
 
 // Control groups (cgroups) of version 1 and 2 are found by ROOT/proc/self/cgroup and
 // ROOT/proc/self/mountinfo. A group's limits hold for all groups below it, so that the whole path up the
-// hierarchy counts. Files that cannot be read set no limit. `root` is for tests.
+// hierarchy counts. Files that cannot be read do not set a limit. `root` is for tests.
 
-// Processors: the least of those that the process may run on (sched_getaffinity) and the CPU quota, rounded
-// up. At least 1.
+// The number of processors that the process may use. It is the smaller one of the number on which the process
+// may run (sched_getaffinity) and the CPU quota, rounded up; at least 1.
 Allowance usable_processors(const std::string& root = "");
 
-// Bytes: the least of the physical memory, the control groups' limits and that of the address space.
+// In bytes: the smallest of the physical memory, the limits of the control groups and the limit of the
+// address space.
 Allowance usable_memory(const std::string& root = "");
 
 // Raises the limit of open files as far as the system allows. Returns how many the process may have open.
 std::uint64_t usable_files();
 
-// Sets the size of the stacks of threads that begin from now on. The system's own size may be too small (128
-// KiB with musl), or anything (`ulimit -s`).
+// Sets the size of the stacks of threads that begin from now on. The default of the system may be too small
+// (128 KiB with musl), or of any size (`ulimit -s`).
 void set_thread_stacks();
 
-// How many of its first `most` files the process has open now.
+// Returns how many of the descriptors below `most` are open.
 std::uint64_t open_files(std::uint64_t most);
 
-// Gives memory of the heap that is free back to the system, now, or from now on each large block: those as
-// large as a picture, or as the records of its lines. Otherwise a server would keep the memory of its largest
-// load. Only the GNU C library can be told.
+// Both return free memory of the heap to the system, so that a server does not keep the memory of its largest
+// load. trim_heap() does so now. After return_large_blocks(), each large block is returned when it is freed:
+// one as large as a picture, or as the records of its lines. They do something only with the GNU C library.
 void trim_heap();
 void return_large_blocks();
 
 int process_number();
 
-// Opens a file that has nothing, so that there is a number for another one after close_file(); -1 if none is
-// needed.
+// Opens a file without contents, to reserve a descriptor for another file; close_file() frees it. Returns -1
+// if a reserve is not needed.
 int open_spare_file();
 
 // Bytes of memory that the process uses now.

@@ -9,7 +9,7 @@ namespace racebeam {
 namespace {
 
 constexpr std::size_t kSuggestions = 3;
-constexpr std::size_t kLongest = 64;  // longer names are similar to none
+constexpr std::size_t kLongest = 64;  // letters; a longer name is not similar to any
 
 std::string in_small_letters(std::string_view text) {
   std::string small(text);

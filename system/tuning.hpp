@@ -1,12 +1,11 @@
-// Numbers that choose between ways with the same result, and so affect speed only, are rows of a tuning
-// table: emulator/policies/tuning.hpp, protocol/tuning.hpp, server/tuning.hpp, and the end of this file. The
-// comment before a row says what the number means. `scripts/bench tune` reads the rows, measures each at half
-// and at double, and writes docs/performance/tuning.md.
+// Numbers that affect only speed, since they choose between methods with the same result, are rows of a
+// tuning table: emulator/policies/tuning.hpp, protocol/tuning.hpp, server/tuning.hpp, and the end of this
+// file. The comment before a row says what the number means. `scripts/bench tune` reads the rows, measures
+// each at half and at double, and writes docs/performance/tuning.md.
 //
 //   RACEBEAM_TUNED(type, name, value, unit, measure);
-//
-// measure: what `scripts/bench tune` measures it by: "frames" and "start" are processor times of games, in
-// the middle of play and from power-on; "replies" are those of a server. "none": no command measures it.
+// measure: how `scripts/bench tune` measures a row. "frames" and "start" are processor times of games, in the
+// middle of play and from power-on. "replies" are the replies of a server. "none": no command measures it.
 //
 // A row is a constant. In a build with RACEBEAM_TUNABLE, which only that command makes, a row takes another
 // value from the environment variable RACEBEAM_TUNING, as in "kMostWork=50 kLongestRun=64".
@@ -42,7 +41,7 @@ T tuned(const std::string& name, T usual) {
 
 namespace racebeam::tuning {
 
-// Busy polling (busy_poll.hpp): polling that was in vain is left out for some times, at most for so many.
+// Busy polling (busy_poll.hpp): after polls in vain, some polls are skipped. This is the largest number.
 RACEBEAM_TUNED(int, kMostSkippedPolls, 1024, "polls", "none");
 
 }  // namespace racebeam::tuning

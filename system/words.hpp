@@ -23,7 +23,7 @@ using Words = std::span<const std::string_view>;
 void split(std::string_view line, std::vector<std::string_view>& words);
 std::string_view next_word(std::string_view& line);  // removes it from the line; empty: the line has no more
 
-// The whole text as a number; nothing for any other text, "nan" and "inf" included.
+// The whole text as a number; nothing for any other text, including "nan" and "inf".
 template <typename Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number number{};
@@ -49,8 +49,8 @@ KeyValue key_value(std::string_view word);
 // The value of key=value, if `command` accepts only this key. Throws InvalidArguments.
 std::string_view value_of(std::string_view word, std::string_view key, std::string_view command);
 
-// A suggestion, if a name is similar, then what is accepted, which begins with a small letter: " did you mean
-// A? Accepted: A B C", or " accepted: A B C".
+// The end of an error: a suggestion, if a name is similar, then what is accepted. `accepted` begins with a
+// small letter. The result is " did you mean A? Accepted: A B C", or " accepted: A B C".
 std::string advice(std::string_view name, Words names, std::string accepted);
 
 // "unknown KIND 'NAME'; did you mean A? Accepted: A B C"
@@ -75,7 +75,7 @@ constexpr std::string_view word_for(const Rows& rows, Value value) {
   return {};
 }
 
-// The value of `word`. Throws as choice_of().
+// The value of `word`. Throws like choice_of().
 template <typename Rows>
 auto value_for(std::string_view word, std::string_view what, const Rows& rows) {
   return rows[choice_of(word, what, names_of(rows))].value;
@@ -83,8 +83,8 @@ auto value_for(std::string_view word, std::string_view what, const Rows& rows) {
 
 [[noreturn]] void refuse_twice(std::string_view key);  // InvalidArguments
 
-// Removes the first `mark` and the text after it from `text`. Returns the text after it; "" without a
-// mark.
+// Removes the first `mark` and the text after it from `text`. Returns the text after the mark; "" if there is
+// no mark.
 std::string_view cut_behind(std::string_view& text, char mark);
 
 // A name for something that a client saves: 1 to 64 letters, digits, '-' and '_'. Throws

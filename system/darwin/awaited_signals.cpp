@@ -7,8 +7,8 @@
 namespace racebeam {
 namespace {
 
-// The system does not tell who has sent a signal. In the foreground of a terminal, its keys are more likely
-// than another process.
+// The system does not report who has sent a signal. In the foreground of a terminal, a key is a more likely
+// source than another process.
 bool may_be_from_terminal(int number) {
   if (number != SIGINT && number != SIGQUIT) return false;
   const int terminal = ::open("/dev/tty", O_RDONLY | O_NOCTTY | O_CLOEXEC);
@@ -35,10 +35,10 @@ struct AwaitedSignals::Sets {
   struct sigaction before_of_children {};
 };
 
-// A signal that would be ignored does not come, even if it is blocked. That of children gets a handler,
-// which is never called.
+// The system does not deliver a signal that would be ignored, even if it is blocked. So SIGCHLD gets a
+// handler, which is never called.
 AwaitedSignals::AwaitedSignals(std::span<const int> numbers) : sets_(std::make_unique<Sets>()) {
-  sigemptyset(&sets_->awaited);  // a macro
+  sigemptyset(&sets_->awaited);  // it is a macro, so it must not have `::`
   for (const int number : numbers) sigaddset(&sets_->awaited, number);
   ::sigprocmask(SIG_BLOCK, &sets_->awaited, &sets_->before);
   struct sigaction action {};

@@ -4,7 +4,7 @@
 
 namespace racebeam {
 
-// CLOCK_MONOTONIC counts microseconds.
+// CLOCK_MONOTONIC_RAW counts nanoseconds, while CLOCK_MONOTONIC counts only microseconds.
 std::int64_t wall_time() { return static_cast<std::int64_t>(::clock_gettime_nsec_np(CLOCK_MONOTONIC_RAW)); }
 std::int64_t processor_time() {
   return static_cast<std::int64_t>(::clock_gettime_nsec_np(CLOCK_THREAD_CPUTIME_ID));

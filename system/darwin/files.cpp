@@ -6,7 +6,8 @@
 
 namespace racebeam {
 
-// The flag tells programs that make backups to leave out the file. A file cannot be made with a sticky bit.
+// The mark is a flag that tells backup programs to leave out the file. macOS cannot make a file with the
+// sticky bit.
 const mode_t kModeOfMarked = 0644;
 void mark(int file) { ::fchflags(file, UF_NODUMP); }
 void unmark(int file, const struct stat& facts) { ::fchflags(file, facts.st_flags & ~__uint32_t{UF_NODUMP}); }

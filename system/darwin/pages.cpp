@@ -12,7 +12,7 @@ namespace racebeam {
 namespace {
 
 // On Apple silicon, pages for code are executable for all threads but those that write (CodeWriting). The
-// processor switches this for each thread. On x86-64 their access is changed, as on Linux.
+// processor switches this for each thread. On x86-64, the access to the pages changes, as on Linux.
 #if defined(__aarch64__)
 constexpr bool kSwitches = true;
 #else

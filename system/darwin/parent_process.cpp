@@ -12,7 +12,7 @@
 namespace racebeam {
 namespace {
 
-// Waits until one of the two ends. A process that has ended already gives an event with an error.
+// Waits until one of the two processes ends. For a process that has ended already, the event is an error.
 [[noreturn]] void guard(pid_t parent, pid_t child) {
   for (int file = 0; file < ::getdtablesize(); ++file) ::close(file);
   const int queue = ::kqueue();
@@ -33,8 +33,9 @@ namespace {
 
 }  // namespace
 
-// macOS cannot send a signal when a parent ends, so a separate process watches it. The process between ends
-// at once. The watcher is then no child of the program that this process executes.
+// macOS cannot send a signal when a parent ends, so a separate process watches the parent. An intermediate
+// process starts the watcher and ends at once, so the watcher does not become a child of the program that
+// this process executes.
 bool end_with_parent(int parent) {
   const pid_t child = ::getpid();
   const pid_t between = ::fork();

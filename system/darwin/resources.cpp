@@ -14,7 +14,7 @@ namespace {
 
 constexpr auto kMachine = "the machine";
 
-// A number of the kernel; `otherwise` if it does not have that.
+// Returns a number that the kernel has under this name; `otherwise` if it does not have the name.
 template <class Number>
 Number kernel_value(const char* name, Number otherwise) {
   Number value = 0;

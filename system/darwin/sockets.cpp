@@ -25,7 +25,7 @@ void claim_address(SocketNumber socket) { set_option(socket, SOL_SOCKET, SO_REUS
 void close_socket(SocketNumber socket) { ::close(number_of(socket)); }
 void acknowledge_at_once(SocketNumber) {}
 
-// poll() has no event for a half-closed socket; kevent() tells the directions apart.
+// poll() does not have an event for a half-closed socket; kevent() distinguishes the two directions.
 PeerState state_of_peer(SocketNumber socket) {
   const int queue = ::kqueue();
   if (queue < 0) return PeerState::kThere;
@@ -48,7 +48,7 @@ PeerState state_of_peer(SocketNumber socket) {
 
 bool peer_has_closed(SocketNumber) { return false; }
 
-// Fails on a Unix socket, whose other end is seen directly.
+// Fails on a Unix socket, where the system reports directly that the other end has gone.
 void probe_often(SocketNumber socket) {
   constexpr int kBetweenProbes = 5;  // seconds
   for (const int option : {TCP_KEEPALIVE, TCP_KEEPINTVL})

@@ -10,7 +10,7 @@
 namespace racebeam {
 namespace {
 
-// If not, errno has the reason. The system cannot tell for some devices.
+// Whether the descriptor is ready. If not, errno has the reason. For some devices, the system cannot tell.
 bool is_ready(int descriptor, short direction) {
   pollfd state{descriptor, direction, 0};
   const int count = ::poll(&state, 1, 0);
@@ -21,7 +21,7 @@ bool is_ready(int descriptor, short direction) {
 
 }  // namespace
 
-// It would wait if another process took the bytes in between.
+// It waits after all if another process takes the bytes in between.
 std::ptrdiff_t read_without_waiting(int descriptor, std::span<char> space) {
   return is_ready(descriptor, POLLIN) ? ::read(descriptor, space.data(), space.size()) : -1;
 }

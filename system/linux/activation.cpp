@@ -71,7 +71,7 @@ void notify_manager(const std::string& state) {
   if (name.empty() || name.size() >= sizeof address.sun_path) return;
   address.sun_family = AF_UNIX;
   std::ranges::copy(name, address.sun_path);
-  if (name.front() == '@') address.sun_path[0] = '\0';  // in the abstract name space
+  if (name.front() == '@') address.sun_path[0] = '\0';  // an abstract socket (unix(7))
   const int socket = ::socket(AF_UNIX, SOCK_DGRAM, 0);
   if (socket < 0) return;
   ::fcntl(socket, F_SETFD, FD_CLOEXEC);

@@ -36,7 +36,7 @@ class ProcessorSet {
 
 }  // namespace
 
-// The system refuses a set for too few processors, so larger ones are tried.
+// The system refuses a set that is too small for its processors, so this tries larger ones.
 std::vector<unsigned> allowed_processors() {
   std::vector<unsigned> processors;
   for (std::size_t most = CPU_SETSIZE; processors.empty() && most <= 1 << 20; most *= 2) {

@@ -38,7 +38,7 @@ bool is_pipe(int descriptor) {
   return ::fstat(descriptor, &found) == 0 && (S_ISFIFO(found.st_mode) || S_ISSOCK(found.st_mode));
 }
 
-// A handler that does nothing, and calls that are not restarted after it: they end with EINTR.
+// Installs a handler that does nothing. Without SA_RESTART, a call that it interrupts ends with EINTR.
 void Halt::prepare() {
   struct sigaction action {};
   action.sa_handler = [](int) {};
@@ -91,7 +91,7 @@ std::optional<std::size_t> BlockingPair::read_at_once(std::span<char> space) {
   return count < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(count));
 }
 
-// Where the system can't look without waiting, it is left to read_asleep().
+// Where the system cannot read without waiting, the work is left to read_asleep().
 std::optional<std::size_t> BlockingPair::read_awake(std::span<char> space) {
   for (busy_.begin(); busy_.again();) {
     if (const auto count = read_at_once(space)) return count;

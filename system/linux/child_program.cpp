@@ -19,7 +19,7 @@ extern char** environ;  // elsewhere, unistd.h declares it
 namespace racebeam {
 namespace {
 
-// What a child gets instead of what this process has.
+// The descriptors, process group and signal mask of a child.
 class SpawnPlan {
  public:
   SpawnPlan(int input, int errors) {
@@ -36,7 +36,7 @@ class SpawnPlan {
 #endif
 #endif
     sigset_t none;
-    sigemptyset(&none);  // a macro of macOS
+    sigemptyset(&none);  // a macro on macOS
     ::posix_spawnattr_init(&attributes_);
     ::posix_spawnattr_setsigmask(&attributes_, &none);
     ::posix_spawnattr_setflags(&attributes_, flags);
@@ -48,7 +48,7 @@ class SpawnPlan {
   SpawnPlan(const SpawnPlan&) = delete;
   SpawnPlan& operator=(const SpawnPlan&) = delete;
 
-  // Returns 0 or the reason.
+  // Returns 0, or the number of the error.
   int spawn(pid_t& process, std::vector<std::string>& words) const {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
@@ -61,7 +61,7 @@ class SpawnPlan {
   posix_spawnattr_t attributes_{};
 };
 
-// Two ends of a stream, which no other child inherits.
+// Returns the two ends of a stream. Other children do not inherit them.
 std::array<int, 2> stream() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) != 0)
@@ -82,7 +82,7 @@ struct ChildProgram::Process {
   int status = 0;    // how it has ended
 };
 
-// Errors that nobody reads yet must not make the program wait, so its end of `errors` does not block.
+// The program must not wait until its errors are read, so its end of `errors` does not block.
 ChildProgram::ChildProgram(std::vector<std::string> words) : process_(std::make_unique<Process>()) {
   const auto input = stream(), errors = stream();
   process_->input = input[0];

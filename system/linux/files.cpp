@@ -6,7 +6,7 @@
 
 namespace racebeam {
 
-// The sticky bit means nothing to a file.
+// The sticky bit does not have a meaning for a file.
 const mode_t kModeOfMarked = S_ISVTX | 0644;
 void mark(int) {}
 void unmark(int file, const struct stat& facts) { ::fchmod(file, facts.st_mode & 0777); }

@@ -7,14 +7,14 @@
 namespace racebeam {
 
 // A mark of a file, which other programs ignore.
-extern const mode_t kModeOfMarked;  // of a new file
-void mark(int file);                // after it was made
+extern const mode_t kModeOfMarked;  // the mode with which a marked file is made
+void mark(int file);                // marks a file that was made with that mode
 void unmark(int file, const struct stat& facts);
 bool is_marked(const struct stat& facts);
 
 timespec changed_at(const struct stat& facts);
 
-bool sync_bytes(int file);  // or a folder
+bool sync_bytes(int file);  // `file` may be a folder
 bool sync_disk(int file);   // the whole disk
 
 bool rename_if_new(const char* from, const char* to);  // fails if `to` exists

@@ -1,6 +1,6 @@
-// Functions of newer C libraries (glibc), made of those of glibc 2.28. A Python module with this source loads
-// on each Linux since 2018, wherever it was built. The library keeps old versions of a function, such as
-// pthread_create@GLIBC_2.2.5.
+// Functions of newer C libraries (glibc), implemented with those of glibc 2.28. A Python module with this
+// source loads on any Linux system since 2018, wherever it was built. The library keeps old versions of a
+// function, such as pthread_create@GLIBC_2.2.5.
 #include <features.h>
 #if defined __GLIBC__ && (defined __x86_64__ || defined __aarch64__)
 #if __GLIBC_PREREQ(2, 34)
@@ -55,12 +55,12 @@ int stat(const char* path, struct stat* to) noexcept {
 int fstat(int file, struct stat* to) noexcept { return static_cast<int>(syscall(SYS_fstat, file, to)); }
 int fstat64(int file, struct stat64* to) noexcept { return static_cast<int>(syscall(SYS_fstat, file, to)); }
 
-// 2.32: whether counters of references need no atomic instructions, since the process has one thread.
+// 2.32: whether the process has only one thread, so that reference counters work without atomic instructions.
 extern char __libc_single_threaded;  // NOLINT(bugprone-reserved-identifier): the library's name
 char __libc_single_threaded = 0;     // NOLINT(bugprone-reserved-identifier)
 
-// 2.30: wait until a time of this clock. The wait is by the clock of the day; it goes on if somebody has set
-// that forward.
+// 2.30: waits until a time of this clock. This version waits by the real-time clock, and goes on waiting if
+// that was set forward.
 int pthread_cond_clockwait(pthread_cond_t* condition, pthread_mutex_t* mutex, clockid_t clock,
                            const timespec* until) {
   const auto time_of = [](clockid_t which) {

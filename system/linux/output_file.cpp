@@ -117,8 +117,8 @@ bool rename_over(const std::string& from, const std::string& to) {
 
 bool remove_file(const std::string& path) { return ::unlink(path.c_str()) == 0; }
 
-// The system may give the inode number of a removed file to the next one; the time then differs. That of a
-// pipe does not count: it changes with each write.
+// The system may give the inode number of a removed file to the next one; the time then differs. The time of
+// a pipe does not count, since it changes with each write.
 FileMark mark_of(const std::string& path) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0) return {};

@@ -33,8 +33,8 @@ Pages::~Pages() {
 
 void Pages::make_executable(std::size_t offset, std::size_t size) {
   auto* const first = reinterpret_cast<char*>(data() + offset);
-#if !defined(__wasm__)  // it has no instructions in memory
-  // Processors other than x86-64 may still have the bytes before these in their caches of instructions.
+#if !defined(__wasm__)  // WebAssembly does not have instructions in memory
+  // The instruction caches of processors other than x86-64 may still have the earlier contents.
   __builtin___clear_cache(first, first + size);
 #endif
   if (::mprotect(first, size, PROT_READ | PROT_EXEC) != 0) refuse("the system refuses executable memory");

@@ -18,7 +18,7 @@ constexpr std::array kKinds = {Kind{S_IFDIR, "a directory"}, Kind{S_IFIFO, "a pi
                                Kind{S_IFSOCK, "a socket"}, Kind{S_IFCHR, "a device"},
                                Kind{S_IFBLK, "a device"}};
 
-// The reason to refuse a file with these properties; empty if none.
+// The reason to refuse a file with these properties; empty if it is accepted.
 std::string refusal_of(int status, const struct stat& found) {
   if (status != 0) return read_refusal(errno);
   for (const Kind& kind : kKinds)

@@ -99,7 +99,7 @@ std::vector<Group> all_groups(const std::string& root, std::string_view controll
   return all;
 }
 
-// The numbers in a file of a group; none for "max" and -1.
+// The numbers in a file of a group. "max" and -1 do not count: they stand for no limit.
 std::vector<std::uint64_t> numbers_in(const fs::path& path) {
   std::ifstream file(path);
   std::vector<std::uint64_t> numbers;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array kEnding = {SIGTERM, SIGINT};
 constexpr std::array kInterrupting = {SIGHUP, SIGINT, SIGTERM};
 
-// What a signal handler needs. A handler has no argument of ours.
+// These are global because a signal handler cannot get an argument from the program.
 volatile sig_atomic_t came = 0;  // the number of the signal
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);

@@ -25,7 +25,7 @@ struct Place {
   int family = AF_UNSPEC;
 };
 
-// `ask` is getsockname or getpeername. Numbers are in the order of the network.
+// `ask` is getsockname or getpeername. Numbers are in network byte order.
 template <typename Ask>
 std::optional<Place> place_of(int descriptor, Ask ask) {
   sockaddr_storage found{};
@@ -51,7 +51,7 @@ struct Question {
   inet_diag_req_v2 socket{};
 };
 
-// About the socket from `from` to `to`.
+// A question about the socket whose connection leads from `from` to `to`.
 Question question(const Place& from, const Place& to) {
   Question question;
   question.header.nlmsg_len = sizeof question;
@@ -75,7 +75,7 @@ struct Answer {
   std::array<char, 4096> more{};
 };
 
-// The inode of the socket: 0 if no process has it. Nothing if the socket does not exist.
+// The inode of the socket; 0 if no process has the socket open. Nothing if the socket does not exist.
 std::optional<std::uint32_t> inode(const Question& question) {
   const int link = ::socket(AF_NETLINK, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_SOCK_DIAG);
   if (link < 0) return std::nullopt;
@@ -119,7 +119,7 @@ bool peer_has_closed(SocketNumber socket) {
   return here && there && inode(question(*there, *here)) == 0U;
 }
 
-// Fails on a Unix socket, whose other end is seen directly.
+// Fails on a Unix socket, where the system reports directly that the other end has gone.
 void probe_often(SocketNumber socket) {
   constexpr int kBetweenProbes = 5;  // seconds
   for (const int option : {TCP_KEEPIDLE, TCP_KEEPINTVL})

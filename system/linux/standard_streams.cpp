@@ -38,7 +38,8 @@ OutputKind kind_of_output(int stream) {
                                    : OutputKind::kOther;
 }
 
-// A pipe or a terminal with any room accepts a line of a page, unless another process writes there, too.
+// A pipe or a terminal that has room accepts a line of up to a page, unless another process writes there,
+// too.
 bool has_room(int stream) {
   pollfd state{stream, POLLOUT, 0};
   return ::poll(&state, 1, 0) > 0;

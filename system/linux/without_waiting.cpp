@@ -16,7 +16,7 @@ std::ptrdiff_t write_without_waiting(int descriptor, std::string_view bytes) {
 }
 
 void make_room(int pipe) {
-  constexpr int kRoom = 1 << 18;  // a pipe holds 64 KiB unless it is told otherwise
+  constexpr int kRoom = 1 << 18;  // bytes; a pipe holds 64 KiB by default
   if (::fcntl(pipe, F_GETPIPE_SZ) < kRoom) ::fcntl(pipe, F_SETPIPE_SZ, kRoom);
 }
 

@@ -11,12 +11,12 @@ struct InheritedSocket {
   std::string name;  // from LISTEN_FDNAMES; "unknown" without it, as in systemd
 };
 
-// The sockets of LISTEN_FDS, if LISTEN_PID is this process; else none. Throws std::runtime_error if the
+// The sockets of LISTEN_FDS; empty unless LISTEN_PID is this process. Throws std::runtime_error if the
 // variables are invalid.
 std::vector<InheritedSocket> inherited_sockets();
 
-// Sends a state to the manager of the service, if it has asked for that (sd_notify(3)): "READY=1",
-// "STOPPING=1". Never fails.
+// Sends a state such as "READY=1" or "STOPPING=1" to the manager of the service, if it has asked for that
+// (sd_notify(3)). Ignores errors.
 void notify_manager(const std::string& state);
 
 }  // namespace racebeam

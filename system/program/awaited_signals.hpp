@@ -9,18 +9,18 @@ namespace racebeam {
 class AwaitedSignals {
  public:
   struct Came {
-    int number = 0;              // 0: none
-    bool from_terminal = false;  // which sends it to the other processes in its foreground, too
+    int number = 0;              // 0: no signal came
+    bool from_terminal = false;  // the terminal sends it to the other processes in its foreground, too
   };
 
-  explicit AwaitedSignals(std::span<const int> numbers);  // they are blocked from now on
+  explicit AwaitedSignals(std::span<const int> numbers);  // blocks these signals from now on
   ~AwaitedSignals();
   AwaitedSignals(const AwaitedSignals&) = delete;
   AwaitedSignals& operator=(const AwaitedSignals&) = delete;
 
-  Came next(int milliseconds = -1) const;  // waits: for ever, or for a time
+  Came next(int milliseconds = -1) const;  // waits at most for this time; -1: for ever
 
-  void handle_as_before() const;  // in a child
+  void handle_as_before() const;  // in a child: handles the signals as before
 
  private:
   struct Sets;

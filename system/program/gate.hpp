@@ -1,5 +1,5 @@
-// A gate at which threads wait until it opens. It stays open. std::atomic_flag has wait() for that. But with
-// g++ 12, a thread on Windows waits for ever if the flag changes between its look and its sleep.
+// A gate at which threads wait until it opens. It stays open. It does not use wait() of std::atomic_flag:
+// with g++ 12, a thread on Windows waits for ever if the flag changes just before the thread goes to sleep.
 #pragma once
 
 #include <condition_variable>

@@ -1,5 +1,5 @@
-// Calls on a stack of their own, by the fibers of Windows, which the unwinder of exceptions knows.
-// Boost.Context's stacks end the process there when a body throws.
+// Runs functions on a separate stack, by the fibers of Windows, which the unwinder of exceptions supports.
+// With Boost.Context's stacks, the process ends there when a body throws.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@ namespace racebeam {
 class NativeFiber {
  public:
   explicit NativeFiber(std::size_t stack_bytes);  // throws std::bad_alloc
-  ~NativeFiber();                                 // no body may be in progress
+  ~NativeFiber();                                 // a body must not be in progress
   NativeFiber(const NativeFiber&) = delete;
   NativeFiber& operator=(const NativeFiber&) = delete;
 
-  // Gives it a body, for the next enter(). The body throws nothing.
+  // Sets the body that the next enter() runs. It must not throw.
   void set_body(void (*body)(void*), void* data);
 
-  void enter();  // on any thread: runs the body until it calls leave() or returns
+  void enter();  // runs the body until it calls leave() or returns; on any thread
   void leave();  // called by the body
 
  private:

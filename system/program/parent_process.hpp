@@ -1,10 +1,10 @@
-// The process that has made this one. Windows does not ask for this.
+// The process that has made this one. Not available on Windows.
 #pragma once
 
 namespace racebeam {
 
 // From now on, this process gets SIGTERM when its parent ends, also after it has executed another program.
-// False if the parent, whose number is `parent`, has ended already, or the system refuses that.
+// Returns false if the parent, whose number is `parent`, has ended already, or if the system refuses.
 bool end_with_parent(int parent);
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-// Signals that tell a process what to do.
+// Signals that control a process.
 #pragma once
 
 #include <atomic>
@@ -8,15 +8,16 @@
 
 namespace racebeam {
 
-// Those that end a process in an orderly way: SIGTERM and SIGINT. On Windows, these are Ctrl-C, Ctrl-Break,
-// and the end of the console, the session or the system, which waits for the process some seconds.
+// The signals that end a process in an orderly way: SIGTERM and SIGINT. On Windows, they stand for Ctrl-C,
+// Ctrl-Break, and the end of the console, the session or the system, which gives the process some seconds.
 std::span<const int> ending_signals();
 
-// SIGHUP, which tells a server to read its files again; 0: the system lacks it.
+// SIGHUP, at which a server reads its files again; 0 if the system does not have it.
 int reading_signal();
 void ignore_reading_signal();
 
-// A reader that has left, and a file that may not grow, are errors of those who write.
+// After these calls, a write to a reader that has left, or to a file that may not grow, fails with an error
+// instead of a signal.
 void ignore_left_readers();
 void ignore_full_files();
 
@@ -24,12 +25,12 @@ struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted by a signal") {}
 };
 
-// While it lives, the first signal that would end the process sets a flag; the second ends the process at
-// once. Signals that the process ignores stay ignored. One object at a time.
+// During its lifetime, the first signal that would end the process sets a flag; the second ends the process
+// at once. Signals that the process ignores stay ignored. Only one such object may exist at a time.
 class Interruption {
  public:
   Interruption();
-  ~Interruption();  // handles signals as before, so that the process ends by the one that has come
+  ~Interruption();  // handles signals as before, so that a signal that has come ends the process
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 

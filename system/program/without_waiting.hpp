@@ -1,5 +1,5 @@
-// Reads from and writes to pipes, sockets and terminals that never wait. -1: failed, and errno has the
-// reason: EAGAIN if the call would have to wait, another if the system cannot tell.
+// Reads from and writes to pipes, sockets and terminals without waiting. A call that returns -1 has failed,
+// and errno has the reason: EAGAIN if it would have to wait, another one if the system cannot tell.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ namespace racebeam {
 std::ptrdiff_t read_without_waiting(int descriptor, std::span<char> space);
 std::ptrdiff_t write_without_waiting(int descriptor, std::string_view bytes);  // it may write a part
 
-// Makes a pipe as large as a long reply, which would else wait for its reader in between. What is not a pipe,
-// or may not be larger, stays as it is.
+// Makes a pipe large enough for a long reply, which would otherwise wait for its reader in between. Does not
+// change anything else, nor a pipe that may not grow.
 void make_room(int pipe);
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-// What Emscripten declares and does not have. Both fail, as on a system without them.
+// Functions that Emscripten declares, but does not define. Both fail, as on a system without them.
 #include <spawn.h>
 #include <unistd.h>
 

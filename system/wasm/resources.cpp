@@ -17,7 +17,7 @@ std::uint64_t usable_files() {
   return kMost;
 }
 
-void set_thread_stacks() {}  // it has one thread
+void set_thread_stacks() {}  // there is only one thread
 
 std::uint64_t open_files(std::uint64_t most) {
   std::uint64_t open = 0;

@@ -10,7 +10,7 @@
 namespace racebeam {
 namespace {
 
-constexpr unsigned kMost = 8 * sizeof(DWORD_PTR);  // processors of a group, to which a process belongs
+constexpr unsigned kMost = 8 * sizeof(DWORD_PTR);  // processors of a group; a process belongs to one group
 
 }  // namespace
 

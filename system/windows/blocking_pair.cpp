@@ -31,7 +31,7 @@ class Reader {
     changed_.wait(lock, [&] { return has_read_ || halt; });
   }
 
-  // Bytes that have been read; none at the end.
+  // Takes bytes that have been read. Returns their number; 0 at the end of the input.
   std::size_t take(std::span<char> space) {
     const std::lock_guard lock(mutex_);
     const std::size_t count = std::min(space.size(), rest_.size());
@@ -69,7 +69,7 @@ class Reader {
   std::span<char> rest_;
 };
 
-// Its thread goes on until the process ends.
+// The only Reader. Its thread goes on until the process ends.
 Reader& reader() {
   static Reader& one = *new Reader;
   return one;
@@ -88,7 +88,7 @@ bool is_pipe(int descriptor) { return GetFileType(handle_of(descriptor)) == FILE
 
 void Halt::prepare() {}
 
-// A write ends only if the system can cancel it.
+// Also cancels a write, if the system can do that.
 void Halt::wake(std::jthread& thread) {
   reader().wake();
   CancelSynchronousIo(pthread_gethandle(thread.native_handle()));
@@ -145,13 +145,13 @@ bool BlockingPair::write(std::string_view text) {
   return true;
 }
 
-// The system does not tell whether a pipe has room. The next Halt::wake() cancels a write that waits for it.
+// The system does not tell whether a pipe has room, so this write may wait. The next Halt::wake() cancels it.
 void BlockingPair::write_at_once(std::string_view text) {
   DWORD count = 0;
   WriteFile(handle_of(out_), text.data(), static_cast<DWORD>(text.size()), &count, nullptr);
 }
 
-// Nor does it tell whether the reader has left.
+// The system does not tell whether the reader has left, either.
 bool BlockingPair::reader_left() const { return false; }
 
 }  // namespace racebeam

@@ -1,4 +1,5 @@
-// No program is started on Windows: what would send it bytes without waiting was never tried there.
+// On Windows, programs are not started: nobody has written and tested how to send bytes without waiting
+// there.
 #include "system/child_program.hpp"
 
 #include <system_error>

@@ -17,7 +17,7 @@ std::int64_t wall_time() {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// The system counts units of 100 ns, but in ticks of some 15 ms.
+// The unit is 100 ns, but the system counts in ticks of some 15 ms.
 std::int64_t processor_time() {
   FILETIME began, ended, kernel{}, user{};
   GetThreadTimes(GetCurrentThread(), &began, &ended, &kernel, &user);

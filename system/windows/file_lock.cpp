@@ -10,7 +10,7 @@
 namespace racebeam {
 namespace {
 
-// Windows lets nobody else read locked bytes. This one is beyond the end of any file.
+// Windows does not let other processes read locked bytes. So the locked byte is beyond the end of any file.
 bool lock_byte(int file, DWORD how) {
   OVERLAPPED place{};
   place.OffsetHigh = 0x4000'0000;

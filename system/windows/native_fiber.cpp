@@ -28,7 +28,7 @@ void NativeFiber::enter() {
 
 void NativeFiber::leave() { SwitchToFiber(caller_); }
 
-// A fiber that returned would end its thread.
+// Does not return, since a fiber that returns ends its thread.
 void NativeFiber::run(void* self) {
   auto& own = *static_cast<NativeFiber*>(self);
   for (;;) {

@@ -15,9 +15,9 @@
 namespace racebeam {
 namespace {
 
-// Others may open, rename and remove the file meanwhile, as on other systems.
+// Other processes may open, rename and remove an open file, as on other systems.
 constexpr DWORD kShared = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-constexpr DWORD kMark = FILE_ATTRIBUTE_TEMPORARY;  // also keeps small files in memory, which these are
+constexpr DWORD kMark = FILE_ATTRIBUTE_TEMPORARY;  // also keeps small files, such as these, in memory
 constexpr int kTries = 100;
 constexpr DWORD kPause = 10;  // milliseconds between tries to replace a file
 
@@ -94,7 +94,7 @@ int open_own_file(const std::string& path) {
 
 bool set_readers(int, Readers) { return true; }
 
-// At a place, wherever the last bytes were written.
+// Writes at `place`, wherever the last bytes were written.
 bool write_at(int file, std::size_t place, std::string_view bytes) {
   while (!bytes.empty()) {
     OVERLAPPED at{};
@@ -138,7 +138,7 @@ bool remove_folder(const std::string& path) { return did(RemoveDirectoryW(name_o
 
 bool rename_anew(const std::string& from, const std::string& to) { return rename(from, to, 0); }
 
-// The system replaces no file that a reader has open. A reader soon closes it.
+// The system does not replace a file that a reader has open. This tries again, since a reader soon closes it.
 bool rename_over(const std::string& from, const std::string& to) {
   for (int tries = 1; !rename(from, to, MOVEFILE_REPLACE_EXISTING); ++tries) {
     if (errno != EACCES || tries == kTries) return false;
@@ -166,6 +166,6 @@ FileMark mark_of(const std::string& path) {
           (facts.dwFileAttributes & kOthers) == 0};
 }
 
-bool all_may_read(const std::string&) { return false; }  // folders of a user are readable only to them
+bool all_may_read(const std::string&) { return false; }  // only the user can read their folders
 
 }  // namespace racebeam

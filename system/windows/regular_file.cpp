@@ -18,7 +18,7 @@ bool is_directory(const std::wstring& name) {
   return attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_DIRECTORY) != 0;
 }
 
-// The reason to refuse an open file; empty if none.
+// The reason to refuse an open file; empty if it is accepted.
 std::string refusal_of(int descriptor) {
   struct _stat64 found {};
   if (_fstat64(descriptor, &found) != 0) return read_refusal(errno);
@@ -31,7 +31,7 @@ std::string refusal_of(int descriptor) {
 
 }  // namespace
 
-// A directory cannot be opened, so its kind is asked for before.
+// A directory cannot be opened, so the kind of the file is checked before.
 OpenedFile open_regular_file(const std::string& path) {
   const std::wstring name = name_of(path);
   if (is_directory(name)) return {-1, "this is a directory, not a file"};

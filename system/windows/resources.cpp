@@ -32,7 +32,7 @@ Allowance usable_memory(const std::string&) {
   return {memory.ullTotalPhys, kMachine};
 }
 
-// Sockets are handles, of which a process may have 16 million. The C library counts its own files, too.
+// Sockets are handles, and a process may have 16 million of these. The C library also limits its own files.
 std::uint64_t usable_files() {
   constexpr int kHighest = 8192;
   constexpr std::uint64_t kHandles = 1 << 24;

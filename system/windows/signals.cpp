@@ -20,8 +20,8 @@ void remember(int number) {
   interrupted = true;
 }
 
-// The end of the console, the session or the system. The process ends when this returns, or when the system
-// has waited long enough.
+// Handles the end of the console, the session or the system. The process ends when this returns, or when the
+// system has waited long enough, so it does not return.
 BOOL WINAPI end_in_order(DWORD event) {
   if (event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT) return FALSE;  // the C library raises a signal
   std::raise(SIGBREAK);

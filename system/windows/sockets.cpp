@@ -23,7 +23,7 @@ void claim_address(SocketNumber socket) {
 void close_socket(SocketNumber socket) { closesocket(number_of(socket)); }
 void acknowledge_at_once(SocketNumber) {}
 
-// Bytes that wait to be read hide the end behind them.
+// Bytes that have not been read hide the end of the stream behind them.
 PeerState state_of_peer(SocketNumber socket) {
   char next = 0;
   const int count = recv(number_of(socket), &next, 1, MSG_PEEK);

@@ -35,7 +35,7 @@ int terminal_columns(int stream) {
   return screen.srWindow.Right - screen.srWindow.Left + 1;
 }
 
-// Nothing tells whether there is room, so that each output is written as a file is.
+// The system does not tell whether there is room, so each output is written like a file.
 OutputKind kind_of_output(int) { return OutputKind::kFile; }
 bool has_room(int) { return true; }
 
