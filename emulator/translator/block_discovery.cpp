@@ -11,7 +11,7 @@ namespace {
 
 bool ends_flow(const Instruction& instruction) { return instruction.access == Access::Jump; }
 
-// Whether the instruction starts a new line. The block after it checks the line limit again.
+// Whether the instruction waits for a new line. The block after it checks the line limit again.
 bool is_wsync(const Instruction& instruction) {
   const bool fixed = instruction.mode == Mode::zero_page || instruction.mode == Mode::absolute;
   return instruction.access == Access::Write && fixed && (instruction.operand & 0x10BF) == WSYNC;
@@ -34,7 +34,7 @@ class Discovery {
 
  private:
   enum Role : std::uint8_t { kLeader, kLoop };
-  using Leaders = std::map<std::size_t, Role>;  // by offset in the window
+  using Leaders = std::map<std::size_t, Role>;  // first instructions of blocks, by offset in the window
 
   std::size_t offset(std::uint16_t pc) const { return static_cast<std::uint16_t>(pc - window_.first); }
   Instruction at(std::uint16_t pc) const { return decode(window_.memory + offset(pc), pc); }
@@ -46,14 +46,14 @@ class Discovery {
     leader->second = std::max(leader->second, role);
   }
 
-  // Whether the instruction may continue beyond the window. That may be a device, whose value depends on the
-  // data bus; the interpreter handles it.
+  // Whether execution may continue outside the window after the instruction. There may be a device, whose
+  // value depends on the data bus; the interpreter handles that.
   bool leads_out(const Instruction& instruction) const {
     const bool branches = instruction.access == Access::Branch && !contains(window_, instruction.target());
     return branches || (!ends_flow(instruction) && !contains(window_, instruction.next()));
   }
 
-  // Follows the instructions from `pc`, and makes leaders of all addresses that they lead to.
+  // Follows the instructions from `pc`. The addresses of blocks that they lead to become leaders.
   void scan(std::uint16_t pc) {
     while (contains(window_, pc) && !seen_[offset(pc)] && work_ < tuning::kMostWork) {
       seen_[offset(pc)] = true;
@@ -83,7 +83,7 @@ class Discovery {
       if (!is_translatable(instruction) || leads_out(instruction)) break;
       cycles += instruction.cycles + 2;
       if (cycles > tuning::kMostBlockCycles) {
-        leaders_.emplace(here, kLeader);  // it lies further on, so the loop over the leaders reaches it
+        leaders_.emplace(here, kLeader);  // at a higher address, so the loop over the leaders reaches it
         break;
       }
       block.instructions.push_back(instruction);

@@ -9,8 +9,8 @@
 
 namespace racebeam::translator {
 
-// A basic block: it is entered at its first instruction only. A taken branch leaves it. After the last
-// instruction, unless that jumps, execution continues at `next`.
+// A basic block: it is entered only at its first instruction. A taken branch leaves it. Unless the last
+// instruction jumps, execution continues at `next` after it.
 struct Block {
   std::uint16_t pc = 0;
   std::uint16_t next = 0;
@@ -23,8 +23,8 @@ inline bool contains(const CodeWindow& window, std::uint16_t pc) {
   return static_cast<std::uint16_t>(pc - window.first) < window.span;
 }
 
-// Returns the blocks in the order of their addresses. known: by offset in the window, where blocks exist
-// already.
+// Returns the blocks in the order of their addresses. known: for each offset in the window, whether a block
+// exists there already.
 std::vector<Block> discover(const CodeWindow& window, std::uint16_t entry, const std::vector<bool>& known);
 
 }  // namespace racebeam::translator

@@ -21,8 +21,7 @@ void BlockEmitter::emit() {
   for (std::size_t i = 0; i < cold_.size(); ++i) cold_[i]();
 }
 
-// Checks the line limit in loops, and before writes to the TIA, because such a write closes the frame past
-// the limit.
+// Checks the line limit in loops and before writes to the TIA. Past the limit, such a write closes the frame.
 void BlockEmitter::check_limit() {
   bool matters = block_.is_loop_head;
   for (const Instruction& instruction : block_.instructions)
@@ -93,8 +92,8 @@ void BlockEmitter::exit_before(const Instruction& instruction) {
   host_.leave(instruction.pc | kInterpretNext);
 }
 
-// Emits code at `label`, out of line: the interpreter executes the instruction. exit: what is known at the
-// jump to `label`.
+// Emits code at `label`, out of line, which lets the interpreter execute the instruction. exit: what is known
+// at the jump to `label`.
 void BlockEmitter::exit_out_of_line(Label label, const Instruction& instruction, const ExitState& exit) {
   cold([this, instruction, exit, label]() mutable {
     host_.bind(label);
@@ -111,8 +110,8 @@ void BlockEmitter::jump_to(std::uint16_t target) {
   host_.leave(target);
 }
 
-// Jumps if the block at `target` exists and the limit is not reached; else continues after it. The limit is
-// checked here because the jump may close a loop across two batches, in which no other block checks it.
+// Emits a jump to the block at `target`, taken if that block exists and the limit is not reached. The jump
+// checks the limit because it may close a loop across two batches, in which no other block does so.
 void BlockEmitter::jump_to_other_batch(std::uint16_t target) {
   Label stays;
   host_.jump_at_limit(stays, Host::Distance::kShort);
@@ -145,7 +144,7 @@ void BlockEmitter::emit_branch(const Instruction& instruction) {
   });
 }
 
-// Only where the branch closes such a loop.
+// Emits the call only if the branch closes a timer loop.
 void BlockEmitter::skip_timer_loop(const Instruction& instruction, int penalty) {
   constexpr int kLoadCycles = 4, kBranchCycles = 2;
   if (static_cast<std::int8_t>(instruction.operand) != kTimerLoopOffset) return;
@@ -173,7 +172,7 @@ bool BlockEmitter::can_jump_to(std::uint16_t target) const {
   return contains(as_.window.code, target) || is_cartridge(target);
 }
 
-// Both bytes of the pointer must be in RAM.
+// Both bytes of the pointer must be in RAM; otherwise the interpreter executes the jump.
 void BlockEmitter::jmp_indirect(const Instruction& instruction) {
   settle(exit_state());
   if (!is_ram(instruction.operand) || (instruction.operand & 0x7F) == 0x7F) return exit_before(instruction);
@@ -184,7 +183,7 @@ void BlockEmitter::jmp_indirect(const Instruction& instruction) {
   exit_out_of_line(outside, instruction, kSettled);
 }
 
-// Both bytes of the return address must be written to RAM.
+// Both bytes of the return address must go to RAM; otherwise the interpreter executes the call.
 void BlockEmitter::jsr(const Instruction& instruction) {
   Label outside;
   const ExitState before = exit_state();
@@ -199,8 +198,8 @@ void BlockEmitter::jsr(const Instruction& instruction) {
   exit_out_of_line(outside, instruction, before);
 }
 
-// The return address must be in RAM, and lead into the window or elsewhere in the cartridge. Reading the byte
-// before the target must have no effect.
+// The return address must be in RAM, and point into the window or elsewhere into the cartridge. The read of
+// the byte before the target must not have an effect. Otherwise the interpreter executes the return.
 void BlockEmitter::rts(const Instruction& instruction) {
   Label outside, interpret;
   settle(exit_state());

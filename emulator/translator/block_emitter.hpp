@@ -1,5 +1,5 @@
-// Plans one block of 6502 code for any processor (docs/translator.md): which accesses need the bus, what is
-// known about the flags, and what is placed out of line. Host emits the code.
+// Plans the translation of a block of 6502 code, for any host processor (docs/translator.md): which accesses
+// need the bus, what is known about the flags, and which code is out of line. Host emits the code.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ class BlockEmitter {
   void emit();
 
  private:
-  // What is known at one point of the block. Code that exits from there needs it.
+  // What is known at one point of the block, for code that exits there.
   struct ExitState {
     int elapsed;
     NzHome nz;
@@ -41,11 +41,11 @@ class BlockEmitter {
   void jump_to_other_batch(std::uint16_t target);
   void skip_timer_loop(const Instruction& instruction, int penalty);
   void check_limit();
-  void exit_before(const Instruction& instruction);  // The interpreter executes it. Call this in cold code.
+  void exit_before(const Instruction& instruction);  // the interpreter executes it; only for out-of-line code
   void settle(const ExitState& exit);                // brings cycle and flags into their registers
   void exit_out_of_line(Label label, const Instruction& instruction, const ExitState& exit);
   ExitState exit_state() const { return {elapsed_, nz_, carry_, rom_loaded_}; }
-  int cycles_to(const Instruction& instruction) const { return elapsed_ + instruction.cycles; }  // its end
+  int cycles_to(const Instruction& instruction) const { return elapsed_ + instruction.cycles; }  // to its end
   void cold(std::function<void()> emit) { cold_.push_back(std::move(emit)); }
 
   // block_values.cpp: operations on registers and values

@@ -1,4 +1,4 @@
-// Plans reads. The more is known of an address at translation, the shorter is the code.
+// Plans reads. The more is known about an address at translation, the shorter the code is.
 #include <cstddef>
 
 #include "emulator/cartridge/mappers/dpc.hpp"
@@ -125,8 +125,8 @@ Value BlockEmitter::read_through_pointer(const Instruction& instruction) {
   return {Value::Kind::kByte};
 }
 
-// Loads the pointer of (zp),Y or (zp,X) into `address`. Returns false if it is not in RAM; the interpreter
-// then executes the instruction.
+// Emits a load of the pointer of (zp),Y or (zp,X) into `address`. Returns false if it is not in RAM; the
+// interpreter then executes the instruction.
 bool BlockEmitter::load_pointer(const Instruction& instruction) {
   if (instruction.mode == Mode::indirect_y) {
     if (instruction.operand < 0x80 || instruction.operand == 0xFF) {
@@ -143,8 +143,8 @@ bool BlockEmitter::load_pointer(const Instruction& instruction) {
   return true;
 }
 
-// Reads the byte at `address`. The data bus before is kept already, and the penalty for a crossed page added.
-// The common case is a table in the window's ROM.
+// Reads the byte at `address`. Earlier code has kept the data bus, and has added the penalty for a crossed
+// page. The common case is a table in the window's ROM.
 void BlockEmitter::read_at_address(const Instruction& instruction) {
   Label elsewhere, done;
   load_rom();
@@ -186,7 +186,7 @@ void BlockEmitter::load_rom() {
   rom_loaded_ = true;
 }
 
-// A call may have overwritten its register.
+// Loads the ROM's address again, since a call may have overwritten its register.
 void BlockEmitter::load_rom_again(const ExitState& exit) {
   if (exit.rom_loaded) host_.load_rom();
 }

@@ -60,7 +60,7 @@ void BlockEmitter::implied(const Instruction& instruction) {
   // clang-format on
 }
 
-// Where the stack pointer is in the TIA, games write registers with PHP and PHA.
+// Some games set the stack pointer to the TIA, and write its registers with PHP and PHA.
 void BlockEmitter::push(const Instruction& instruction) {
   Label device, done;
   const bool pushes_status = instruction.operation == Operation::php;
@@ -81,7 +81,7 @@ void BlockEmitter::push(const Instruction& instruction) {
   });
 }
 
-// Outside RAM, the read may have an effect.
+// A read outside RAM may have an effect.
 void BlockEmitter::pull(const Instruction& instruction) {
   Label outside, done;
   host_.pull(outside);

@@ -44,7 +44,7 @@ void BlockEmitter::write_fixed(const Instruction& instruction, Reg value) {
     host_.write_sound(reg, value);
     return host_.touch_tia(cycles);
   }
-  if (is_free && reg >= kTiaRegisters) return host_.touch_tia(cycles);  // only the cycle of the access counts
+  if (is_free && reg >= kTiaRegisters) return host_.touch_tia(cycles);  // only the access's cycle matters
   host_.load_address(address);
   host_.latch_value(value);
   call_write(instruction, exit_state());
@@ -83,8 +83,8 @@ void BlockEmitter::write_at_address(const Instruction& instruction, Reg value) {
   });
 }
 
-// Writes the latch to a device or the cartridge, at `address`. The write may end the frame, or change what
-// the window shows.
+// Writes the latch to a device or the cartridge, at `address`. The write may end the frame, or change the
+// bank in the window.
 void BlockEmitter::call_write(const Instruction& instruction, const ExitState& exit) {
   const int cycles = exit.elapsed + instruction.cycles;
   Label leaves;

@@ -8,7 +8,7 @@
 namespace racebeam::translator::bus {
 namespace {
 
-// Games with paddles read pins in each line.
+// Inline, because games with paddles read pins in each line.
 RACEBEAM_INLINE std::uint8_t read_device(Board& board, std::uint16_t address, std::uint8_t latch,
                                          std::int32_t cycle) {
   if (is_pin(address) && board.has_plain_pins()) return board.read_plain_pin(address & 7, latch, cycle);

@@ -1,4 +1,4 @@
-// On every system, translated code calls functions, and is called, by the System V convention. On Windows the
+// Translated code calls functions, and is called, by the System V convention on every system. On Windows, the
 // compiler's own convention is another one.
 #pragma once
 

@@ -1,7 +1,7 @@
-// Executable memory that is never writable at the same time (W^X). It is filled from the front, in whole
-// pages, by a thread that has a CodeWriting. Pages that are being written are not executed yet, and
-// executable pages are never written again. Other threads may therefore execute them at any time, without a
-// barrier: no processor has fetched from them before they were executable.
+// Executable memory that is never writable at the same time (W^X). A thread that has a CodeWriting fills it
+// from the front, in whole pages. Pages that are being written are not executed yet, and executable pages are
+// never written again. Other threads may therefore execute them at any time, without a barrier: no processor
+// has fetched from them before they were executable.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,18 @@ class CodeMemory {
  public:
   explicit CodeMemory(std::size_t size);  // throws std::system_error
 
-  // Where to write next, and how many bytes. Null when the memory is full.
+  // Where to write next, and how many bytes may be written. Null when the memory is full.
   void* writable() const { return left() == 0 ? nullptr : pages_.data() + used_; }
   std::size_t left() const { return pages_.size() - used_; }
   std::size_t size() const { return pages_.size(); }
 
-  // Makes the first `size` written bytes executable, and the rest of their last page. Returns how many these
-  // are. Throws std::system_error if the system refuses that.
+  // Makes the first `size` written bytes executable, with the rest of their last page. Returns how many bytes
+  // these are. Throws std::system_error if the system refuses that.
   std::size_t seal(std::size_t size);
 
  private:
   Pages pages_;
-  std::size_t used_ = 0;  // executable
+  std::size_t used_ = 0;  // bytes that are executable
 };
 
 }  // namespace racebeam::translator

@@ -1,5 +1,5 @@
-// Whose the memory of translated code is. The code of most images is shared by all who run them, and bounded
-// in all. An image that one client has sent is that client's.
+// Who is charged for the memory of translated code. All machines that run an image share its code, and the
+// total is limited. But an image that a client has sent belongs to that client.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace racebeam {
 
-// Declares that an image has an owner, as long as the object lives. Code that is made meanwhile counts in
-// bytes(), and not in shared_code(). Make it before a machine runs the image.
+// Declares that an image has an owner, during the lifetime of the object. Code that is made meanwhile counts
+// in bytes(), and not in shared_code(). The object must be made before a machine runs the image.
 class CodeOwner {
  public:
   explicit CodeOwner(std::shared_ptr<const std::vector<std::uint8_t>> image);
@@ -18,16 +18,16 @@ class CodeOwner {
   CodeOwner(const CodeOwner&) = delete;
   CodeOwner& operator=(const CodeOwner&) = delete;
 
-  std::size_t bytes() const;  // of code, and of what belongs to it
+  std::size_t bytes() const;  // of code, and of the data that belong to it
 
  private:
   const std::shared_ptr<const std::vector<std::uint8_t>> image_;
   const std::size_t hash_;
 };
 
-// Bounds the code of all images without an owner, with what belongs to it. Beyond that, instructions are
-// interpreted. Until the first call, it is unlimited.
+// Limits the code of all images without an owner, with the data that belong to it. Beyond the limit,
+// instructions are interpreted. Until the first call, there is no limit.
 void limit_shared_code(std::size_t bytes);
-std::size_t shared_code();  // bytes of it now
+std::size_t shared_code();  // bytes of such code now
 
 }  // namespace racebeam

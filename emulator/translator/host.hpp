@@ -1,5 +1,6 @@
-// What the planner of blocks (block_emitter.hpp) asks of the processor that runs translated code. A folder
-// for each processor defines these functions, and a class Processor, which has its assembler.
+// The interface between the planner of blocks (block_emitter.hpp) and the code generators. For each host
+// processor, a folder defines these functions, which emit code, and a class Processor, which has its
+// assembler.
 //
 // Between two instructions, registers hold the 6507's A, X and Y, the cycle, N and Z as one number
 // (Context::nz), and the carry. SP, V, D and I stay in memory. Within an instruction, further registers hold:
@@ -7,7 +8,8 @@
 //   offset   in RAM: the address without bit 7
 //   latch    what is on the data bus before a read, or the value of a write
 //   byte     what has been read
-// Some share a register: a function that sets one of these may overwrite the others, unless it says more.
+// Some of these share a register: a function that sets one may overwrite the others, unless its comment says
+// otherwise.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +21,17 @@
 namespace racebeam::translator {
 
 enum class Reg : std::uint8_t { kA, kX, kY };
-enum class NzHome : std::uint8_t { kA, kX, kY, kNumber };       // the register whose value they describe
-enum class CarryHome : std::uint8_t { kNumber, kClear, kSet };  // or known when translating
+enum class NzHome : std::uint8_t { kA, kX, kY, kNumber };       // the register whose value N and Z describe
+enum class CarryHome : std::uint8_t { kNumber, kClear, kSet };  // or its value, if known at translation
 
-// An operand that is ready for use.
+// Where the value of an operand is.
 struct Value {
   enum class Kind : std::uint8_t {
     kConstant,  // `number`
     kRam,       // the byte of RAM at the offset `number`
     kPage,      // byte `number` of the page of load_page()
     kTable,     // the window's byte at the offset `number` and `index`
-    kByte       // `byte`
+    kByte       // the register `byte`
   } kind;
   unsigned number = 0;
   Reg index = Reg::kA;
@@ -67,19 +69,20 @@ class Host : private target::Processor {
   void branch(Operation operation, NzHome nz, Label& taken);  // for BCC and BCS, the carry is a number
   void leave(std::uint32_t exit);
   void add_cycles(int cycles);
-  void make_nz(NzHome home);  // a number
+  void make_nz(NzHome home);  // makes N and Z a number
   void make_carry(bool set);
 
-  // flow.cpp: jumps to an address in memory. find_block() finds the block there, if it is in the window.
+  // flow.cpp: jumps to an address in memory. find_block() finds the block at the address, if that is in the
+  // window.
   void push_return_address(std::uint16_t address, Label& outside);
   void load_return_address(Label& interpret);
   void drop_return_address();
   void load_jump_address(unsigned pointer);
-  void find_block(Label& none);  // to `none`, too, if the limit is reached
+  void find_block(Label& none);  // jumps to `none` without a block, or at the limit
   void jump_to_found_block(int cycles);
-  void leave_to_return_address(int cycles, Label& interpret);  // unless it is not on the cartridge
+  void leave_to_return_address(int cycles, Label& interpret);  // jumps if that is not in the cartridge
 
-  // values.cpp: registers and flags. `live` are the flags that must be right afterwards.
+  // values.cpp: registers and flags. live: the flags that must be correct afterwards.
   void load(Reg to, const Value& value);
   void logic(Operation operation, const Value& value);
   void add(bool subtracts, const Value& value, CarryHome carry, Flags live, Label& decimal);
@@ -92,16 +95,16 @@ class Host : private target::Processor {
   void modify_ram(unsigned offset, Operation operation, CarryHome carry, Flags live);
   void modify_ram_at_offset(Operation operation, CarryHome carry, Flags live);
   void carry_became_known();
-  void forget_nz();                                   // the host's flags no longer are N and Z
-  void store(std::int32_t place, std::uint8_t byte);  // in the Board
+  void forget_nz();                                   // the host's flags are no longer N and Z
+  void store(std::int32_t place, std::uint8_t byte);  // at an offset in the Board
 
   // values.cpp: the stack
   void transfer_sp_to_x();
   void transfer_x_to_sp();
   void load_sp();
-  void load_status();                     // the latch becomes the status byte, and SP remains loaded
-  void push(bool status, Label& device);  // A or the status, after load_sp()
-  void push_to_device(bool status);       // address and latch, where push() went to `device`
+  void load_status();                     // sets the latch to the status byte; SP remains loaded
+  void push(bool status, Label& device);  // pushes A or the status, after load_sp()
+  void push_to_device(bool status);       // sets address and latch after push() went to `device`
   void pull(Label& outside);              // into A
   void pull_over_bus(int cycles);
 
@@ -121,12 +124,12 @@ class Host : private target::Processor {
   void remove_cycle_if(Reg index, int least);
   void remove_cycle_of_pointer(unsigned pointer);
 
-  // reads.cpp: into `byte`, but for load_page()
-  void load_rom();  // read_window() and kTable need it
+  // reads.cpp: reads into `byte`, except for load_page()
+  void load_rom();  // must precede read_window() and the use of kTable
   void load_page(std::uint16_t address, Label& hidden);
   void read_ram();                     // at the offset
-  void keep_bus(std::uint8_t byte);    // for latch_kept_bus(): the data bus before read_window()
-  void keep_bus_of_pointer();          // the address's high byte
+  void keep_bus(std::uint8_t byte);    // keeps the data bus before read_window(), for latch_kept_bus()
+  void keep_bus_of_pointer();          // keeps the address's high byte
   void read_window(Label& elsewhere);  // keeps the address if it is elsewhere
   void read_page(Label& device);       // keeps the address if it is a device's
   void jump_if_cartridge(Label& cartridge);
@@ -141,10 +144,10 @@ class Host : private target::Processor {
   void write_ram_at_offset(Reg value);
   void write_ram_at_address(Reg value, Label& device);
   void latch_value(Reg value);
-  void write_bus(int cycles, Label& leaves);  // the latch, at the address
+  void write_bus(int cycles, Label& leaves);  // writes the latch at the address
   void touch_tia(int cycles);
   void write_sound(unsigned reg, Reg value);
-  void forget_motion();  // the log then knows no values of the motion registers
+  void forget_motion();  // the write log no longer knows the motion registers
   void append(unsigned reg, Reg value, int cycles);
   void append_change(unsigned reg, Reg value, int cycles);
   void wait_for_line(int cycles);
@@ -163,8 +166,8 @@ struct Stubs {
 
 Stubs emit_stubs(void* memory, std::size_t size, const Layout& layout);
 
-// A flag in what translated code returns: the interpreter must execute the instruction at PC. The low 16 bits
-// are the PC.
+// A flag in the result of translated code: the interpreter must execute the instruction at PC. The low 16
+// bits of the result are the PC.
 constexpr std::uint32_t kInterpretNext = 1U << 16;
 
 }  // namespace racebeam::translator

@@ -17,11 +17,11 @@ namespace {
 std::atomic<std::size_t> code_capacity = 4U << 20;
 std::atomic<std::size_t> most_shared = std::numeric_limits<std::size_t>::max(), bytes_shared = 0;
 
-constexpr std::size_t kBatchCapacity = 1U << 16;  // a batch is begun only with this much memory left
-constexpr std::size_t kViewCapacity = 4U << 20;   // of an image
+constexpr std::size_t kBatchCapacity = 1U << 16;  // bytes; with less memory left, no batch is begun
+constexpr std::size_t kViewCapacity = 4U << 20;   // bytes for the views of an image
 constexpr std::size_t kUsualPage = 4096;
 
-// Each batch begins on a page. Where pages are larger, so is the memory, that as many batches fit.
+// Each batch begins on a new page. With larger pages, the memory is larger, so that as many batches fit.
 std::size_t memory_for(std::size_t capacity) {
   return std::max(capacity, 2 * kBatchCapacity) / kUsualPage * std::max(page_size(), kUsualPage);
 }
@@ -30,7 +30,7 @@ std::size_t memory_for(std::size_t capacity) {
 struct Registry {
   std::mutex mutex;
   std::vector<std::weak_ptr<ImageCode>> codes;
-  std::vector<const Rom*> owned;  // an image is there once for each of its owners
+  std::vector<const Rom*> owned;  // has an image once for each of its owners
 
   bool is_owned(const Rom& rom) const { return std::ranges::find(owned, &rom) != owned.end(); }
 };
@@ -40,7 +40,8 @@ Registry& registry() {
   return all;
 }
 
-// Compared first: an image of many may differ from others in its last byte.
+// Hashes are compared first: without them, many images that differ only in the last byte would be slow to
+// compare.
 std::size_t hash_of(const Rom& rom) {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(rom.data()), rom.size()});
 }
@@ -89,8 +90,8 @@ ImageCode::~ImageCode() {
   if (shared_) bytes_shared -= bytes_;
 }
 
-// Machines on several threads look before they count, so that the capacity may be exceeded by a batch of
-// each.
+// Machines on several threads check the capacity before they count their bytes. Each may exceed it by a
+// batch.
 bool ImageCode::has_room(std::size_t bytes) const { return !shared_ || is_room_for(bytes); }
 
 void ImageCode::count(std::size_t bytes) {

@@ -21,13 +21,13 @@ struct WriteLog;
 
 namespace racebeam::translator {
 
-// A window of the image at the addresses where the CPU sees it, with its blocks.
+// A window of the image, at the addresses where the CPU sees it, and the blocks in it.
 struct View {
   explicit View(const CodeWindow& window) : code(window), entries(window.span), known(window.span) {}
 
   const CodeWindow code;  // in the ImageCode's copy of the image
-  // By offset: the code of the block that starts there, which other threads read, and whether one starts
-  // there, which the lock guards.
+  // By offset in the window: the code of the block that starts there, or null, which other threads read; and
+  // whether a block starts there, which the lock guards.
   std::vector<const void*> entries;
   std::vector<bool> known;
 
@@ -43,10 +43,10 @@ struct View {
 
 class ImageCode {
  public:
-  // The code of this image with room for more. Null if it does not exist and `make` is false. Images are
-  // compared by their bytes. wiring: of the cartridge scheme, since two machines can run one image under
-  // different schemes. Null, too, if the capacity of all code is used up. Throws std::system_error if the
-  // system refuses executable memory.
+  // Returns the code of this image that has room for more. Images are compared by their bytes. wiring: that
+  // of the cartridge scheme, since two machines can run one image under different schemes. Returns null if
+  // the code does not exist and `make` is false, or if the capacity of all code is used up. Throws
+  // std::system_error if the system refuses executable memory.
   static std::shared_ptr<ImageCode> of(const Rom& rom, const Wiring& wiring, bool make);
 
   ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity, bool shared);
@@ -54,8 +54,8 @@ class ImageCode {
   ImageCode(const ImageCode&) = delete;
   ImageCode& operator=(const ImageCode&) = delete;
 
-  // The view through this window of a machine's `rom`. Null if it does not exist yet and `make` is false:
-  // making one takes as long as some thousand instructions. Null, too, if it does not fit.
+  // Returns the view for this window of a machine's `rom`. Returns null if it does not fit, or if it does not
+  // exist yet and `make` is false. To make one takes as long as some thousand instructions.
   View* view(const CodeWindow& window, const Rom& rom, bool make);
 
   // Translates code near `pc`, which must be in the view. Returns the block at `pc`, or null if it does
@@ -66,10 +66,10 @@ class ImageCode {
   using Enter = std::uint32_t(RACEBEAM_SYSV_ABI*)(const void* entry, Board* board, WriteLog* log);
   Enter enter() const { return enter_; }
 
-  // Bytes of the code of an image that has owners, with what belongs to it.
+  // Returns the bytes of the code of an image that has owners, with the data that belong to it.
   static std::size_t bytes_of_owned(const Rom& rom, std::size_t hash);
 
-  // Whether translation starts again with new memory.
+  // Whether the memory is full, so that translation starts again with new memory.
   bool is_full() const { return full_.load(std::memory_order_relaxed); }
   std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 

@@ -17,7 +17,7 @@ struct Instruction {
   Mode mode;
   Access access;
   std::uint8_t length;
-  std::uint8_t cycles;    // without those for crossed pages and taken branches
+  std::uint8_t cycles;    // without the extra ones for crossed pages and taken branches
   std::uint16_t operand;  // one or two bytes, unsigned
 
   std::uint16_t next() const { return static_cast<std::uint16_t>(pc + length); }

@@ -1,4 +1,4 @@
-// Labels of the code that an assembler writes, whatever the processor.
+// Labels in the code that an assembler writes, for any processor.
 #pragma once
 
 #include <cstddef>
@@ -6,13 +6,13 @@
 
 namespace racebeam::translator {
 
-// A place in the code. It may be used before it is bound; copies of a label that has been used are the same
+// A place in the code. Jumps may use it before it is bound. Copies of a label that has been used are the same
 // label.
 struct Label {
   int id = -1;
 };
 
-// What an assembler knows of each label. A label gets its id here when it is first used.
+// What an assembler knows about each label. A label gets its id here when it is first used.
 template <class Target>
 class LabelTable {
  public:

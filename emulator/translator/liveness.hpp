@@ -13,8 +13,8 @@ struct Flags {
   bool nz = true, c = true, v = true;
 };
 
-// For each instruction of the block, the flags that are live after it. All flags are live at three places:
-// - where a branch may leave the block;
+// For each instruction of the block, the flags that are live after it. All flags are live at these places:
+// - before PHP, and where a branch, a jump or the end of the block leaves it;
 // - after a write that may end the frame, because the state can then be read from outside;
 // - after a read that the interpreter may have to execute, because it may switch to other code.
 std::vector<Flags> live_flags(const Block& block, const Window& window);

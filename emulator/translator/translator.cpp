@@ -23,13 +23,13 @@ namespace racebeam {
 
 namespace {
 
-// No block takes more cycles. A block that starts this long before the line limit makes its TIA writes before
-// the limit.
+// In cycles. No block takes more, so a block that starts this long before the line limit makes its TIA writes
+// before the limit.
 const std::int32_t kMargin = tuning::kMostBlockCycles + 100;
 
 constexpr std::int32_t kFewestCycles = 2;  // of an instruction
 
-// Code elsewhere, mostly in RAM, may change, and is not translated.
+// Code outside the image, mostly in RAM, may change, and is not translated.
 bool is_in_image(const CodeWindow& window, const Rom& rom) {
   const std::less<> before;
   return !before(window.memory, rom.data()) && before(window.memory, rom.data() + rom.size());
@@ -53,7 +53,7 @@ std::uint8_t pack_status(const translator::Context& context) {
   return static_cast<std::uint8_t>(n | others | z | context.carry);
 }
 
-// Why the system refuses executable memory; empty if it permits it. Tried once per process.
+// Why the system refuses executable memory; empty if it permits that. It is tried once per process.
 const std::string& executable_memory_error() {
   static const std::string reason = [] {
     try {
@@ -69,17 +69,18 @@ const std::string& executable_memory_error() {
 }  // namespace
 
 struct Translator::Impl {
-  // Code that another machine has made is used at once: entering it needs no budget.
+  // Code that another machine has made is used at once: the budget is only for translation.
   Impl(Board& board, bool always) : code(code_of(board, false)), layout(board), budget(always) {}
 
-  // A window that was looked up before, cached by its address. After a bank switch, the view is found without
-  // a search in the image.
+  // A window that was looked up before, cached by its address. With it, a view is found after a bank switch
+  // without a search in the image.
   struct CachedView {
     CodeWindow window;
     translator::View* view = nullptr;
   };
 
-  // Translated code of the instruction at PC: null if it does not exist. Outside the image, none can be made.
+  // The translated code of the instruction at PC; null if it does not exist. Code outside the image is never
+  // translated.
   struct Entry {
     const void* start = nullptr;
     bool is_in_image = false;
@@ -94,7 +95,7 @@ struct Translator::Impl {
   bool enter(Board& board, const void* start);
   std::int32_t run_block(Board& board, const void* start);
 
-  std::shared_ptr<translator::ImageCode> code;  // null: none was there, and the budget covers no first batch
+  std::shared_ptr<translator::ImageCode> code;  // null: no code exists, and no budget for it
   const translator::Layout layout;
   std::array<CachedView, 32> views{};
   TranslationBudget budget;
@@ -102,7 +103,7 @@ struct Translator::Impl {
   InterpretedRun interpreted_run;
   StepBackoff step_backoff;
   StepTrial trial;
-  std::optional<Stopwatch> trial_watch;  // in steps of a trial
+  std::optional<Stopwatch> trial_watch;  // during steps of a trial
   std::int64_t interpreted_cycles = 0;
 };
 
@@ -111,7 +112,8 @@ std::shared_ptr<translator::ImageCode> Translator::Impl::code_of(Board& board, b
   return translator::ImageCode::of(board.slot.rom, wiring, make);
 }
 
-// False while no code exists. Begins a new generation when the code memory of the old one is full.
+// Returns whether there is code for this image. When the code memory is full, begins with new memory if the
+// budget allows that.
 bool Translator::Impl::has_code(Board& board) {
   const bool is_useful = code != nullptr && !code->is_full();
   if (is_useful || !budget.covers_batch()) return code != nullptr;
@@ -140,7 +142,7 @@ translator::View* Translator::Impl::current_view(Board& board) {
   return cached.view;
 }
 
-// Makes the view if the budget allows that.
+// Finds the view. If it does not exist, makes it if the budget allows that.
 translator::View* Translator::Impl::find_view(const CodeWindow& window, const Rom& rom) {
   translator::View* const view = code->view(window, rom, false);
   if (view != nullptr || !budget.covers_batch()) return view;
@@ -197,7 +199,7 @@ std::unique_ptr<Translator> Translator::make(Board& board, CpuKind kind) {
       new Translator(std::make_unique<Impl>(board, kind == CpuKind::kTranslator || policies_are_fixed())));
 }
 
-// Whether the interpreter runs the whole step that begins.
+// Begins a step. Returns whether the interpreter runs the whole step.
 bool Translator::Impl::interprets_step() {
   trial_watch.reset();
   if (code == nullptr || budget.is_unlimited()) return false;

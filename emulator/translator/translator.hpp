@@ -1,6 +1,6 @@
-// Runs a machine's 6507 code as code of the host, and interprets what is not translated (docs/translator.md).
-// Builds for processors without a back end have only the interpreter, as have systems that refuse executable
-// memory.
+// Translates a machine's 6507 code to code of the host and runs it. Interprets what is not translated
+// (docs/translator.md). On processors without a back end, and on systems that refuse executable memory, there
+// is only the interpreter.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@ namespace racebeam {
 
 class Board;
 
-// The implementation of the CPU. All kinds give the same bytes.
+// The implementation of the CPU. The machine's output is the same with each.
 enum class CpuKind { kAuto, kInterpreter, kTranslator };
 
 // Connects one machine to the translated code of its image, which all machines of the process share.
 class Translator {
  public:
-  // Null for kInterpreter, and for kAuto where code cannot be translated. For kTranslator, throws
-  // std::system_error there.
+  // Returns null for kInterpreter, and for kAuto where code cannot be translated. For kTranslator, throws
+  // std::system_error if the system refuses executable memory.
   static std::unique_ptr<Translator> make(Board& board, CpuKind kind);
   ~Translator();
 
@@ -27,8 +27,8 @@ class Translator {
   // again from its start.
   bool run(Board& board, std::int32_t instructions);
 
-  // Call it after run(), when the machine has finished its step. The time between the two adds to the
-  // translation budget.
+  // The caller calls it after run(), when the machine has finished its step. The time between the two calls
+  // adds to the translation budget.
   void end_step();
 
   // Cycles of the machine that run() has left to the interpreter.

@@ -1,4 +1,4 @@
-// Calls into the machine. They preserve all that holds the 6507's state.
+// Calls into the machine. They preserve all registers that hold the 6507's state.
 #include "emulator/translator/bus.hpp"
 #include "emulator/translator/host.hpp"
 

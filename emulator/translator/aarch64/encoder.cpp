@@ -18,7 +18,7 @@ Condition inverse(Condition condition) {
   return static_cast<Condition>(static_cast<unsigned>(condition) ^ 1U);
 }
 
-// The field of a distance that a jump has: where it begins in the word, and its width.
+// The field of a jump that holds the distance: its first bit in the word, and its width.
 struct Field {
   unsigned low, width;
 };

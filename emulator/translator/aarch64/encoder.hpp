@@ -27,7 +27,7 @@ constexpr Register wzr = w(31), xzr = x(31), sp = x(31);
 // NOLINTNEXTLINE(readability-identifier-naming): named as in Arm's language
 enum class Condition : std::uint8_t { eq, ne, hs, lo, mi, pl, vs, vc, hi, ls, ge, lt, gt, le };
 
-// The memory is full, or a place is too far away for the instruction.
+// Thrown if the memory is full, or a place is too far away for the instruction.
 class AssemblyError : public std::length_error {
  public:
   using std::length_error::length_error;

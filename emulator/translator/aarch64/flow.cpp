@@ -102,7 +102,7 @@ void Host::branch(Operation operation, NzHome nz, Label& taken) {
   }
 }
 
-// The low byte is below the high one, as the stack grows down.
+// The low byte is at the lower address, since the stack grows down.
 void Host::push_return_address(std::uint16_t address, Label& outside) {
   as_.ldrb(kOffset, kBoard, as_.layout.sp);
   as_.cmp(kOffset, 0x81U);
@@ -114,7 +114,7 @@ void Host::push_return_address(std::uint16_t address, Label& outside) {
   as_.strb(kOffset, kBoard, as_.layout.sp);
 }
 
-// The stack pointer remains in kOffset, the address before the target in kAddress, the block's offset in
+// Leaves the stack pointer in kOffset, the address before the target in kAddress, and the block's offset in
 // kTarget.
 void Host::load_return_address(Label& interpret) {
   as_.ldrb(kOffset, kBoard, as_.layout.sp);

@@ -46,7 +46,7 @@ void Host::offset_in_ram(unsigned zero_page, Reg index, Label& device) {
   as_.tbnz(kOffset, 7, device);
 }
 
-// Compares the bits of an address that select RAM with those that it must have.
+// Compares the bits of an address that select RAM with the values that they must have.
 void aarch64::Processor::compare_with_ram(Register address) {
   as_.mov(kScratch, 0x1280U);
   as_.and_(kScratch, address, kScratch);
@@ -93,7 +93,7 @@ void Host::read_ram() {
 
 void Host::keep_bus(std::uint8_t byte) { load_latch(byte); }
 void Host::keep_bus_of_pointer() { as_.lsr(kLatch, kAddress, 8); }
-void Host::latch_kept_bus() {}  // it is in the latch
+void Host::latch_kept_bus() {}  // the kept bus is in the latch already
 
 void Host::read_window(Label& elsewhere) {
   add_constant(kOffset, kAddress, -as_.window.code.first);
@@ -113,7 +113,7 @@ void Host::read_page(Label& device) {
 
 void Host::jump_if_cartridge(Label& cartridge) { as_.tbnz(kAddress, 12, cartridge); }
 
-// Board::read_tia for INPT0-5. Bit 7 is set from the cycle on that the board knows.
+// Does what Board::read_tia does for INPT0-5. The board knows from which cycle on bit 7 is set.
 void Host::read_pin(int pin, unsigned undriven, int cycles) {
   touch_tia(cycles);
   as_.ldr(kScratch, kBoard, as_.layout.pins + 4 * pin);
@@ -123,7 +123,7 @@ void Host::read_pin(int pin, unsigned undriven, int cycles) {
   as_.add(kByte, kByte, undriven);
 }
 
-// dpc::fetch, for a fetcher that makes no music.
+// Does what dpc::fetch does, for a fetcher that is not in music mode.
 void Host::fetch(std::uint16_t address, Label& enters, Label& leaves, Label& done) {
   using dpc::Chip, dpc::Fetcher;
   const auto place = [&](std::size_t member) { return as_.layout.in_fetcher(address, member); };

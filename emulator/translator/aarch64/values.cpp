@@ -46,7 +46,7 @@ void Host::logic(Operation operation, const Value& value) {
   }
 }
 
-// To subtract is to add the operand's complement. The sum has nine bits; the last is the carry.
+// Subtraction adds the operand's complement. The sum has nine bits; the highest is the carry.
 void Host::add(bool subtracts, const Value& value, CarryHome carry, Flags live, Label& decimal) {
   as_.ldrb(kScratch, kBoard, as_.layout.decimal);
   as_.cbnz(kScratch, decimal);
@@ -58,7 +58,7 @@ void Host::add(bool subtracts, const Value& value, CarryHome carry, Flags live, 
   as_.add(kOther, kA, other);
   if (carry == CarryHome::kNumber) as_.add(kOther, kOther, kCarry);
   if (carry == CarryHome::kSet) as_.add(kOther, kOther, 1U);
-  if (live.v) {  // both operands have the sign that the sum has not
+  if (live.v) {  // set if both operands have a sign that differs from the sum's
     as_.eor(kOffset, kOther, kA);
     as_.eor(kScratch, kOther, other);
     as_.and_(kScratch, kScratch, kOffset);
@@ -80,7 +80,7 @@ void Host::compare(Reg reg, const Value& value, Flags live) {
   nz_form_ = NzForm::kPlain;
 }
 
-// N and V are bits of the operand. Z tells whether it has no bit in common with A.
+// N and V are bits of the operand. Z is set if the operand and A have no set bit in common.
 void Host::bit(const Value& value, Flags live) {
   const Register other = operand(value);
   if (live.nz) {
@@ -147,7 +147,7 @@ void Host::push_to_device(bool status) {
   if (!status) as_.mov(kLatch, kA);
 }
 
-// Reads above the stack pointer.
+// Reads the byte above the stack pointer.
 void Host::pull(Label& outside) {
   load_sp();
   as_.sub(kScratch, kAddress, 0x80U);
@@ -173,7 +173,7 @@ void aarch64::Processor::shift(Operation operation, Register reg, CarryHome carr
   }
 }
 
-// Rotates nine bits, of which the carry is one.
+// Rotates nine bits: the register's eight and the carry.
 void aarch64::Processor::rotate(Operation operation, Register reg, CarryHome carry, Flags live) {
   const bool left = operation == Operation::rol;
   if (carry != CarryHome::kNumber) as_.mov(kCarry, carry == CarryHome::kSet ? 1U : 0U);

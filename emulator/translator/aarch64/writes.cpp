@@ -84,7 +84,7 @@ void Host::append(unsigned reg, Reg value, int cycles) {
   as_.str(kPlace, kLog, static_cast<int>(offsetof(WriteLog, next)));
 }
 
-// A division by 76, exact for cycles below 69,000. The limit is far below.
+// Divides by 76, which is exact for cycles below 69,000. The limit is far below that.
 void Host::wait_for_line(int cycles) {
   const Register line = kTarget;
   as_.ldr(kOther, kBoard, as_.layout.first_line);

@@ -11,7 +11,7 @@ void Assembler::L(Label& label) {
   }
 }
 
-// A jump back is short where a byte holds the distance.
+// A jump back is short if a byte can hold the distance.
 void Assembler::jump(const Opcodes& opcodes, Label& to, LabelType type) {
   constexpr std::int64_t kShortSize = 2, kFarthestBack = 128;
   Target& target = targets_[to];

@@ -1,5 +1,5 @@
-// The x86-64 assembler of one batch of blocks: Xbyak, with labels of our own. Those of Xbyak allocate memory
-// for each label and for each jump.
+// The x86-64 assembler of one batch of blocks: Xbyak, with labels of our own. Xbyak's own labels allocate
+// memory for each label and for each jump.
 #pragma once
 
 #include <xbyak/xbyak.h>
@@ -18,15 +18,15 @@ using AssemblyError = Xbyak::Error;  // the memory is full
 
 class Assembler : public Xbyak::CodeGenerator {
  public:
-  // Writes to `memory`. out: the exit stub, which translated code jumps to when it ends. eax then holds the
-  // PC, and kInterpretNext if the interpreter must execute the next instruction.
+  // Writes to `memory`. out: the exit stub, to which translated code jumps at its end. eax then holds the PC,
+  // and kInterpretNext if the interpreter must execute the next instruction.
   Assembler(void* memory, std::size_t size, const Layout& places, const Window& seen, const void* out)
       : CodeGenerator(size, memory), layout(places), window(seen), exit_stub(out) {}
 
   const Layout& layout;
   const Window& window;
   const void* exit_stub;
-  std::unordered_map<std::uint16_t, Label> blocks;  // of this batch, by address
+  std::unordered_map<std::uint16_t, Label> blocks;  // labels of this batch's blocks, by address
 
   std::size_t size() const { return getSize(); }
   const void* address_of(std::uint16_t block) { return getCode() + targets_[blocks[block]].place; }
@@ -36,7 +36,7 @@ class Assembler : public Xbyak::CodeGenerator {
   Xbyak::Address byte_of(std::int32_t place) { return byte[rbx + place]; }
   Xbyak::Address dword_of(std::int32_t place) { return dword[rbx + place]; }
 
-  // Labels and jumps to them, with the names of Xbyak. A jump onward is short unless it is T_NEAR.
+  // Labels and jumps to them, with the names of Xbyak. A forward jump is short unless it is T_NEAR.
   void L(Label& label);
   using CodeGenerator::jmp;
   void jmp(Label& to, LabelType type = T_AUTO) { jump({0xEB, 0xE9, false}, to, type); }
@@ -62,13 +62,13 @@ class Assembler : public Xbyak::CodeGenerator {
   // A jump to a label that has no place yet. Its displacement ends at `end`.
   struct Jump {
     std::size_t end;
-    std::int32_t next;  // to the same label; -1: none
+    std::int32_t next;  // the next jump to the same label; -1: there is no other
     bool is_short;
   };
 
   struct Target {
     std::int64_t place = -1;  // -1: not known yet
-    std::int32_t jumps = -1;  // the last of them, in jumps_
+    std::int32_t jumps = -1;  // the last jump to the label, an index in jumps_
   };
 
   void jump_if(unsigned condition, Label& to, LabelType type) {

@@ -104,7 +104,7 @@ void Host::branch(Operation operation, NzHome nz, Label& taken) {
   }
 }
 
-// The low byte is below the high one, as the stack grows down.
+// The low byte is at the lower address, since the stack grows down.
 void Host::push_return_address(std::uint16_t address, Label& outside) {
   as_.movzx(as_.eax, as_.byte_of(as_.layout.sp));
   as_.cmp(as_.al, 0x81);
@@ -131,7 +131,7 @@ void Host::load_jump_address(unsigned pointer) {
   as_.lea(as_.edx, as_.ptr[as_.rax - as_.window.code.first]);
 }
 
-// The block's offset is in edx.
+// Expects the block's offset in edx.
 void Host::find_block(Label& none) {
   as_.cmp(as_.edx, as_.window.code.span);
   as_.jae(none, kNear);

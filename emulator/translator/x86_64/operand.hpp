@@ -14,7 +14,7 @@ inline Xbyak::RegExp x86_64::Processor::place_of(const Value& value) const {
   }
 }
 
-// Calls `apply` with a constant, a place in memory, or al.
+// Calls `apply` with the operand: a constant, a place in memory, or al.
 template <class Apply>
 void x86_64::Processor::with_operand(const Value& value, Apply apply) {
   switch (value.kind) {

@@ -119,7 +119,7 @@ void Host::jump_if_cartridge(Label& cartridge) {
 
 void Host::latch_kept_bus() { as_.mov(as_.ecx, as_.esi); }
 
-// Board::read_tia for INPT0-5.
+// Does what Board::read_tia does for INPT0-5.
 void Host::read_pin(int pin, unsigned undriven, int cycles) {
   touch_tia(cycles);
   as_.cmp(as_.edx, as_.dword_of(as_.layout.pins + 4 * pin));
@@ -129,7 +129,7 @@ void Host::read_pin(int pin, unsigned undriven, int cycles) {
   clobbered_flags();
 }
 
-// dpc::fetch, for a fetcher that makes no music.
+// Does what dpc::fetch does, for a fetcher that is not in music mode.
 void Host::fetch(std::uint16_t address, Label& enters, Label& leaves, Label& done) {
   using dpc::Chip, dpc::Fetcher;
   const auto random = as_.byte_of(as_.layout.in_chip(offsetof(Chip, random)));

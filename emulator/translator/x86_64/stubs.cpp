@@ -1,4 +1,4 @@
-// The way into translated code and out of it.
+// The stubs by which the emulator enters and leaves translated code.
 #include <algorithm>
 #include <iterator>
 

@@ -32,7 +32,7 @@ void Host::logic(Operation operation, const Value& value) {
   host_nz_ = true;
 }
 
-// Moves the carry to the host's: as it is for adc, inverted (a borrow) for sbb.
+// Moves the carry to the host's carry flag: unchanged for adc, inverted (a borrow) for sbb.
 void x86_64::Processor::carry_to_host(CarryHome carry, bool inverted) {
   if (carry != CarryHome::kNumber) {
     if ((carry == CarryHome::kSet) != inverted)
@@ -67,7 +67,7 @@ void Host::add(bool subtracts, const Value& value, CarryHome carry, Flags live, 
       as_.adc(as_.r12b, operand);
   });
   if (live.v) as_.seto(as_.byte_of(as_.layout.overflow));
-  // Live or not: the out-of-line code for decimal mode makes a number of it, too.
+  // Whether the carry is live does not matter: the out-of-line code for decimal mode makes it a number, too.
   carry_from_host(subtracts, Flags{});
   clobbered_flags();
 }
@@ -85,7 +85,7 @@ void Host::compare(Reg reg, const Value& value, Flags live) {
   host_nz_ = true;
 }
 
-// N and V are bits of the operand. Z tells whether it has no bit in common with A.
+// N and V are bits of the operand. Z is set if the operand and A have no set bit in common.
 void Host::bit(const Value& value, Flags live) {
   into_al(value);
   if (live.v) {
@@ -144,7 +144,7 @@ void Host::push_to_device(bool status) {
   if (!status) as_.mov(as_.ecx, as_.r12d);
 }
 
-// Reads above the stack pointer.
+// Reads the byte above the stack pointer.
 void Host::pull(Label& outside) {
   load_sp();
   as_.lea(as_.ecx, as_.ptr[as_.rax - 0x80]);

@@ -32,7 +32,7 @@ void Host::write_ram_at_address(Reg value, Label& device) {
 
 void Host::latch_value(Reg value) { as_.mov(as_.ecx, reg_of(value)); }
 
-// The cycle of the access remains in edx.
+// Leaves the cycle of the access in edx.
 void Host::touch_tia(int cycles) {
   as_.lea(as_.edx, as_.ptr[as_.rbp + cycles]);
   as_.mov(as_.dword_of(as_.layout.last_access), as_.edx);
@@ -65,7 +65,7 @@ void Host::append_change(unsigned reg, Reg value, int cycles) {
       as_.and_(as_.edx, WriteLog::kUnknown | 0xFF);
       as_.cmp(as_.edx, reg_of(value));
       as_.je(same_value);
-      // As a word: after a store of one of its bytes, the next load of the word would wait for the memory.
+      // This accesses a whole word: after a store of one of its bytes, the next load of the word would stall.
       as_.or_(as_.word[as_.r15 + place_of_written(other)], WriteLog::kUnsettled);
       as_.L(same_value);
     }
@@ -86,7 +86,7 @@ void Host::append(unsigned reg, Reg value, int cycles) {
   clobbered_flags();
 }
 
-// A division by 76, exact for cycles below 69,000. The limit is far below.
+// Divides by 76, which is exact for cycles below 69,000. The limit is far below that.
 void Host::wait_for_line(int cycles) {
   as_.mov(as_.ecx, as_.dword_of(as_.layout.first_line));
   as_.lea(as_.eax, as_.ptr[as_.rbp + (cycles + 75)]);
