@@ -25,7 +25,7 @@ def get_rom_path(name: str) -> pathlib.Path | None:
         The path of the image, or None with a warning if the name is unknown.
 
     Raises:
-        MissingImage: If no image is found; a FileNotFoundError.
+        MissingImage: If no image is found. It is a FileNotFoundError.
     """
     if name not in ale_games.ALL:
         warnings.warn(f"Rom {name} not supported.", stacklevel=2)

@@ -136,7 +136,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
         return functions
 
     def action_numbers(self) -> list[int]:
-        """Returns the numbers of the actions that `step` takes indices of."""
+        """Returns the numbers of the actions, in the order of the indices that `step` takes."""
         return self._open_machines().actions_of(0)
 
     def send_strengths(self, actions: Any, strengths: Any) -> None:

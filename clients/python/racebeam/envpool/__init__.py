@@ -11,8 +11,8 @@ The arguments and the keys of the infos are those of EnvPool. These are the diff
     has no effect.
 2.  make(env_type="gym") has the interface of Gym 0.21, as in EnvPool 0.6: reset() returns observations, and step() four
     values. gym_reset_return_info=True selects the other interface. make_gym() is make_gymnasium(), as in EnvPool 1.2.5.
-3.  An action that is out of range is an IndexError; EnvPool reads past its actions. There are as many actions as
-    environments, each environment is named once, and it is received before it is sent again; otherwise an InvalidInput
+3.  An action that is out of range is an IndexError; EnvPool reads past its actions. There must be as many actions as
+    environments. Each environment must be named once, and received before it is sent again. Otherwise an InvalidInput
     is raised.
 4.  A wrong setting is an InvalidSetting; EnvPool raises AssertionError or TypeError, takes some, and ends the process
     for others.

@@ -102,7 +102,7 @@ class Envs(AtariVectorEnv):
         self._machines.send(self._parse_actions(actions, len(envs)), envs)
 
     def step_every(self, actions: Any) -> Results:
-        """Steps all environments. Same as `send_to` and `receive`, and faster.
+        """Steps all environments. Does the same as `send_to` and `receive`, but faster.
 
         Args:
             actions: An action for each environment.

@@ -54,7 +54,7 @@ def make_gymnasium(task_id: str, **config: Any) -> GymnasiumEnvPool:
 
 
 def make_gym(task_id: str, **config: Any) -> GymnasiumEnvPool:
-    """Same as `make_gymnasium`. For the interface of Gym 0.21, call `make(env_type="gym")`.
+    """Does the same as `make_gymnasium`. For the interface of Gym 0.21, call `make(env_type="gym")`.
 
     Args:
         task_id: Id of the task, such as "Pong-v5".

@@ -99,7 +99,7 @@ class GymEnvPool(EnvPool):
     """Environments with the interface of Gym 0.21, made by make(env_type="gym").
 
     `reset` returns observations, and `step` has one flag `done`. In a program that has imported gym, the spaces are
-    those of that package. The attributes that wrappers of gym read are there.
+    those of that package. The environments have the attributes that wrappers of gym read.
 
     Args:
         spec: Spec of the task, as `make_spec` returns it.

@@ -118,7 +118,7 @@ def _task_of(game: str) -> str:
 
 
 def without_rendering(settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Takes the arguments for rendering away.
+    """Removes the arguments for rendering.
 
     Args:
         settings: Settings and arguments for rendering.
@@ -251,7 +251,7 @@ class EnvSpec:
             **settings: Some settings.
 
         Returns:
-            All settings, with the values of `CONFIG` where none is given, as a named tuple.
+            All settings as a named tuple. A setting that is not given has its value in `CONFIG`.
 
         Raises:
             InvalidSetting: If the setting is unknown.

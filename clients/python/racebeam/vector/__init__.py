@@ -1,1 +1,1 @@
-"""The parts of AtariVectorEnv: machines, results, calls, and the making of them."""
+"""The parts of AtariVectorEnv: machines and how they are made, calls, and results."""

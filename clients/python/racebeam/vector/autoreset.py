@@ -47,7 +47,7 @@ def check_supported(name: str) -> None:
     """Checks the version of Gymnasium.
 
     Args:
-        name: What needs it.
+        name: Name of the class that needs Gymnasium 1.1.
 
     Raises:
         ImportError: If Gymnasium is older than 1.1.

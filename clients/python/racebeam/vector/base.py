@@ -51,7 +51,7 @@ class VectorBase(VectorEnv[Any, Any, Any]):
             names: Names of the games.
             game_of_env: For each environment, the index of its game.
             options: The options.
-            first_seed: Seed of the first reset. It is forgotten when something is played before.
+            first_seed: Seed of the first reset. It is not used if something is played before.
         """
         self._first_seed = first_seed
         self._machines: Any = machines

@@ -25,14 +25,14 @@ ARGUMENTS = ("folder", "agent", "version", "training_frames", "trial", "agent_se
 class VectorLogs:
     """Writes a log of each game of a vector of environments. Environment i plays the trial `trial` + i.
 
-    A log begins at power-on, so each game begins with another seed. A game gets no log if it was left before its
-    end, if a state was restored in it, or if the log cannot be written. It then causes a warning.
+    A log begins at power-on, so each game begins with another seed. A game does not get a log if it was left before its
+    end, if a state was restored in it, or if the log cannot be written. A warning then says why.
 
     Args:
         arguments: A dict with "folder", and with other arguments of `RecordLog` except `env` and `phrase`.
         options: The options of the environments.
         games: Name of the game of each environment.
-        rom: The image of the game, or None for that of its name.
+        rom: The image of the game, or None to find it by the game's name.
         machines: The machines that play them.
 
     Attributes:
@@ -66,9 +66,9 @@ class VectorLogs:
         except TypeError as error:
             raise _wrong(arguments) from error
         self._numbers = [machines.actions_of(env) for env in range(len(games))]
-        self._seeds = options.seed + np.arange(len(games), dtype=np.int64)  # of the present games
+        self._seeds = options.seed + np.arange(len(games), dtype=np.int64)  # seeds of the present games
         self._games = [_Game() for _ in games]
-        self._is_over = np.zeros(len(games), np.bool_)  # the episode
+        self._is_over = np.zeros(len(games), np.bool_)  # whether the episode is over
         self.logged = self.unlogged = 0
 
     def seeds_of_reset(self, seeds: Seeds | None, mask: Bools | None) -> Seeds:

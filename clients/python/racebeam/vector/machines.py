@@ -105,7 +105,7 @@ class Machines(Protocol):
 
         Args:
             machine: Index of the machine.
-            include_rng: Whether the state has the random generators.
+            include_rng: Whether the state includes the random generators.
 
         Returns:
             The state.
@@ -143,7 +143,7 @@ class Machines(Protocol):
         """
 
     def image_warnings(self) -> list[str]:
-        """Returns a warning for each image that the rule of another image scores."""
+        """Returns a warning for each image whose game has a rule that was written for another image."""
 
     def height(self) -> int:
-        """Returns the rows of the screens."""
+        """Returns the number of rows of the screens."""

@@ -29,7 +29,7 @@ def parse_games(
     Args:
         game: Name of a game, one name for each environment, or None.
         num_envs: Number of environments, or None.
-        check: Raises an exception if no game has a name.
+        check: Function that takes a name, and raises an exception if no game has it.
         is_local: Whether to check a single name. A server checks its names itself, since it may know others.
 
     Returns:
@@ -114,7 +114,7 @@ def make_remote_machines(
     """
     if len(names) > 1:
         raise WrongValue(f"there are {len(names)} games; rom and server take one")
-    game = str(names[0])  # a server is told the game
+    game = str(names[0])  # a server needs the name of the game
     if isinstance(server, str):
         return RemoteMachines(server, token, timeout, game, rom, options)
     return SpreadMachines(server, token, timeout, game, rom, options)

@@ -45,8 +45,8 @@ class PlayedVector(VectorOfEach):
     ) -> tuple[Any, Info]:
         """Begins new episodes.
 
-        Steps that were sent and not received are played to their end, and their results are dropped. What a signal's
-        handler raises, such as KeyboardInterrupt, ends a long call, as in `step`.
+        Steps that were sent and not received are played to their end, and their results are dropped. An exception that
+        a signal handler raises, such as KeyboardInterrupt, ends a long call, as in `step`.
 
         Args:
             seed: Seed of the first environment, from which seeds count up; or one for each environment, where None and
@@ -98,9 +98,9 @@ class PlayedVector(VectorOfEach):
     def step(self, actions: npt.ArrayLike, *, out: Pixels | None = None) -> Step:
         """Steps the environments.
 
-        What a signal's handler raises, such as KeyboardInterrupt, ends a long call. Each environment has then either
-        made the step or not, and `reset` or `restore` makes them agree. With `batch_size` below `num_envs`, the step
-        goes on, and `recv` returns it.
+        An exception that a signal handler raises, such as KeyboardInterrupt, ends a long call. Then some environments
+        may have made the step, and others not; `reset` or `restore` makes them agree. With `batch_size` below
+        `num_envs`, the step goes on, and `recv` returns it.
 
         Args:
             actions: An action for each environment, or for each of those that the last call returned if `batch_size` is

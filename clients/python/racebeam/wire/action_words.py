@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ..vector.machines import Joysticks
 
-# Numbers of actions by fire, then from down to up, then from left to right.
+# The numbers of actions. The axes are: without or with fire, down to up, left to right.
 STICK = np.array([[[9, 5, 8], [4, 0, 3], [7, 2, 6]], [[17, 13, 16], [12, 1, 11], [15, 10, 14]]])
 
 
@@ -23,7 +23,7 @@ def joystick_actions(joysticks: Joysticks, threshold: float) -> tuple[npt.NDArra
         threshold: Deflection from which a direction or the button counts as pressed.
 
     Returns:
-        The numbers of the actions, and the strengths.
+        The numbers of the actions, int64 of shape (n,), and the strengths, float32 of shape (n,).
     """
     radius, angle, fire = joysticks.T
     limit = np.float32(threshold)

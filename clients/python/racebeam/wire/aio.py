@@ -112,7 +112,7 @@ async def _greet(session: AsyncSession, token: str | None) -> AsyncSession:
 class AsyncSession:
     """One session of the line protocol. `connect` and `launch` make sessions.
 
-    A cancelled request is carried out all the same. A session ends with the last reference to it.
+    The server carries out a request even if its task is cancelled. A session ends with the last reference to it.
 
     Args:
         reader: Stream of replies.

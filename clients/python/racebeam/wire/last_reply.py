@@ -35,7 +35,7 @@ class LastReply:
         self._decoded: list[Values] = []
 
     def keep(self, reply: Reply) -> None:
-        """Takes a reply as the last one.
+        """Makes a reply the last one.
 
         Args:
             reply: The reply, as `Session._await_plain` returned it.
@@ -44,7 +44,7 @@ class LastReply:
 
     @property
     def values(self) -> list[Values]:
-        """The values of each machine. The list may be changed."""
+        """The values of each machine. The caller may change the list."""
         if self._reply is not None:
             self._decoded, self._reply = self._session._decode_plain(self._reply)[1:], None
         return self._decoded

@@ -32,7 +32,10 @@ def _watched_fields(words: list[str]) -> list[str]:
 
 
 def _first_machine(words: list[str]) -> int:
-    """Returns the machine of the first group: 0 is that of load, 1 the first of open, which `machine=0` restores."""
+    """Returns the machine of the first group: 0 for that of `load`, and from 1 for those of `open`.
+
+    A request `restore NAME machine=I` is about machine I + 1.
+    """
     restored = [word for word in words[2:] if word.startswith("machine=")] if words[:1] == ["restore"] else []
     return int(restored[0].partition("=")[2]) + 1 if restored else 0
 

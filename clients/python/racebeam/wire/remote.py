@@ -41,7 +41,7 @@ class RemoteInterface(RemotePlay):
 
     @exclusive
     def state_hash(self) -> int:
-        """Returns a hash of the state, which is that of the same state in this process.
+        """Returns a hash of the state. The same state in this process has the same hash.
 
         Raises:
             MissingImage: If only the server has the image.
@@ -95,7 +95,7 @@ class RemoteInterface(RemotePlay):
 
     @exclusive
     def __getstate__(self) -> dict[str, Any]:
-        """Returns what a copy needs to continue, with its own session, where this game is."""
+        """Returns what a copy needs to continue from the state of this game, with its own session."""
         return {
             "server": self._server,
             "token": self._token,

@@ -209,7 +209,7 @@ class RemoteGame:
 
     @exclusive
     def image_warning(self) -> str:
-        """Returns a warning if the game's rule was written for another image, or it is doubtful whether it runs."""
+        """Returns a warning if the game's rule was written for another image, or if the image may not run."""
         values = self.ask(self.session.settings)
         if values.get("image") == "doubtful":
             return (

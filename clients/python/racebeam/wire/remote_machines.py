@@ -124,11 +124,11 @@ class RemoteMachines(Halves):
         return self._actions
 
     def image_warnings(self) -> list[str]:
-        """Returns a warning if the rule of another image scores this one."""
+        """Returns a warning if the game's rule was written for another image."""
         return list(filter(None, [self._machine.image_warning()]))
 
     def height(self) -> int:
-        """Returns the rows of the screens."""
+        """Returns the number of rows of the screens."""
         height, _ = self._machine.getScreenDims()
         return height
 
@@ -180,7 +180,7 @@ class RemoteMachines(Halves):
             self._reset(reset_mask, seeds, results)
 
     def _reset(self, reset_mask: Bools | None, seeds: Seeds | None, results: Results) -> None:
-        """Resets machines whose seeds count up as the server counts them by one request."""
+        """Resets machines. One request resets all whose seeds are as the server counts them up."""
         masks: dict[int | None, list[str]] = {}
         for machine in range(self._count) if reset_mask is None else np.flatnonzero(reset_mask):
             seed = -1 if seeds is None else int(seeds[machine])
@@ -201,7 +201,7 @@ class RemoteMachines(Halves):
 
     @contextlib.contextmanager
     def _exclusively(self, *, is_second: bool = False) -> Iterator[None]:
-        """Takes the turn of one thread. Ends the session if an exception leaves a request without its reply."""
+        """Lets one thread at a time use the session. Ends it if an exception leaves a request without its reply."""
         self._session._check_process()  # after a fork, a thread that the child lacks may hold the lock
         with self._turn:
             self._check_half(is_second)

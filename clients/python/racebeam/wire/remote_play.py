@@ -53,7 +53,7 @@ class RemotePlay(RemoteGame):
             paddle_strength: How far A's paddle is turned, 0 to 1.
             times: How often the action is played.
             view: What is observed at the end.
-            action_b: Number of player B's action, which are those from 18.
+            action_b: Number of player B's action, from 18 on.
             paddle_strength_b: How far B's paddle is turned, 0 to 1.
 
         Returns:
@@ -78,7 +78,7 @@ class RemotePlay(RemoteGame):
         )
 
     def _act_after_the_end(self, word: str, acts: int) -> None:
-        """Sends the acts after the end of the game, which run no frame, but advance the generator of sticky actions.
+        """Sends the acts after the end of the game. They run no frames, but advance the generator of sticky actions.
 
         The server plays one of them per request, and stops reading while its replies are not read.
         """

@@ -29,7 +29,7 @@ LEAVING = ("stopping", "busy", "idle", "internal")  # the errors after which a s
 
 
 def _is_loss(error: Exception) -> bool:
-    """Returns whether an exception means that the server is lost; else the request was wrong."""
+    """Returns whether an exception means that the server is lost. Otherwise, the request was wrong."""
     cause = error if isinstance(error, Refused) else error.__cause__
     return isinstance(error, (ConnectionError, TimeoutError)) or (isinstance(cause, Refused) and cause.code in LEAVING)
 
@@ -129,7 +129,7 @@ class SpreadMachines(Halves):
             The parts whose server is absent, and why.
 
         Raises:
-            Exception: Whatever else goes wrong, as soon as it does.
+            Exception: Any other error of a part, as soon as it occurs.
         """
         opened: queue.SimpleQueue[tuple[_Part, Exception | None]] = queue.SimpleQueue()
 
@@ -167,11 +167,11 @@ class SpreadMachines(Halves):
         return self._parts[0].machines.actions_of(0)
 
     def image_warnings(self) -> list[str]:
-        """Returns a warning if the rule of another image scores this one."""
+        """Returns a warning if the game's rule was written for another image."""
         return self._parts[0].machines.image_warnings()
 
     def height(self) -> int:
-        """Returns the rows of the screens."""
+        """Returns the number of rows of the screens."""
         return self._parts[0].machines.height()
 
     def close(self) -> None:
@@ -271,7 +271,7 @@ class SpreadMachines(Halves):
 
     @contextlib.contextmanager
     def _exclusively(self, *, is_second: bool = False) -> Iterator[None]:
-        """Takes the turn of one thread.
+        """Lets one thread at a time use the sessions.
 
         If an interrupt such as Ctrl-C leaves a request without its reply, all sessions end. A later request would take
         that reply for its own, and a session that ended by itself would look like a lost server.
@@ -328,7 +328,7 @@ class SpreadMachines(Halves):
             self._ask(part, ask)
 
     def _ask(self, part: _Part, ask: Callable[[_Part], None]) -> None:
-        """Asks the server of a part; if that server is lost, the next one."""
+        """Asks the server of a part. If that server is lost, asks the next one."""
         while (failure := self._find_loss(ask, part)) is not None:
             self._move(part, failure)
 
