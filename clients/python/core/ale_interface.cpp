@@ -9,7 +9,7 @@
 namespace racebeam::python {
 namespace {
 
-constexpr int kFramesWithoutSignals = 2000;  // some tens of milliseconds
+constexpr int kFramesWithoutSignals = 2000;  // they take some tens of milliseconds
 
 Drawing drawing_for(View view, bool averages) {
   if (view == View::kRam || view == View::kNone) return Drawing::kNone;
@@ -28,7 +28,7 @@ void AleInterface::load(std::shared_ptr<const Image> image, const std::optional<
   auto rules = with_given(found.game, *image, keys_.console());
   machine_ = std::make_shared<Machine>(lock_, std::move(image), std::move(rules), keys_.settings());
   machine_->environment.make_all_audio(keys_.bools.at("all_audio"));
-  // As in ALE, what a game forces stays for the images that are loaded later.
+  // As in ALE, a value that a game forces stays in effect for images that are loaded later.
   if (const int forced = machine_->environment.game().paddle_max; forced != -1)
     keys_.ints.at("paddle_max") = forced;
   keys_of_machine_ = keys_;
@@ -41,8 +41,8 @@ const std::shared_ptr<Machine>& AleInterface::machine() {
 
 Environment& AleInterface::environment() { return machine()->environment; }
 
-// Returns whether several acts have the results of one long act. They do unless rewards are clipped, acts
-// have samples, or an act has several frames.
+// Returns whether one long act has the results of several acts. It has unless rewards are clipped, acts have
+// sound samples, or an act has several frames.
 bool AleInterface::acts_can_be_joined() const {
   const Settings& settings = machine_->environment.settings();
   return settings.frame_skip <= 1 && !settings.sound &&

@@ -1,5 +1,5 @@
-// A game in this process, with the interface that Python knows from ALE. All methods may be called from
-// several threads: they take turns. Those that need a game throw InvalidInput before one is loaded.
+// A game in this process, with the interface that ALE has in Python. Several threads may use it, and take
+// turns. Methods that need a game throw InvalidInput before one is loaded.
 #pragma once
 
 #include <cstdint>
@@ -36,17 +36,18 @@ class AleInterface {
   const Keys& keys() const { return keys_; }
   Lock& lock() const { return *lock_; }
 
-  // The caller holds lock(), for these and all below. Powers a machine on with the present keys. The game is
-  // that of the key game_file, else `game`, else the image decides. Throws InvalidInput for an image of no
-  // known game, unless the key unknown_images is true.
+  // The caller must hold lock() for this method and all below. Powers a machine on with the present keys. The
+  // game is that of the key game_file, or otherwise `game`; without both, the image decides. Throws
+  // InvalidInput for an unknown image, unless the key unknown_images is true.
   void load(std::shared_ptr<const Image> image, const std::optional<std::string>& game);
   bool is_loaded() const { return machine_ != nullptr; }
 
   Environment& environment();
   const std::shared_ptr<Machine>& machine();
 
-  // `times` acts with one reward, which is their sum. A long step looks for signals, such as Ctrl-C, and
-  // throws nanobind::python_error: the acts until then have happened. What `view` shows is then fast to get.
+  // Plays `times` acts. The reward is their sum. A long step checks for signals, such as Ctrl-C, and then
+  // throws nanobind::python_error; the acts until then have been played. After the step, the observation of
+  // `view` is fast to get.
   StepResult step(const Action& action, int times, View view);
 
   // The number of bytes of an observation, and the bytes.

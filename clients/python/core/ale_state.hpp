@@ -26,20 +26,20 @@ class AleState {
     int frame = 0, episode_frame = 0, difficulty = 0, mode = 0;
   };
 
-  AleState() = default;  // of no game
+  AleState() = default;  // a state without a game
 
-  // Saves the machine's present moment; the caller holds the lock.
+  // Saves the machine's present state; the caller holds the lock.
   AleState(std::shared_ptr<Machine> machine, bool with_random);
 
-  // Takes bytes of serialize(). Throws InvalidInput unless it begins as such bytes do; the rest is checked
+  // Takes bytes of serialize(). Throws InvalidInput unless they begin as such bytes do; the rest is checked
   // when the state is restored.
   explicit AleState(std::string bytes);
 
-  // Throws InvalidInput when the state is not one of the environment's image and game; the environment is
-  // then as it was. The caller holds the lock.
+  // Throws InvalidInput if the state belongs to another image or game than the environment's; the environment
+  // is then unchanged. The caller holds the lock.
   void restore_in(Environment& environment) const;
 
-  // Takes the machine's lock. "" for a state of no game.
+  // Takes the machine's lock. Returns "" for a state without a game.
   std::string serialize() const;
   bool equals(const AleState& other) const;
   const Facts& facts() const { return facts_; }

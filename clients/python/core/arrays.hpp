@@ -1,4 +1,4 @@
-// Arrays of bytes as NumPy's.
+// Arrays of bytes as arrays of NumPy.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -14,10 +14,10 @@ namespace nb = nanobind;
 
 using Bytes = nb::ndarray<nb::numpy, std::uint8_t>;
 
-// An array of the caller, for results.
+// An array that the caller passes for results.
 using Buffer = nb::ndarray<std::uint8_t, nb::c_contig, nb::device::cpu>;
 
-// Memory that was filled without the GIL, for one array that then owns it.
+// Memory that is filled without the GIL. An array then owns it.
 class FreshBytes {
  public:
   FreshBytes() = default;

@@ -22,7 +22,7 @@ namespace {
 
 using namespace nb::literals;
 
-// A method that reads one number or list of the environment.
+// Makes a method of Python that reads a number or a list of the environment.
 template <auto method>
 auto ask(AleInterface& self) {
   const Turn turn(self.lock());
@@ -153,7 +153,8 @@ int number_of(Enumeration action) {
   throw InvalidInput("action " + std::to_string(action) + " is out of range; accepted: " + accepted);
 }
 
-// The environment would take some of the others for NOOP, as the reference does.
+// Refuses numbers that are not actions. The environment would take some of them for NOOP, as the reference
+// does.
 void check_actions(const Environment& environment, int a, int b = kActions) {
   if (!environment.takes({.a = a})) refuse(a, "0 to 25, and those of the left controller");
   if (!environment.takes({.b = b})) refuse(b, "18 to 35, and those of the right controller");
@@ -173,8 +174,8 @@ int act(AleInterface& self, int action, float strength) {
   return environment.act(action, kActions, strength);
 }
 
-// The observation, both rewards, both ends, lives, frames of the episode and since loading. One call, since
-// each costs.
+// Returns the observation, both rewards, terminated, truncated, lives, frames of the episode and frames since
+// loading. It is one call, since each call of Python takes time.
 nb::tuple step(AleInterface& self, int action, float strength, int times, View view, int action_b,
                float strength_b) {
   if (times < 1) throw InvalidInput("times is " + std::to_string(times) + "; it must be 1 or more");

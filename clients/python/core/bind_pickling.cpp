@@ -16,7 +16,7 @@ using KeysAsTables =
     std::tuple<Keys::Table<int>, Keys::Table<bool>, Keys::Table<float>, Keys::Table<std::string>>;
 using Loaded = std::tuple<KeysAsTables, std::string, nb::bytes, std::string, nb::bytes>;
 
-// Another version may lack keys.
+// Keys that another version did not pickle keep their defaults.
 template <class Value>
 void take(Keys::Table<Value>& keys, Keys::Table<Value> pickled) {
   pickled.merge(keys);
@@ -39,7 +39,7 @@ nb::bytes as_bytes(const std::string& text) { return nb::bytes(text.data(), text
 // The state of an interface at one moment.
 struct Moment {
   Keys keys, keys_of_machine;
-  std::shared_ptr<const Image> image;  // null: none is loaded
+  std::shared_ptr<const Image> image;  // null: no image is loaded
   std::string game;
   AleState state;
 };

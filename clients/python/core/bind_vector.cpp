@@ -1,4 +1,4 @@
-// VectorMachines: what they show goes into arrays that Python made.
+// VectorMachines: their results go into arrays that Python made.
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -33,7 +33,7 @@ using Joysticks = nb::ndarray<const float, nb::shape<-1, 3>, nb::c_contig, nb::d
 template <class T>
 using Rows = nb::ndarray<T, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
-// racebeam.vector.results.Results, whose order this is.
+// The members of racebeam.vector.results.Results, in their order.
 using Results = std::tuple<std::optional<Buffer>, std::optional<Buffer>, Rows<std::int32_t>, Rows<bool>,
                            std::optional<Buffer>, std::optional<Rows<std::int32_t>>,
                            std::optional<Rows<std::int32_t>>, std::optional<Buffer>, std::optional<Buffer>>;
@@ -125,7 +125,7 @@ void send_joysticks(VectorMachines& self, const Joysticks& joysticks, float thre
                     span_of(machines));
 }
 
-// `strengths`: of each machine's paddle.
+// strengths: the strength of each machine's paddle.
 void send_strengths(VectorMachines& self, const Given<std::int64_t>& actions, const Given<float>& strengths,
                     const Given<std::int32_t>& machines) {
   const Turn turn(self.lock());
@@ -246,7 +246,7 @@ void make(VectorMachines* self, const std::vector<GivenImage>& images, const Giv
   new (self) VectorMachines(cartridges, settings);
 }
 
-// A sentence for each image that the rule of another one scores.
+// Returns a sentence for each image whose game has a rule that was written for another image.
 std::vector<std::string> image_warnings(VectorMachines& self) {
   const Turn turn(self.lock());
   std::set<std::string> sentences;

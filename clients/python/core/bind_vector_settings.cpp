@@ -1,4 +1,4 @@
-// VectorSettings: what VectorMachines are made with, and the words among it.
+// VectorSettings: the settings with which VectorMachines are made. Some of them are words.
 #include <nanobind/stl/optional.h>
 
 #include <type_traits>
@@ -35,7 +35,7 @@ void bind_words(nb::module_& module) {
       .value("REPEATS", StackStart::kRepeats);
 }
 
-// `path`: members of members, beginning with one of BatchSettings.
+// path: pointers to members of members, the first of which is a member of BatchSettings.
 template <class... Members>
 void bind(nb::class_<BatchSettings>& settings, const char* name, Members... path) {
   const auto at = [path...](BatchSettings & self) -> auto& { return (self.*....*path); };

@@ -21,8 +21,8 @@ namespace {
 namespace nb = nanobind;
 using namespace nb::literals;
 
-// Handles: what a compiled program names machines by. No number is used twice, and one that names none is an
-// error.
+// Handles are numbers by which a compiled program names machines. A number is never used twice, and an
+// unknown one is an error.
 
 std::mutex handles_mutex;
 std::map<std::uint64_t, std::weak_ptr<SharedBatch>> handles;
@@ -52,7 +52,7 @@ constexpr xla::DataType type_of() {
   return std::is_same_v<T, float> ? xla::DataType::kFloat32 : xla::DataType::kInt32;
 }
 
-// Gives one buffer after the other. Throws InvalidInput for one that has another type or size.
+// Returns one buffer after the other. Throws InvalidInput for a buffer of another type or size.
 class Reader {
  public:
   explicit Reader(const xla::Buffers& buffers) : buffers_(buffers) {}
@@ -110,7 +110,8 @@ BatchArrays results_of(const Batch& batch, std::size_t count, Reader& results) {
   return to;
 }
 
-// The results that racebeam.envpool.xla.RESULTS lists: those above, then those that only EnvPool has.
+// The results that racebeam.envpool.xla.RESULTS lists: those of results_of(), then those that only EnvPool
+// has.
 BatchArrays received_of(const Batch& batch, Reader& results) {
   const std::size_t count = batch.batch_size();
   BatchArrays to = results_of(batch, count, results);
@@ -134,7 +135,7 @@ void play_step_joysticks(Batch& batch, Reader& arguments, Reader& results) {
   batch.step(std::span<const Act>(acts), results_of(batch, batch.size(), results));
 }
 
-// Arguments: seeds, negative for none, and which machines are reset.
+// Arguments: the seeds, where a negative one means unseeded, and which machines are reset.
 void play_reset(Batch& batch, Reader& arguments, Reader& results) {
   const auto seeds = arguments.next<const std::int32_t>(batch.size());
   const auto mask = arguments.next<const bool>(batch.size());
@@ -142,7 +143,7 @@ void play_reset(Batch& batch, Reader& arguments, Reader& results) {
               std::vector<std::int64_t>(seeds.begin(), seeds.end()));
 }
 
-// Arguments: the actions, and the machines that they are of.
+// Arguments: the actions, and the indices of their machines.
 void play_send(Batch& batch, Reader& arguments, Reader&) {
   const std::size_t count = arguments.size_of_next();
   const std::vector<int> indices = indices_of(batch, arguments.next<const std::int32_t>(count));
@@ -161,7 +162,7 @@ void answer(const xla::CallFrame& frame, const Ask& ask) {
   std::ranges::copy(bytes, results.next<std::uint8_t>(sizeof handle).begin());
   const auto shared = named_by(handle);
   const std::scoped_lock hold(shared->lock());
-  Batch& batch = shared->batch(nullptr);  // signals are for calls of Python
+  Batch& batch = shared->batch(nullptr);  // only calls from Python check for signals
   ask(batch, arguments, results);
 }
 

@@ -1,8 +1,8 @@
-// The GIL, given back for a while and taken for a while.
+// Releases the GIL for a while, and takes it for a while.
 //
-// While Python ends, a thread that takes the GIL is ended, by unwinding; before Python 3.14, that is. Where a
-// destructor or a function of nanobind is in the way, that would end the whole process by abort(). Such a
-// thread sleeps instead until the process is gone, as it does from Python 3.14 on.
+// Before Python 3.14, a thread that takes the GIL while Python ends is ended by unwinding. If a destructor or
+// a function of nanobind is on its stack, that would end the whole process by abort(). Such a thread instead
+// sleeps until the process is gone, as it does from Python 3.14 on.
 #pragma once
 
 #include <cxxabi.h>
@@ -16,7 +16,7 @@ namespace racebeam::python {
 #if defined(__GLIBCXX__)
 using Unwinding = abi::__forced_unwind;
 #else
-struct Unwinding {};  // macOS ends a thread without
+struct Unwinding {};  // macOS ends a thread without unwinding
 #endif
 
 template <class Take>
@@ -28,7 +28,7 @@ void take_gil(const Take& take) noexcept {
   }
 }
 
-// Other threads of Python run as long as it lives.
+// During its lifetime, other threads of Python run.
 class WithoutGil {
  public:
   WithoutGil() : state_(PyEval_SaveThread()) {}
@@ -42,7 +42,7 @@ class WithoutGil {
   PyThreadState* state_;
 };
 
-// This thread may use Python as long as it lives.
+// During its lifetime, this thread may use Python.
 class WithGil {
  public:
   WithGil() {

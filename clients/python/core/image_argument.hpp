@@ -16,7 +16,8 @@ namespace racebeam::python {
 
 using ImageArgument = std::variant<nanobind::bytes, std::filesystem::path>;
 
-// Throws InvalidInput. `stem` is what bytes are called. Bytes are read without the GIL: nothing changes them.
+// Throws InvalidInput. `stem` is the name of an image that is given as bytes. Bytes are read without the GIL,
+// since nothing changes them.
 inline std::shared_ptr<const Image> image_of(const ImageArgument& where, const std::string& stem) {
   if (const auto* const path = std::get_if<std::filesystem::path>(&where)) return load_image(path->string());
   const auto& bytes = std::get<nanobind::bytes>(where);

@@ -21,10 +21,12 @@ struct Keys {
   Table<float> floats;
   Table<std::string> strings;
 
-  // Throws InvalidInput for a value that no environment takes. A seed of -1 becomes one from the clock.
+  // Throws InvalidInput for a value that no environment accepts. A seed of -1 is replaced by one from the
+  // clock.
   Settings settings() const;
 
-  // The console that the keys name for the image; -1 and "" say nothing. Throws the same.
+  // The properties of the console that the keys give for the image; -1 and "" mean that a key is not given.
+  // Throws InvalidInput, too.
   GivenProperties console() const;
 };
 

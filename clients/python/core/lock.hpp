@@ -1,7 +1,7 @@
 // A lock for each object that Python can reach, so that two threads that use one object at once take turns. A
-// lock that another thread held when the process forked is refused in the child: nothing would ever release
-// it. A lock that this thread holds is refused, too: a handler of signals uses the object in the midst of a
-// call.
+// lock that another thread held when the process forked is refused in the child, since nothing would ever
+// release it. A lock that this thread holds already is refused, too: a signal handler then uses the object in
+// the middle of a call.
 #pragma once
 
 #include <atomic>
@@ -28,7 +28,8 @@ class Lock {
   std::atomic<std::thread::id> owner_{};  // the thread that holds it, if one does
 };
 
-// For the time of one call: other threads of Python run, and the object is this thread's.
+// During its lifetime, which is that of one call, other threads of Python run, and this thread holds the lock
+// of the object.
 class Turn {
  public:
   explicit Turn(Lock& lock) : held_(lock) {}

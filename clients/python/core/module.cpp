@@ -34,8 +34,8 @@ NB_MODULE(_core_unchecked, m) {
 namespace {
 
 // Python runs this in the interpreter that imports the module. The types of nanobind belong to the whole
-// process, and a second interpreter that registers them would take them from the first. So nothing is
-// registered in a sub-interpreter. NumPy does not support sub-interpreters either.
+// process, and a second interpreter that registers them would take them from the first. So the module refuses
+// sub-interpreters. NumPy does not support sub-interpreters either.
 int fill_module(PyObject* module) {
   constexpr auto kMainInterpreter = 0;
   if (PyInterpreterState_GetID(PyInterpreterState_Get()) == kMainInterpreter)

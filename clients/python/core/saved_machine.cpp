@@ -32,7 +32,8 @@ void SavedMachine::restore_in(Slot& slot) const {
   restore_checked(slot, saved_slot(as_span(bytes_), slot.environment()));
 }
 
-// Pictures may be left to be drawn. A separate machine draws them, since those of the state may play.
+// Some pictures of the state may not have been drawn yet. A separate machine draws them, since the state's
+// own machine may be playing.
 std::string SavedMachine::serialize() const {
   if (!cartridge_.image) return bytes_;
   const Environment artist(cartridge_.image, cartridge_.game, settings_);

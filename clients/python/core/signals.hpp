@@ -7,8 +7,8 @@
 
 namespace racebeam::python {
 
-// Without the GIL. Runs Python's handlers, and throws what they raise, such as KeyboardInterrupt. Does
-// nothing on another thread than the main one.
+// Called without the GIL. Runs Python's signal handlers, and throws what they raise, such as
+// KeyboardInterrupt. Does nothing on any thread but the main one.
 inline void look_for_signals() {
   const WithGil python;
   if (PyErr_CheckSignals() != 0) throw nanobind::python_error();

@@ -12,7 +12,7 @@
 
 namespace racebeam::python {
 
-// All machines have as many actions as the first. Throws std::out_of_range.
+// All machines have as many actions as the first. Throws std::out_of_range for another index.
 template <class Index>
 std::vector<int> indices_of(const Batch& batch, std::span<const Index> actions) {
   const auto end = static_cast<Index>(batch.actions(0).size());
@@ -27,7 +27,7 @@ std::vector<int> indices_of(const Batch& batch, std::span<const Index> actions) 
   return indices;
 }
 
-// `joysticks`: radius, angle and fire of each machine. Throws InvalidInput.
+// joysticks: radius, angle and fire of each machine. Throws InvalidInput.
 inline std::vector<Act> acts_of(std::span<const float> joysticks, float threshold) {
   std::vector<Act> acts;
   acts.reserve(joysticks.size() / 3);

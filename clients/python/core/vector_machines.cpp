@@ -4,7 +4,7 @@
 
 namespace racebeam::python {
 
-// A child process leaves the memory as it is: threads that are not there cannot be awaited.
+// A child process does not free the batch: it cannot wait for threads that it does not have.
 SharedBatch::~SharedBatch() {
   if (is_forked()) static_cast<void>(batch_.release());
 }

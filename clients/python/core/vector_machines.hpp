@@ -1,4 +1,5 @@
-// A Batch that Python can reach. Its threads do not survive a fork: a child process is refused each use.
+// A Batch that Python can reach. Its threads do not survive a fork, so every use in a child process is
+// refused.
 #pragma once
 
 #include <memory>
@@ -14,7 +15,7 @@ namespace racebeam::python {
 // Calls that XLA makes (bind_xla.cpp) share it with the object of Python, and may outlive that.
 class SharedBatch {
  public:
-  // Throws what a handler of signals raises meanwhile.
+  // Throws what a signal handler raises meanwhile.
   SharedBatch(std::span<const Cartridge> cartridges, const BatchSettings& settings)
       : cartridges_(cartridges.begin(), cartridges.end()),
         batch_(std::make_unique<Batch>(cartridges, settings, look_for_signals)) {}
@@ -35,7 +36,7 @@ class SharedBatch {
 
   const unsigned made_in_ = process_generation();
   Lock lock_;
-  const std::vector<Cartridge> cartridges_;  // one a machine
+  const std::vector<Cartridge> cartridges_;  // one for each machine
   std::unique_ptr<Batch> batch_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace racebeam::python::xla {
 
-struct Error;  // XLA's own
+struct Error;  // defined by XLA
 
 enum class ErrorCode : int {
   kInvalidArgument = 3,
@@ -33,7 +33,7 @@ struct ApiVersion {
   int minor_version;
 };
 inline constexpr int kMajorVersion = 0;
-inline constexpr int kMinorVersion = 3;  // the newest that this file was compared with
+inline constexpr int kMinorVersion = 3;  // the newest version that this file was compared with
 
 // XLA asks a handler for its version by a call with this extension.
 struct Metadata {
@@ -76,7 +76,7 @@ struct Buffers {
   std::size_t struct_size;
   Extension* extensions;
   std::int64_t size;
-  int* kinds;  // 1: a buffer, the only kind that there is
+  int* kinds;  // 1: a buffer, the only kind so far
   void** buffers;
 };
 

@@ -22,8 +22,8 @@ def path() -> str:
     """Finds the program.
 
     Returns:
-        The value of RACEBEAM_PROGRAM; else the path of the program that this package installed; else the one on the
-        PATH.
+        The first that is set or found: RACEBEAM_PROGRAM, the path of the program that this package installed, or the
+        path of the one on the PATH.
 
     Raises:
         FileNotFoundError: If the program is not found.

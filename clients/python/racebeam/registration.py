@@ -80,8 +80,9 @@ def _register_as_ale(
 def register_own_ids() -> None:
     """Registers racebeam/Pong-v5, racebeam/PongNoFrameskip-v4 and so on.
 
-    The former have the settings of ALE/Pong-v5. The latter play each frame, for wrappers that skip frames, and their
-    actions are not sticky. Settings are a preset, which preset= of gymnasium.make() replaces.
+    Ids such as racebeam/Pong-v5 have the settings of ALE/Pong-v5. The NoFrameskip ids play each frame, for wrappers
+    that skip frames, and their actions are not sticky. Settings are a preset, which preset= of gymnasium.make()
+    replaces.
     """
     for game in images.titles():
         name = f"racebeam/{rom_id_to_name(game)}"
@@ -181,7 +182,7 @@ class _AleLoader(importlib.abc.Loader):
             module.__spec__.loader = self._loader
         old_ids = (pattern.format(rom_id_to_name(game)) for pattern in OLD_IDS for game in ale_games.OLD)
         for env_id in (*_v5_ids(), *old_ids):
-            gymnasium.registry.pop(env_id, None)  # else ale_py warns that it overrides the id
+            gymnasium.registry.pop(env_id, None)  # otherwise ale_py warns that it overrides the id
         self._loader.exec_module(module)
         register_v0_v4_envs()
         register_v5_envs()

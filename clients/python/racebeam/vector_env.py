@@ -26,7 +26,7 @@ __all__ = ["AtariVectorEnv", "VectorArguments"]
 
 
 class VectorArguments(OptionArguments, total=False):
-    """The keyword arguments of `AtariVectorEnv` except `options`, for functions that hand them on."""
+    """The keyword arguments of `AtariVectorEnv` except `options`, for functions that pass them on."""
 
     preset: str | None
     rom: Rom | None

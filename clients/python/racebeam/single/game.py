@@ -132,7 +132,7 @@ class EnvWithGame(EnvWithActions):
         """Saves the state of the game, without `np_random`.
 
         Args:
-            include_rng: Whether the state has the generator of sticky actions.
+            include_rng: Whether the state includes the generator of sticky actions.
 
         Returns:
             A state that can be pickled, and restored in another process.

@@ -28,8 +28,8 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
     and powers the game on with it, because a log contains the seed of its episode. `reset(seed=S)` also determines what
     later resets draw.
 
-    An episode gets no log if it was abandoned before its end, if a state was restored in it, or if the log cannot be
-    written. It then causes a warning.
+    An episode does not get a log if it was abandoned before its end, if a state was restored in it, or if the log
+    cannot be written. A warning then says why.
 
     Args:
         env: The environment. Its `frameskip` is a number, its `noop_max` 0, and it does not clip rewards.
@@ -85,7 +85,7 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         seed = integer("agent_seed", agent_seed, *SEEDS)
         self._origin, self._phrase = Origin(agent, integer("trial", trial, 1, MOST), 1, seed), phrase
         self._seeds = np.random.default_rng()
-        self._start: Start | None = None  # of the episode that is played
+        self._start: Start | None = None  # the start of the present episode
         self._actions: list[int] = []
         self._strengths: list[float] = []
         self.logged = self.unlogged = 0

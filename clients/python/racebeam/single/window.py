@@ -15,7 +15,7 @@ from ..extras import install_hint
 
 FRAMES_PER_SECOND = 60
 SAMPLES_PER_FRAME = 512
-SCALE = 2  # of a pixel, which is twice as wide as it is high
+SCALE = 2  # height of a shown pixel, which is twice as wide
 MOST_SHOWN = 16  # environments in one window
 SLOWEST, FASTEST = 1 / 8, 8  # times the usual speed
 KEYS = {"p": "pause", "+": "faster", "=": "faster", "-": "slower"}  # "=" is the key of "+" without shift
