@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A planner in a page: tries each action for a while from where the game is, plays what paid best."""
+"""A planner in a page: tries each action for a while from the present state, and plays the one that paid best."""
 
 import argparse
 import pathlib

@@ -37,8 +37,8 @@ def ask(line):
 
 size = server.stdout.readline().strip()  # the server speaks first: 160-210
 if not size:
-    sys.exit(server.wait() or 1)  # it has said why
-answer = ask("0,1,0,1")  # we want: no screen, RAM, (nothing), end and reward
+    sys.exit(server.wait() or 1)  # the server has written the reason
+answer = ask("0,1,0,1")  # asks for: no screen, RAM, (unused), end and reward
 score = frames = 0
 while answer != "DIE\n":
     ram, episode, _ = answer.split(":")  # RAM is bytes.fromhex(ram); an agent would look at it

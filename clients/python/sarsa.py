@@ -50,7 +50,7 @@ class Random:
     def below(self, count):
         """Returns a number from 0 to `count` - 1."""
         number = self.next()
-        while number < 2**64 % count:  # else small remainders were more likely
+        while number < 2**64 % count:  # otherwise small remainders would be more likely
             number = self.next()
         return number % count
 
@@ -88,7 +88,7 @@ class Sarsa:
         self.traces, self.live = (
             np.zeros(features * ACTIONS, np.float32),
             np.empty(0, np.intp),
-        )  # live: where they are not 0
+        )  # live: indices of the traces that are not 0
         self.most_active, self.first_reward = 1, 0.0
         self.random, self.learning = Random(seed), True
 
@@ -144,7 +144,7 @@ class Sarsa:
         return action
 
     def scaled(self, reward):
-        """Divides the reward by the size of the first one that is not 0."""
+        """Divides the reward by the absolute value of the first reward that is not 0."""
         self.first_reward = self.first_reward or abs(reward)
         return reward / self.first_reward if reward else 0.0
 
@@ -224,7 +224,7 @@ def load_of(options, seed):
 
 def write_log(options, seed, actions):
     """Writes the log of an episode, which `racebeam verify` confirms."""
-    sys.path[:] = [entry for entry in sys.path if entry != str(HERE)]  # the package there is not compiled
+    sys.path[:] = [entry for entry in sys.path if entry != str(HERE)]  # the package in this folder is not compiled
     try:
         from racebeam import episode_log
     except ImportError as missing:
@@ -357,7 +357,7 @@ def background_of(options):
 
 
 def agent_of(options):
-    """Makes the agent, with what the file of --play has."""
+    """Makes the agent. With --play, it has the weights in that file."""
     agent = Sarsa(Basic.SIZE, options.agent_seed)
     if options.play:
         try:

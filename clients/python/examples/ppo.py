@@ -29,12 +29,12 @@ CLIP, ENTROPY, VALUE = 0.1, 0.01, 0.5
 LONGEST_GRADIENT = 0.5
 FRAME_SKIP = 4  # frames of a step
 LONGEST_GAME = 108000  # frames
-GAMES_OF_MEAN = 20  # of the curve, and of its baseline
+GAMES_OF_MEAN = 20  # games in a mean of the curve, and of its baseline
 CONVOLUTIONS = ((32, 8, 4), (64, 4, 2), (64, 3, 1))  # channels, size and stride, as in DQN
 
 
 class Batch(NamedTuple):
-    """A row for each step of each environment."""
+    """The steps of a batch: a row for each step of each environment."""
 
     observations: np.ndarray
     actions: np.ndarray
