@@ -4,6 +4,7 @@
 // each at half and at double, and writes docs/performance/tuning.md.
 //
 //   RACEBEAM_TUNED(type, name, value, unit, measure);
+//
 // measure: how `scripts/bench tune` measures a row. "frames" and "start" are processor times of games, in the
 // middle of play and from power-on. "replies" are the replies of a server. "none": no command measures it.
 //
@@ -41,7 +42,7 @@ T tuned(const std::string& name, T usual) {
 
 namespace racebeam::tuning {
 
-// Busy polling (busy_poll.hpp): after polls in vain, some polls are skipped. This is the largest number.
+// Busy polling (busy_poll.hpp): polling that was in vain is left out for some times, at most for so many.
 RACEBEAM_TUNED(int, kMostSkippedPolls, 1024, "polls", "none");
 
 }  // namespace racebeam::tuning
