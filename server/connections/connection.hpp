@@ -27,8 +27,4 @@ struct Carrier {
 Task<> serve_connection(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
                         Metrics& metrics);
 
-// Closes the connection, after a last text, which may be empty. `gently`: waits for the client's end, so that
-// the text is certain to arrive.
-Task<> turn_away(std::shared_ptr<Client> client, std::string text, bool gently);
-
 }  // namespace racebeam

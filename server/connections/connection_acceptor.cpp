@@ -4,6 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "server/connections/lingering_close.hpp"
 #include "server/operation/log.hpp"
 #include "server/scheduling/keep_running.hpp"
 #include "system/program/sockets.hpp"
