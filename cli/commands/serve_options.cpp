@@ -1,7 +1,9 @@
 #include "cli/commands/serve_options.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -18,6 +20,9 @@ constexpr const char* kClassicOnly[] = {"seed",        "system_seed",    "frame_
                                         "mode",        "difficulty",     "max_episode_frames", "max_frames",
                                         "full_screen", "color_averaging"};
 constexpr const char* kLineOnly[] = {"record_dir", "watch"};
+
+// Groups of options in the help text.
+constexpr auto kWhere = "Where", kLimits = "Limits", kOperation = "Operation";
 
 std::string check_endpoint(const std::string& text) {
   try {
@@ -50,17 +55,23 @@ void add_number(Subcommand& command, const std::string& name, Number& value, std
   command.option(name, value, help)
       .check(whole_number(least, static_cast<std::int64_t>(kMost)))
       .shows_default()
-      .group("Limits");
+      .group(kLimits);
 }
 
-void add_transports(Subcommand& command, ServeOptions& options) {
-  const std::string group = "Where";
-  command.flag("--stdio", options.standard_streams, "One session on standard input and output").group(group);
+Option add_file(Subcommand& command, const std::string& name, std::string& value, const std::string& help) {
+  return command.option(name, value, help).value_name("FILE");
+}
+
+void add_streams(Subcommand& command, ServeOptions& options) {
+  command.flag("--stdio", options.standard_streams, "One session on standard input and output").group(kWhere);
   command
       .option("--pipes", options.pipes,
               "One session on the named pipes PREFIX_out and PREFIX_in, created if missing")
       .value_name("PREFIX")
-      .group(group);
+      .group(kWhere);
+}
+
+void add_addresses(Subcommand& command, ServeOptions& options) {
   command
       .option(
           "--listen", options.addresses,
@@ -70,7 +81,7 @@ void add_transports(Subcommand& command, ServeOptions& options) {
       .value_name("ADDRESS")
       .check({check_endpoint, ""})
       .one_a_time()
-      .group(group);
+      .group(kWhere);
   command
       .option("--allow-origin", options.server.allowed_origins,
               "Pages of this origin may open sessions, besides the server's own: http://HOST[:PORT] or "
@@ -78,20 +89,32 @@ void add_transports(Subcommand& command, ServeOptions& options) {
       .value_name("ORIGIN")
       .check({check_origin, ""})
       .one_a_time()
-      .group(group);
+      .group(kWhere);
+}
+
+void add_protocol(Subcommand& command, ServeOptions& options) {
   command.flag("--classic", options.classic, "Use the text protocol of ALE 0.4 to 0.6 on all addresses")
-      .group(group);
+      .group(kWhere);
   command
       .flag("--strict", options.strict,
             "End a session on --stdio or --pipes at its first error, with status 1; for scripts")
-      .group(group);
-  const auto add_file = [&](const std::string& name, std::string& value, const std::string& help) {
-    command.option(name, value, help).value_name("FILE").group(group);
-  };
-  add_file("--token-file", options.server.token_file,
-           "File of tokens, one a line, that clients over TCP must send; required beyond this machine");
-  add_file("--tls-cert", options.server.tls_certificate, "Certificate chain for tls:// and wss://, in PEM");
-  add_file("--tls-key", options.server.tls_key, "Key of the certificate, in PEM");
+      .group(kWhere);
+}
+
+void add_access(Subcommand& command, ServerSettings& server) {
+  add_file(command, "--token-file", server.token_file,
+           "File of tokens, one a line, that clients over TCP must send; required beyond this machine")
+      .group(kWhere);
+  add_file(command, "--tls-cert", server.tls_certificate, "Certificate chain for tls:// and wss://, in PEM")
+      .group(kWhere);
+  add_file(command, "--tls-key", server.tls_key, "Key of the certificate, in PEM").group(kWhere);
+}
+
+void add_transports(Subcommand& command, ServeOptions& options) {
+  add_streams(command, options);
+  add_addresses(command, options);
+  add_protocol(command, options);
+  add_access(command, options.server);
 }
 
 void add_limits(Subcommand& command, ServeOptions& options) {
@@ -123,12 +146,10 @@ void add_memory(Subcommand& command, ServerSettings& server) {
               "process may use); 0: no limit")
       .sizes()
       .shows_default()
-      .group("Limits");
+      .group(kLimits);
 }
 
-void add_operation(Subcommand& command, ServeOptions& options) {
-  ServerSettings& server = options.server;
-  const std::string group = "Operation";
+void add_threads(Subcommand& command, ServerSettings& server) {
   constexpr std::uint64_t kMostThreads = 1024;
   server.threads = static_cast<int>(std::min(usable_processors().amount, kMostThreads));
   command
@@ -137,41 +158,51 @@ void add_operation(Subcommand& command, ServeOptions& options) {
           "Threads of event loops; as many others help with open and step (default: the usable processors)")
       .check(whole_number(1, kMostThreads))
       .shows_default()
-      .group(group);
+      .group(kOperation);
+}
+
+void add_busy_poll(Subcommand& command, std::chrono::microseconds& busy_poll) {
+  const std::function<void(const std::string&)> set = [&busy_poll](const std::string& text) {
+    busy_poll = std::chrono::microseconds(std::stoll(text));
+  };
   command
-      .option(
-          "--busy-poll",
-          [&server](const std::string& text) {
-            server.busy_poll = std::chrono::microseconds(std::stoll(text));
-          },
-          "Microseconds that a thread polls for a client whose requests follow at once; 0: never")
+      .option("--busy-poll", set,
+              "Microseconds that a thread polls for a client whose requests follow at once; 0: never")
       .check(whole_number(0, 1'000'000))
-      .default_text(std::to_string(server.busy_poll.count()))
+      .default_text(std::to_string(busy_poll.count()))
       .value_name("INT")
-      .group(group);
+      .group(kOperation);
+}
+
+void add_published_files(Subcommand& command, ServerSettings& server) {
+  add_file(
+      command, "--ready-file", server.ready_file,
+      "File for the addresses, one a line after # lines, written when all are served, removed at the end")
+      .group(kOperation);
+  add_file(command, "--announce", server.announce,
+           "File of JSON for clients (file:PATH): addresses, host, process, games and its own token, "
+           "which clients over TCP must send; readable only for its owner, removed at the end")
+      .group(kOperation);
+}
+
+void add_http(Subcommand& command, std::string& address) {
   command
-      .option(
-          "--ready-file", server.ready_file,
-          "File for the addresses, one a line after # lines, written when all are served, removed at the end")
-      .value_name("FILE")
-      .group(group);
-  command
-      .option("--announce", server.announce,
-              "File of JSON for clients (file:PATH): addresses, host, process, games and its own token, "
-              "which clients over TCP must send; readable only for its owner, removed at the end")
-      .value_name("FILE")
-      .group(group);
-  command
-      .option("--http", server.http,
+      .option("--http", address,
               "The page for a browser, its sessions, and health and metrics: /, /session, /healthz, /readyz, "
               "/metrics")
       .value_name("HOST:PORT")
       .check({check_host_and_port, ""})
-      .group(group);
+      .group(kOperation);
+}
+
+void add_sharing(Subcommand& command, bool& all) {
   command
-      .choice<bool>("--watch", options.watch_all, {{"shared", false}, {"all", true}}, "shared",
+      .choice<bool>("--watch", all, {{"shared", false}, {"all", true}}, "shared",
                     "Sessions that others may watch: shared, those whose client says share, or all")
-      .group(group);
+      .group(kOperation);
+}
+
+void add_log(Subcommand& command, ServeOptions& options) {
   command
       .choice<LogLevel>("--log-level", options.log_level,
                         {{"debug", LogLevel::kDebug},
@@ -180,13 +211,23 @@ void add_operation(Subcommand& command, ServeOptions& options) {
                          {"error", LogLevel::kError},
                          {"off", LogLevel::kOff}},
                         "info", "Lowest level that is logged: debug, info, warning, error or off")
-      .group(group);
+      .group(kOperation);
   command
       .choice<LogFormat>("--log-format", options.log_format,
                          {{"text", LogFormat::kText}, {"json", LogFormat::kJson}}, "text",
                          "Format of the log: one line of text, or of JSON, for each event")
-      .group(group);
-  command.option("--config", nullptr, "A TOML file with settings").value_name("FILE").group(group);
+      .group(kOperation);
+}
+
+void add_operation(Subcommand& command, ServeOptions& options) {
+  ServerSettings& server = options.server;
+  add_threads(command, server);
+  add_busy_poll(command, server.busy_poll);
+  add_published_files(command, server);
+  add_http(command, server.http);
+  add_sharing(command, options.watch_all);
+  add_log(command, options);
+  command.option("--config", nullptr, "A TOML file with settings").value_name("FILE").group(kOperation);
 }
 
 void add_games(Subcommand& command, ServeOptions& options) {
