@@ -124,31 +124,34 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   return sentence + " (see racebeam " + chosen[0]->get_name() + " --help)";
 }
 
-// Returns the exit status.
-int run(int argc, char** argv) {
-  CLI::App app{kAbout, "racebeam"};
+// In the order of the help text.
+constexpr void (*kSubcommands[])(racebeam::Subcommand& program) = {
+    racebeam::add_serve,      racebeam::add_with,   racebeam::add_config, racebeam::add_classic,
+    racebeam::add_connect,    racebeam::add_play,   racebeam::add_watch,  racebeam::add_trace,
+    racebeam::add_bench,      racebeam::add_games,  racebeam::add_roms,   racebeam::add_png,
+    racebeam::add_experiment, racebeam::add_verify, racebeam::add_render, racebeam::add_background,
+    racebeam::add_classes,
+};
+
+void set_up(CLI::App& app) {
   app.set_version_flag("--version", "racebeam " RACEBEAM_VERSION);
   app.footer(kFooter);
   app.require_subcommand(1);
   app.allow_windows_style_options(false);  // a word that begins with / is a path
   racebeam::Subcommand program(app);
-  racebeam::add_serve(program);
-  racebeam::add_with(program);
-  racebeam::add_config(program);
-  racebeam::add_classic(program);
-  racebeam::add_connect(program);
-  racebeam::add_play(program);
-  racebeam::add_watch(program);
-  racebeam::add_trace(program);
-  racebeam::add_bench(program);
-  racebeam::add_games(program);
-  racebeam::add_roms(program);
-  racebeam::add_png(program);
-  racebeam::add_experiment(program);
-  racebeam::add_verify(program);
-  racebeam::add_render(program);
-  racebeam::add_background(program);
-  racebeam::add_classes(program);
+  for (const auto add : kSubcommands) add(program);
+}
+
+// Prints the sentence without an allocation. Returns the exit status.
+int fail(std::string_view sentence, int status) {
+  std::cerr << "racebeam: " << sentence << "\n";
+  return status;
+}
+
+// Returns the exit status.
+int run(int argc, char** argv) {
+  CLI::App app{kAbout, "racebeam"};
+  set_up(app);
   try {
     const std::vector<const char*> words = words_of(argc, argv);
     app.parse(static_cast<int>(words.size()), words.data());  // executes the subcommand
@@ -157,14 +160,11 @@ int run(int argc, char** argv) {
     return ended.get_exit_code();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::cerr << "racebeam: " << racebeam::printable(explain(app, error)) << "\n";
-    return racebeam::kExitUsage;
+    return fail(racebeam::printable(explain(app, error)), racebeam::kExitUsage);
   } catch (const std::bad_alloc&) {
-    std::cerr << "racebeam: out of memory: the machine or a limit (ulimit -v) allows no more\n";
-    return racebeam::kExitFailure;
+    return fail("out of memory: the machine or a limit (ulimit -v) allows no more", racebeam::kExitFailure);
   } catch (const std::exception& error) {
-    std::cerr << "racebeam: " << racebeam::printable(error.what()) << "\n";
-    return racebeam::kExitFailure;
+    return fail(racebeam::printable(error.what()), racebeam::kExitFailure);
   }
 }
 
@@ -173,8 +173,8 @@ int run(int argc, char** argv) {
 int after_output(int status) {
   const bool whole = std::cout.flush() && std::ferror(stdout) == 0;
   if (whole || status != 0) return status;
-  std::cerr << "racebeam: cannot write to standard output: its disk is full, or its reader is gone\n";
-  return racebeam::kExitFailure;
+  return fail("cannot write to standard output: its disk is full, or its reader is gone",
+              racebeam::kExitFailure);
 }
 
 }  // namespace
