@@ -16,8 +16,8 @@ using TlsStream = ByteStream::TlsStream;
 
 // A Stream is a Socket, a TlsStream or a WebSocket.
 
-// Sends at once what fits into the socket's buffer. For a short reply, that is one system call, and no turn
-// of the event loop. Returns the rest, which is left to send_rest().
+// Sends at once what fits into the socket's buffer. A short reply then takes one system call, and does not
+// wait for the event loop. Returns the rest, which is left to send_rest().
 template <typename Stream>
 std::string_view send_at_once(Stream& stream, Client& client, std::string_view text);
 
