@@ -159,8 +159,8 @@ class Load:
             helper.process.kill()
 
 
-def sample(server, load):
-    """The figures of an interval, by the name of their column."""
+def sample(server, load, interval):
+    """The figures of an interval, by the name of their column. Without an act, its latency is the whole interval."""
     place = pathlib.Path(f"/proc/{server.pid}")
     status = dict(re.findall(r"^(\w+):\s*(\d+)", (place / "status").read_text(), re.MULTILINE))
     acts, pages = load.bystander.ask(), load.health.ask()
@@ -169,9 +169,9 @@ def sample(server, load):
         "files": len(list((place / "fd").iterdir())),
         "threads": int(status["Threads"]),
         "acts": len(acts),
-        "p50": hostile.percentile(acts, 0.5),
-        "p99": hostile.percentile(acts, 0.99),
-        "health_p99": hostile.percentile(pages, 0.99),
+        "p50": hostile.percentile(acts or [1000 * interval], 0.5),
+        "p99": hostile.percentile(acts or [1000 * interval], 0.99),
+        "health_p99": hostile.percentile(pages or [1000 * interval], 0.99),
     }
 
 
@@ -224,34 +224,50 @@ def write_interval(path, row):
         table.writerow({name: round(value, 3) for name, value in row.items()})
 
 
-def measure(build, hours, interval, into):
-    """Returns the rows of all intervals, and the server's exit status."""
-    table, rows = into / "soak.csv", []
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        server, port, http, records_folder, _ = hostile.start_server(build, folder)
+def follow(server, load, hours, interval, table):
+    """Returns the rows of all intervals, until the time is over or the server has ended."""
+    rows, begin = [], time.monotonic()
+    while (left := hours * 3600 - (time.monotonic() - begin)) > 0:
+        time.sleep(min(interval, left))
+        load.restart_in_time()
         try:
-            load, begin = Load(port, http, records_folder), time.monotonic()
-            while (seconds := time.monotonic() - begin) < hours * 3600 and server.poll() is None:
-                time.sleep(min(interval, hours * 3600 - seconds))
-                load.restart_in_time()
-                row = {"seconds": time.monotonic() - begin, **sample(server, load)}
-                rows.append(row)
-                write_interval(table, row)
-            show_totals(http)
+            rows.append({"seconds": time.monotonic() - begin, **sample(server, load, interval)})
+        except (EOFError, OSError):  # the server has ended, and so has the bystander
+            break
+        write_interval(table, rows[-1])
+    return rows
+
+
+def measure(build, hours, interval, table):
+    """Returns the rows of all intervals, and whether the server has lasted and ended with status 0."""
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        server, port, http, records, _ = hostile.start_server(build, folder)
+        load = None
+        try:
+            load = Load(port, http, records)
+            rows = follow(server, load, hours, interval, table)
+            has_lasted = server.poll() is None
+            if has_lasted:
+                show_totals(http)
             load.end()
-            ended_within = hostile.time_to_end(server)
-            print(f"the server ended with status {server.returncode}, {ended_within:.1f} s after SIGTERM")
+            took = hostile.time_to_end(server)
         finally:
             server.kill()
             status = server.wait()
-    return rows, status
+            if load:
+                load.end()
+    when = f"{took:.1f} s after SIGTERM" if has_lasted else "before its time"
+    print(f"the server ended with status {status}, {when}")
+    return rows, has_lasted and status == 0
 
 
 def run(build, hours, interval, into):
     """Returns the exit status."""
     into.mkdir(parents=True, exist_ok=True)
     (into / "soak.csv").unlink(missing_ok=True)
-    rows, status = measure(build, hours, interval, into)
+    rows, is_sound = measure(build, hours, interval, into / "soak.csv")
+    if not rows:
+        sys.exit("load: the server ended in the first interval")
     headings = {name: heading for name, (heading, *_) in FIGURES.items()}
     picture = bench_picture.draw_course([row["seconds"] / 3600 for row in rows], rows, headings)
     (into / "soak.svg").write_text(picture)
@@ -259,4 +275,4 @@ def run(build, hours, interval, into):
     print(
         f"{len(rows)} intervals, {sum(row['acts'] for row in rows):,} acts of the bystander: {into}/soak.csv, soak.svg"
     )
-    return int(not is_flat or status != 0)
+    return int(not is_flat or not is_sound)
