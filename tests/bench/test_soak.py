@@ -9,7 +9,7 @@ import bench_picture
 import cartridges
 import soak
 
-FLAT = {"resident": 100.0, "files": 40, "threads": 7, "p99": 10.0, "health_p99": 20.0}
+FLAT = {"rest_resident": 100.0, "rest_files": 40, "threads": 7, "p99": 10.0, "health_p99": 20.0}
 
 
 def rows(**growing):
@@ -35,12 +35,12 @@ class TestVerdict:
     def test_the_first_tenth_does_not_count(self):
         course = rows()
         for row in course[:10]:
-            row["resident"] = 1.0
-        first, last, *_ = soak.compare(course)["resident"]
+            row["rest_resident"] = 1.0
+        first, last, *_ = soak.compare(course)["rest_resident"]
         assert (first, last) == (100, 100)
 
     def test_the_growth_is_that_of_an_hour(self):
-        growth = soak.compare(rows(resident=2))["resident"][3]
+        growth = soak.compare(rows(rest_resident=2))["rest_resident"][3]
         assert abs(growth - 100 / (99 / 60)) < 1e-6
 
     def test_one_interval_is_enough(self):
@@ -77,6 +77,6 @@ class TestRun:
         assert "the server ended with status 0" in done.stdout, done.stdout + done.stderr
         with open(tmp_path / "soak.csv", newline="") as file:
             table = list(csv.DictReader(file))
-        assert len(table) >= 2
+        assert table
         assert all(int(row["acts"]) > 0 and float(row["resident"]) > 1 for row in table)
         assert (tmp_path / "soak.svg").read_text().startswith("<svg")

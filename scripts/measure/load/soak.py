@@ -1,16 +1,18 @@
 """scripts/load --soak HOURS: a server under a mixed load for hours. Its memory, files and latencies must stay flat.
 
-One server with two threads and 512 MiB serves at a time: sessions that play, search, save, record, open
-machines and leave in different ways; one attacker for each of the ATTACKS of attacks.py; and a page's WebSockets that
-watch a game. Every minute, the process with the playing sessions is killed and begins anew. A bystander acts every few
-milliseconds, and requests /healthz.
+One server with two threads and 512 MiB serves at a time: sessions that play, search, save, record, open machines and
+leave in different ways; one attacker for each of the ATTACKS of attacks.py; and a page's WebSockets that watch a game.
+After each interval, their processes are killed. The server then rests for some seconds, and they begin anew. A
+bystander acts every few milliseconds, and requests /healthz.
 
-The figures of each interval go to soak.csv, and at the end to soak.svg. The first tenth is not judged, since caches
-fill then. The last third of the rest is compared with its first third, by medians. The exit status is 1 if a figure has
-grown beyond its limit, or if the server does not end with status 0 when it is told to.
+The figures of each interval go to soak.csv, and at the end to soak.svg. What a server under load holds depends on what
+its clients happen to do, so that memory and files are judged at rest. The first tenth is not judged, since caches fill
+then. The last third of the rest is compared with its first third, by medians. The exit status is 1 if a figure exceeds
+its limit, or if the server does not end with status 0 when it is told to.
 """
 
 import collections
+import contextlib
 import csv
 import pathlib
 import random
@@ -30,15 +32,16 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(ROOT / "tests/server"), str(ROOT / "tests/server/web")]
 from web_socket import WebSocket  # noqa: E402
 
-PLAYERS, WATCHERS, RESTART = 6, 4, 60  # sessions; seconds after which the players are killed
+PLAYERS, WATCHERS, REST = 6, 4, 6  # sessions; seconds
 GAMES = (b"beamfall", b"updraft")
 FIGURES = {  # by column: its heading, and how much the last third may have of the first one, times and plus
-    "resident": ("Resident memory, MiB", 1.1, 8),
-    "files": ("Open files", 1.25, 8),
+    "rest_resident": ("Resident memory at rest, MiB", 1.1, 8),
+    "rest_files": ("Open files at rest", 1, 4),
     "threads": ("Threads", 1, 0),
     "p99": ("99th percentile of a bystander's act, ms", 1.5, 2),
     "health_p99": ("99th percentile of /healthz, ms", 1.5, 5),
 }
+SHOWN = {"resident": "Resident memory under load, MiB", "files": "Open files under load"}  # and not judged
 
 
 def plays(session):
@@ -127,47 +130,46 @@ def time_requests(ask_once, pause, orders, answers):
         waits = []
 
 
-class Load:
-    """What uses the server: processes, of which the one with the players is restarted."""
+class Watchers:
+    """The bystander and the reader of /healthz, which stay."""
 
-    def __init__(self, port, http, folder):
-        self.players = [(play_on, port, folder)] * PLAYERS
-        helper = hostile.Helper
-        self.bystander = helper(time_requests, hostile.Bystander(port), 0.005)
-        self.health = helper(time_requests, hostile.Health(http), 0.1)
-        self.helpers = [
-            self.bystander,
-            self.health,
-            helper(run_threads, [(share, port, folder)]),
-            helper(hostile.attack_all, list(ATTACKS.values()), port, folder),
-            helper(run_threads, [(watch, http)] * WATCHERS),
-        ]
-        self.restart()
-
-    def restart(self):
-        self.player_process = hostile.Helper(run_threads, self.players)
-        self.restarted = time.monotonic()
-
-    def restart_in_time(self):
-        if time.monotonic() - self.restarted < RESTART:
-            return
-        self.player_process.process.kill()
-        self.restart()
+    def __init__(self, port, http):
+        self.bystander = hostile.Helper(time_requests, hostile.Bystander(port), 0.005)
+        self.health = hostile.Helper(time_requests, hostile.Health(http), 0.1)
 
     def end(self):
-        for helper in (*self.helpers, self.player_process):
+        for helper in (self.bystander, self.health):
             helper.process.kill()
 
 
-def sample(server, load, interval):
-    """The figures of an interval, by the name of their column. Without an act, its latency is the whole interval."""
+@contextlib.contextmanager
+def load(port, http, folder):
+    """What uses the server, until it is killed."""
+    helpers = [
+        hostile.Helper(run_threads, [(play_on, port, folder)] * PLAYERS),
+        hostile.Helper(run_threads, [(share, port, folder)]),
+        hostile.Helper(hostile.attack_all, list(ATTACKS.values()), port, folder),
+        hostile.Helper(run_threads, [(watch, http)] * WATCHERS),
+    ]
+    try:
+        yield
+    finally:
+        for helper in helpers:
+            helper.process.kill()
+            helper.process.join()
+
+
+def resources(server):
+    """Returns MiB of resident memory, open files and threads."""
     place = pathlib.Path(f"/proc/{server.pid}")
     status = dict(re.findall(r"^(\w+):\s*(\d+)", (place / "status").read_text(), re.MULTILINE))
-    acts, pages = load.bystander.ask(), load.health.ask()
+    return int(status["VmRSS"]) / 1024, len(list((place / "fd").iterdir())), int(status["Threads"])
+
+
+def latencies(watchers, interval):
+    """The latencies since the last call. Without an act, its latency is the whole interval."""
+    acts, pages = watchers.bystander.ask(), watchers.health.ask()
     return {
-        "resident": int(status["VmRSS"]) / 1024,
-        "files": len(list((place / "fd").iterdir())),
-        "threads": int(status["Threads"]),
         "acts": len(acts),
         "p50": hostile.percentile(acts or [1000 * interval], 0.5),
         "p99": hostile.percentile(acts or [1000 * interval], 0.99),
@@ -224,16 +226,34 @@ def write_interval(path, row):
         table.writerow({name: round(value, 3) for name, value in row.items()})
 
 
-def follow(server, load, hours, interval, table):
+def measure_interval(server, watchers, interval, *place):
+    """An interval of load, and a rest. Returns its figures by the name of their column."""
+    with load(*place):
+        time.sleep(interval)
+        resident, files, threads = resources(server)
+        row = latencies(watchers, interval)
+    time.sleep(REST)
+    rest_resident, rest_files, _ = resources(server)
+    watchers.bystander.ask(), watchers.health.ask()  # their latencies at rest are not shown
+    return {
+        "resident": resident,
+        "files": files,
+        "threads": threads,
+        "rest_resident": rest_resident,
+        "rest_files": rest_files,
+        **row,
+    }
+
+
+def follow(server, watchers, hours, interval, table, *place):
     """Returns the rows of all intervals, until the time is over or the server has ended."""
     rows, begin = [], time.monotonic()
-    while (left := hours * 3600 - (time.monotonic() - begin)) > 0:
-        time.sleep(min(interval, left))
-        load.restart_in_time()
+    while time.monotonic() - begin < hours * 3600:
         try:
-            rows.append({"seconds": time.monotonic() - begin, **sample(server, load, interval)})
+            row = measure_interval(server, watchers, interval, *place)
         except (EOFError, OSError):  # the server has ended, and so has the bystander
             break
+        rows.append({"seconds": time.monotonic() - begin, **row})
         write_interval(table, rows[-1])
     return rows
 
@@ -242,20 +262,18 @@ def measure(build, hours, interval, table):
     """Returns the rows of all intervals, and whether the server has lasted and ended with status 0."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         server, port, http, records, _ = hostile.start_server(build, folder)
-        load = None
+        watchers = Watchers(port, http)
         try:
-            load = Load(port, http, records)
-            rows = follow(server, load, hours, interval, table)
+            rows = follow(server, watchers, hours, interval, table, port, http, records)
             has_lasted = server.poll() is None
             if has_lasted:
                 show_totals(http)
-            load.end()
+            watchers.end()
             took = hostile.time_to_end(server)
         finally:
+            watchers.end()
             server.kill()
             status = server.wait()
-            if load:
-                load.end()
     when = f"{took:.1f} s after SIGTERM" if has_lasted else "before its time"
     print(f"the server ended with status {status}, {when}")
     return rows, has_lasted and status == 0
@@ -268,7 +286,7 @@ def run(build, hours, interval, into):
     rows, is_sound = measure(build, hours, interval, into / "soak.csv")
     if not rows:
         sys.exit("load: the server ended in the first interval")
-    headings = {name: heading for name, (heading, *_) in FIGURES.items()}
+    headings = {name: heading for name, (heading, *_) in FIGURES.items()} | SHOWN
     picture = bench_picture.draw_course([row["seconds"] / 3600 for row in rows], rows, headings)
     (into / "soak.svg").write_text(picture)
     is_flat = judge(rows)
