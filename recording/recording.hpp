@@ -89,7 +89,7 @@ class Recording : public std::enable_shared_from_this<Recording> {
   void end();
 
   void post(void (Recording::*job)());
-  bool is_over() const;  // frames are no longer accepted
+  bool is_over() const;  // whether the recording refuses further frames
   template <typename Change>
   void change(Change change);  // makes the change under the mutex
 

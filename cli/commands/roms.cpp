@@ -68,7 +68,7 @@ RomFinding judge(const Image& image) {
                        : "another dump of " + dump + ": try --game " + dump};
 }
 
-// An error without the file's name, which has a column of its own.
+// The text of an error. It leaves out the file's name, since another column shows that.
 std::string reason_of(const std::exception& error, const fs::path& path) {
   const std::string sentence = error.what();
   const std::string name = "image " + path.string() + ": ";

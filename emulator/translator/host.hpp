@@ -95,7 +95,7 @@ class Host : private target::Processor {
   void modify_ram(unsigned offset, Operation operation, CarryHome carry, Flags live);
   void modify_ram_at_offset(Operation operation, CarryHome carry, Flags live);
   void carry_became_known();
-  void forget_nz();                                   // the host's flags are no longer N and Z
+  void forget_nz();                                   // the host's flags do not hold N and Z any more
   void store(std::int32_t place, std::uint8_t byte);  // at an offset in the Board
 
   // values.cpp: the stack

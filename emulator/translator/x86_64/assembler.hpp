@@ -62,7 +62,7 @@ class Assembler : public Xbyak::CodeGenerator {
   // A jump to a label that has no place yet. Its displacement ends at `end`.
   struct Jump {
     std::size_t end;
-    std::int32_t next;  // the next jump to the same label; -1: there is no other
+    std::int32_t next;  // the next jump to the same label; -1 if this is the last
     bool is_short;
   };
 

@@ -1,8 +1,8 @@
 """scripts/load --soak HOURS: a server under a mixed load for hours. Its memory, files and latencies must stay flat.
 
-One server with two threads and 512 MiB serves at a time: sessions that play, search, save, record, open machines and
-leave in different ways; one attacker for each of the ATTACKS of attacks.py; and a page's WebSockets that watch a game.
-After each interval, their processes are killed. The server then rests for some seconds, and they begin anew. A
+One server with two threads and 512 MiB serves these together: sessions that play, search, save, record, open machines
+and leave in different ways; one attacker for each of the ATTACKS of attacks.py; and a page's WebSockets that watch a
+game. After each interval, their processes are killed. The server then rests for some seconds, and they begin anew. A
 bystander acts every few milliseconds, and requests /healthz.
 
 The figures of each interval go to soak.csv, and at the end to soak.svg. What a server under load holds depends on what
@@ -234,7 +234,7 @@ def measure_interval(server, watchers, interval, *place):
         row = latencies(watchers, interval)
     time.sleep(REST)
     rest_resident, rest_files, _ = resources(server)
-    watchers.bystander.ask(), watchers.health.ask()  # their latencies at rest are not shown
+    latencies(watchers, REST)  # forgets those at rest
     return {
         "resident": resident,
         "files": files,
