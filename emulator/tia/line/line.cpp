@@ -86,20 +86,15 @@ std::uint8_t Line::outdated(const TiaRegisters& tia) const {
 }
 
 void Line::refresh(const TiaState& tia, std::uint8_t objects) {
-  const auto note = [this](Object object) {
-    covered =
-        static_cast<std::uint8_t>((covered & ~object_bit(object)) | (mask[object].any() ? 1U : 0U) << object);
-  };
-  for (unsigned i = 0; i < 2; ++i) {
-    const auto player = static_cast<Object>(kP0 + i), missile = static_cast<Object>(kM0 + i);
-    if (objects & object_bit(player)) draw_player(mask[player], tia.player[i]), note(player);
-    if (objects & object_bit(missile)) draw_missile(mask[missile], tia, i), note(missile);
-  }
-  if (objects & object_bit(kBall)) draw_ball(mask[kBall], tia), note(kBall);
-  if (objects & object_bit(kPlayfield)) draw_playfield(mask[kPlayfield], tia), note(kPlayfield);
+  if (objects & object_bit(kP0)) draw_player(mask[kP0], tia.player[0]);
+  if (objects & object_bit(kP1)) draw_player(mask[kP1], tia.player[1]);
+  if (objects & object_bit(kM0)) draw_missile(mask[kM0], tia, 0);
+  if (objects & object_bit(kM1)) draw_missile(mask[kM1], tia, 1);
+  if (objects & object_bit(kBall)) draw_ball(mask[kBall], tia);
+  if (objects & object_bit(kPlayfield)) draw_playfield(mask[kPlayfield], tia);
   const Collisions changed = kPairsOf[objects & kAllObjects];
   overlaps = static_cast<Collisions>(overlaps & ~changed);
-  const auto possible = static_cast<Collisions>(kPossibleMeetings[covered] & changed);
+  const auto possible = static_cast<Collisions>(kPossibleMeetings[tia.enabled] & changed);
   overlaps |= pairs_among(possible, [this](const Pair& p) { return mask[p.a].meets(mask[p.b]); });
 }
 

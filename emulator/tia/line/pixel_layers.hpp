@@ -50,7 +50,7 @@ template <typename Paint>
 RACEBEAM_INLINE void draw_layers(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first,
                                  int last, Paint paint) {
   std::memset(row + first, tia.color[kColubk], static_cast<std::size_t>(last - first));
-  if (line.covered == 0) return;
+  if (tia.enabled == 0) return;
   const PixelMask inside = PixelMask::range(first, last);
   const LayerOrder order = order_of(tia);
   for (auto word = static_cast<std::size_t>(first) / 64; 64 * word < static_cast<std::size_t>(last); ++word) {

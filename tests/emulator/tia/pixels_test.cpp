@@ -57,10 +57,10 @@ TEST_CASE("All forms of drawing give the same pixels, and touch no others") {
     for (std::uint8_t& color : tia.color) color = static_cast<std::uint8_t>(random());
     for (unsigned i = 0; i < kObjects; ++i) {
       line.mask[i] = random_mask(random);
-      line.covered = static_cast<std::uint8_t>(line.covered | (line.mask[i].any() ? object_bit(i) : 0));
+      tia.enabled = static_cast<std::uint8_t>(tia.enabled | (line.mask[i].any() ? object_bit(i) : 0));
     }
     tia.ctrlpf = random() & 7;
-    tia.enabled = random() % 4 != 0 ? line.covered : object_bit(kPlayfield);
+    if (random() % 4 == 0) tia.enabled = object_bit(kPlayfield);
     const int first = static_cast<int>(random() % kLinePixels);
     const int last = first + 1 + static_cast<int>(random() % static_cast<unsigned>(kLinePixels - first));
 
