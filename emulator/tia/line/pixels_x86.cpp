@@ -57,15 +57,16 @@ RACEBEAM_AVX2 void draw_avx2(const Line& line, const TiaRegisters& tia, std::uin
 
 RACEBEAM_AVX512 void draw_avx512(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first,
                                  int last) {
-  const PixelMask inside = PixelMask::range(first, last);
   const LayerOrder order = order_of(tia);
-  for (auto word = static_cast<std::size_t>(first) / 64; 64 * word < static_cast<std::size_t>(last); ++word) {
-    const auto [colupf, colup1, colup0] = layers_at(line, order, word);
+  std::uint64_t inside = ~std::uint64_t{0} << (first % 64);
+  for (int at = first & ~63; at < last; at += 64, inside = ~std::uint64_t{0}) {
+    if (last - at < 64) inside &= (std::uint64_t{1} << (last - at)) - 1;
+    const auto [colupf, colup1, colup0] = layers_at(line, order, static_cast<std::size_t>(at) / 64);
     __m512i pixels = _mm512_set1_epi8(static_cast<char>(tia.color[kColubk]));
     pixels = painted_avx512(pixels, colupf, tia.color[kColupf]);
     pixels = painted_avx512(pixels, colup1, tia.color[kColup1]);
     pixels = painted_avx512(pixels, colup0, tia.color[kColup0]);
-    _mm512_mask_storeu_epi8(row + 64 * word, inside.word[word], pixels);
+    _mm512_mask_storeu_epi8(row + at, inside, pixels);
   }
 }
 
