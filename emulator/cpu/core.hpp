@@ -27,6 +27,7 @@ struct Core {
   std::uintptr_t origin;      // the host's address of address 0
   std::int32_t budget;        // instructions that may be executed
   std::int32_t enough;        // from this count on, it stops at the next instruction that checks
+  bool stays;                 // it stops where it leaves the code window
   std::uint32_t nz;           // N is bit 15 or bit 7; Z is set when bits 7-0 are 0
   std::uint8_t A, X, Y, SP;
   std::uint8_t C, V, D, I;  // 0 or 1
@@ -42,10 +43,11 @@ struct Core {
   static constexpr std::int64_t kAlarm = 1 << (kCycleBit - 1);
   static constexpr std::int32_t kLongestRow = 4096;
 
-  Core(Board& on, std::int32_t most, std::int32_t at_least)
+  Core(Board& on, std::int32_t most, std::int32_t at_least, bool stay)
       : board(on),
         budget(most),
         enough(at_least),
+        stays(stay),
         A(on.state.cpu.A),
         X(on.state.cpu.X),
         Y(on.state.cpu.Y),
@@ -116,6 +118,7 @@ struct Core {
     counted = (clock & kAlarm) != 0;
     if (board.stop || board.state.cpu.jammed || (counted && executed() >= enough)) return false;
     const std::uint16_t pc = PC(), offset = static_cast<std::uint16_t>(pc - board.code.first);
+    if (stays && offset >= board.code.span && board.code.span != 0 && executed() > 0) return false;
     at = place(offset < board.code.span ? board.code.memory + offset : board.locate_code(pc, latch, cycle()));
     take_window();
     return true;

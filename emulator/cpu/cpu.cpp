@@ -67,7 +67,7 @@ constexpr bool is_read(char first_letter_of_kind) { return first_letter_of_kind 
 
 void reset_cpu(Board& board) {
   board.state.cpu = CpuState{};
-  Core cpu(board, 0, 0);
+  Core cpu(board, 0, 0, false);
   const std::uint8_t low = cpu.read(0xFFFC);
   cpu.jump(static_cast<std::uint16_t>(low | cpu.read(0xFFFD) << 8));
   cpu.store_state();
@@ -75,10 +75,10 @@ void reset_cpu(Board& board) {
 
 void interpret(Board& board, std::int32_t instructions) {
   if (board.slot.scheme.observe != nullptr) return interpret_observed(board, instructions);
-  interpret(board, instructions, instructions);
+  interpret(board, instructions, instructions, false);
 }
 
-void interpret(Board& board, std::int32_t most, std::int32_t enough) {
+void interpret(Board& board, std::int32_t most, std::int32_t enough, bool stays) {
   if (board.state.cpu.jammed) return;
   board.stop = false;
 
@@ -88,7 +88,7 @@ void interpret(Board& board, std::int32_t most, std::int32_t enough) {
 #undef OP
   };
 
-  Core cpu(board, most, enough);
+  Core cpu(board, most, enough, stays);
 
 #define FOLLOWER(code) \
   if (often_follows(0x##code, kBefore) && next == 0x##code) goto op_##code;

@@ -14,7 +14,8 @@ void interpret(Board& board, std::int32_t instructions);
 
 // This one also ends at a jump or a branch after `enough` instructions. If `enough` is below `most`
 // by Core::kLongestRow or more, this is much faster, because instructions need not be counted one by one.
-void interpret(Board& board, std::int32_t most, std::int32_t enough);
+// stays: it also ends where the code leaves the memory in which it began.
+void interpret(Board& board, std::int32_t most, std::int32_t enough, bool stays = false);
 
 // The first one, for a cartridge that sees all accesses to operands (MapperOps::observe).
 void interpret_observed(Board& board, std::int32_t instructions);

@@ -79,11 +79,14 @@ struct Translator::Impl {
     translator::View* view = nullptr;
   };
 
-  // The translated code of the instruction at PC; null if it does not exist. Code outside the image is never
+  // Where the instruction at PC is.
+  enum class Place { kImage, kOtherMemory, kDevice };
+
+  // The translated code of the instruction at PC; null if it does not exist. Only code in the image is
   // translated.
   struct Entry {
+    Place place;
     const void* start = nullptr;
-    bool is_in_image = false;
   };
 
   static std::shared_ptr<translator::ImageCode> code_of(Board& board, bool make);
@@ -131,8 +134,7 @@ bool Translator::Impl::has_code(Board& board) {
 
 translator::View* Translator::Impl::current_view(Board& board) {
   const std::uint16_t pc = board.state.cpu.PC;
-  if (static_cast<std::uint16_t>(pc - board.code.first) >= board.code.span && !board.find_code(pc))
-    return nullptr;
+  if (!translator::contains(board.code, pc) && !board.find_code(pc)) return nullptr;
   const std::uintptr_t place = reinterpret_cast<std::uintptr_t>(board.code.memory) / MemoryMap::kPageSize;
   CachedView& cached = views[(place ^ board.code.first / 1024U) % views.size()];
   if (cached.view == nullptr || !same(cached.window, board.code)) {
@@ -153,13 +155,13 @@ translator::View* Translator::Impl::find_view(const CodeWindow& window, const Ro
 // Finds the block at PC, and translates it if the budget allows that.
 Translator::Impl::Entry Translator::Impl::find_entry(Board& board) {
   translator::View* view = current_view(board);
-  if (view == nullptr) return {};
   const std::uint16_t pc = board.state.cpu.PC;
-  if (!translator::contains(view->code, pc)) return {};
-  if (const void* block = view->entry(pc)) return {block, true};
-  if (code->is_full() || !budget.covers_batch()) return {nullptr, true};
+  if (view == nullptr || !translator::contains(view->code, pc))
+    return {translator::contains(board.code, pc) ? Place::kOtherMemory : Place::kDevice};
+  if (const void* block = view->entry(pc)) return {Place::kImage, block};
+  if (code->is_full() || !budget.covers_batch()) return {Place::kImage};
   const TranslationBudget::Charge charge(budget);
-  return {code->translate(*view, pc, layout), true};
+  return {Place::kImage, code->translate(*view, pc, layout)};
 }
 
 // Returns whether the interpreter must execute the next instruction.
@@ -232,20 +234,22 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
       return board.stop || board.state.cpu.jammed || first_cycle >= limit;
     }
     const Impl::Entry entry = impl_->find_entry(board);
-    const std::int32_t run = entry.start != nullptr
-                                 ? impl_->run_block(board, entry.start)
-                                 : impl_->interpreted_run.next(entry.is_in_image ? 1 : tuning::kOutsideImage);
+    const std::int32_t minimum = entry.place == Impl::Place::kImage ? 1 : tuning::kOutsideImage;
+    const std::int32_t run = entry.start != nullptr ? impl_->run_block(board, entry.start)
+                                                    : impl_->interpreted_run.next(minimum);
     if (run == 0 || board.stop) continue;
     const bool ends_exactly = run == 1 || remaining < run + tuning::kRunSlack;
     const std::int32_t enough = std::min(run, remaining);
-    interpret_some(board, ends_exactly ? enough : run + tuning::kRunSlack, enough);
+    // A routine in RAM mostly jumps back to translated code.
+    const bool stays = entry.place == Impl::Place::kOtherMemory && run == tuning::kOutsideImage;
+    interpret_some(board, ends_exactly ? enough : run + tuning::kRunSlack, enough, stays);
   }
   return true;
 }
 
-void Translator::interpret_some(Board& board, std::int32_t most, std::int32_t enough) {
+void Translator::interpret_some(Board& board, std::int32_t most, std::int32_t enough, bool stays) {
   const std::int32_t first = board.state.cycle;
-  interpret(board, most, enough);
+  interpret(board, most, enough, stays);
   impl_->interpreted_cycles += board.state.cycle - first;
 }
 

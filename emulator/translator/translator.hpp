@@ -45,7 +45,7 @@ class Translator {
  private:
   struct Impl;
   bool run_blocks(Board& board, std::int32_t instructions);
-  void interpret_some(Board& board, std::int32_t most, std::int32_t enough);
+  void interpret_some(Board& board, std::int32_t most, std::int32_t enough, bool stays = false);
   explicit Translator(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
