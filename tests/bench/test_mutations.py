@@ -1,6 +1,12 @@
 """The small mistakes of scripts/check/mutants."""
 
+import importlib.machinery
+import importlib.util
+import pathlib
+
 import mutations
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
 def edits(line):
@@ -68,3 +74,14 @@ class TestMutants:
             "int f(int a) {\n  return a + 2;\n}\n",
         ]
         assert str(found[0]) == "2: return a + 1;\n    return a - 1;"
+
+
+class TestRooms:
+    def test_each_test_of_a_room_is_there(self):
+        loader = importlib.machinery.SourceFileLoader("mutants", str(SOURCE / "scripts/check/mutants"))
+        script = importlib.util.module_from_spec(importlib.util.spec_from_loader("mutants", loader))
+        loader.exec_module(script)
+        named = [test for room in script.PYTHON_ROOMS.values() for test in room.tests]
+        named += [test.relative_to(script.COPY) for room in script.PROGRAM_ROOMS.values() for test in room.tests]
+        assert len(named) > 30
+        assert [str(test) for test in named if not (SOURCE / test).exists()] == []
