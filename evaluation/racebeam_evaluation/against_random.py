@@ -4,7 +4,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from .bootstrap import Bootstrap
+from .bootstrap import FEWEST_TRIALS, Bootstrap
 from .paired import verdict
 from .scores import Scores
 
@@ -40,7 +40,11 @@ def _row(scores: Scores, agent: str, bootstrap: Bootstrap) -> dict[str, object] 
 def _interval(
     samples: list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]], bootstrap: Bootstrap
 ) -> tuple[float, float]:
-    """Returns the interval of the number of games above random play. Each sample is drawn anew within its game."""
+    """Returns the interval of the number of games above random play. Each sample is drawn anew within its game.
+
+    Its bounds are NaN if a sample has a single score: drawn anew, it would never vary."""
+    if min(len(sample) for pair in samples for sample in pair) < FEWEST_TRIALS:
+        return float("nan"), float("nan")
     generator = np.random.default_rng(bootstrap.seed)
     above = np.zeros(bootstrap.repetitions)
     for ours, theirs in samples:
