@@ -24,8 +24,8 @@ class Kind(enum.Enum):
 
 
 _TEXTS = (Kind.TEXT, Kind.NAME)
-_MOST_WHOLE = 2**31 - 1
-_MOST_DECIMAL = 1e15  # sums of squares are finite
+MOST_WHOLE = 2**31 - 1
+MOST_DECIMAL = 1e15  # sums of squares are finite
 _MOST_BYTES = 2**29
 
 
@@ -109,9 +109,9 @@ def _numbers(path: pathlib.Path, cells: pd.Series, kind: Kind) -> pd.Series:
     if kind is Kind.OPTIONAL:
         wrong &= cells != ""
     if kind is Kind.WHOLE:
-        wrong |= (values < 0) | (values > _MOST_WHOLE) | (values % 1 != 0)
+        wrong |= (values < 0) | (values > MOST_WHOLE) | (values % 1 != 0)
     else:
-        wrong |= values.abs() > _MOST_DECIMAL
+        wrong |= values.abs() > MOST_DECIMAL
     _refuse(path, cells, wrong, kind)
     return values.astype(np.int64) if kind is Kind.WHOLE else values
 

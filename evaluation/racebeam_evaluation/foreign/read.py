@@ -3,13 +3,13 @@
 import hashlib
 import io
 import json
-import math
 import pathlib
 from collections.abc import Sequence
+from typing import TypeGuard
 
 import pandas as pd
 
-from ..csv_file import Kind, Source, content_of, read
+from ..csv_file import MOST_DECIMAL, MOST_WHOLE, Kind, Source, content_of, read
 from ..errors import BadInput
 from ..results import Results
 from .names import our_name
@@ -23,6 +23,7 @@ _ZOO = {
     "frame": Kind.WHOLE,
     "eval_episode_return": Kind.DECIMAL,
 }
+_SCORES = "decimal numbers from -1e15 to 1e15"
 _ACCEPTED = (
     "a list of objects with Agent, Iteration and Value (Dopamine), or an object with a list of scores for each game "
     "(rliable)"
@@ -61,8 +62,8 @@ def _dopamine(path: pathlib.Path, found: list[object], source: Source) -> Result
 def _entry(path: pathlib.Path, number: int, entry: object) -> tuple[str, int, float]:
     if isinstance(entry, dict):
         agent, iteration, value = (entry.get(key) for key in ("Agent", "Iteration", "Value"))
-        if isinstance(agent, str) and agent and type(iteration) is int and iteration >= 0 and _is_score(value):
-            return agent, iteration, float(value)  # type: ignore[arg-type]
+        if isinstance(agent, str) and agent and _is_iteration(iteration) and _is_score(value):
+            return agent, iteration, float(value)
     raise BadInput(f"{path}: entry {number + 1} is {json.dumps(entry)[:100]}; expected {_ACCEPTED}")
 
 
@@ -87,7 +88,7 @@ def _rliable(path: pathlib.Path, found: object, source: Source) -> Results:
     rows = []
     for name, scores in found.items():
         if not isinstance(scores, list) or not scores or not all(map(_is_score, scores)):
-            raise BadInput(f"{path}: {name} has {json.dumps(scores)[:100]}; expected a list of decimal numbers")
+            raise BadInput(f"{path}: {name} has {json.dumps(scores)[:100]}; expected a list of {_SCORES}")
         game = our_name(path, name)
         rows += [(game, "", _agent(path.stem), trial, 0, float(score), "") for trial, score in enumerate(scores)]
     return Results(pd.DataFrame(rows, columns=_RESULT), None, (source,), ())
@@ -108,8 +109,13 @@ def _of_iterations(path: pathlib.Path, rows: Sequence[tuple[object, ...]], sourc
     return Results(episodes, curves.assign(decisions=decisions, window=1), (source,), (source,))
 
 
-def _is_score(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+def _is_iteration(value: object) -> TypeGuard[int]:
+    return type(value) is int and 0 <= value <= MOST_WHOLE
+
+
+def _is_score(value: object) -> TypeGuard[float]:
+    """Whether Kind.DECIMAL accepts the value, which must be finite for that."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= MOST_DECIMAL
 
 
 def _agent(name: str) -> str:
