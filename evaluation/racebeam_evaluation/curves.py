@@ -31,7 +31,7 @@ def learning_curves(curves: pd.DataFrame) -> pd.DataFrame:
     The standard error is that of the trials' means, and NaN for a single trial. A stretch has no row if no episode
     ends in it."""
     episodes = with_trained(curves)
-    longest = episodes.groupby("game")["trained"].transform("max")
+    longest = episodes.groupby("game")["trained"].transform("max").clip(lower=1)  # DQN Zoo begins with 0 frames
     stretch = np.ceil(episodes["trained"] * _BINS / longest).clip(lower=1).astype(int)
     keys = ["game", "agent", "stretch"]
     of_trials = episodes.assign(stretch=stretch).groupby([*keys, "trial"])["score"].mean()

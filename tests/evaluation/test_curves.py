@@ -38,6 +38,10 @@ class TestCurves:
         assert rows.loc[51, ["frames", "score"]].to_list() == [20, 7]
         assert rows["standard error"].isna().all()
 
+    def test_a_game_without_frames_has_one_stretch(self):
+        rows = curves.learning_curves(curves_of([("pong", "dqn", 0, 0, 4, 0), ("pong", "dqn", 1, 0, 6, 0)]))
+        assert rows[["frames", "trials", "score"]].values.tolist() == [[0, 2, 5]]
+
     def test_a_checkpoint_needs_100_episodes_unless_fewer_are_enough(self):
         def trial(count, **others):
             return pd.DataFrame({"trained": range(1, count + 1), "score": range(count)}).assign(**others)
