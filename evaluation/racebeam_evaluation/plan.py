@@ -1,6 +1,7 @@
 """Settings files in TOML: plan.toml, which `racebeam experiment` writes, and the settings of an agent in it."""
 
 import dataclasses
+import itertools
 import json
 import pathlib
 import sys
@@ -15,6 +16,7 @@ else:
     import tomli as tomllib
 
 _MOST_BYTES = 2**24
+_MOST_LEVELS = 50
 _UNKNOWN = "unknown"
 
 _NAMES = ("frame_skip", "sticky", "action_set", "max_episode_frames", "noop_max")
@@ -56,9 +58,23 @@ def read_toml(path: pathlib.Path, limit: int = _MOST_BYTES) -> dict[str, Any]:
     """The tables of a TOML file. Raises BadInput if it cannot be read."""
     content = content_of(path, limit, "a TOML file")
     try:
-        return tomllib.loads(content.decode())
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        tables = tomllib.loads(content.decode())
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
         raise BadInput(f"{path} is not TOML: {error}; expected a TOML file in UTF-8") from error
+    if (levels := _levels(tables)) > _MOST_LEVELS:
+        raise BadInput(f"{path} has tables within tables on {levels} levels; expected at most {_MOST_LEVELS}")
+    return tables
+
+
+def _levels(tables: dict[str, Any]) -> int:
+    """How deep tables and arrays lie within each other. It does not recurse: dotted keys make thousands of levels."""
+    levels = 0
+    layer: list[Any] = [tables]
+    while layer:
+        levels += 1
+        inner = itertools.chain.from_iterable(each.values() if isinstance(each, dict) else each for each in layer)
+        layer = [value for value in inner if isinstance(value, dict | list)]
+    return levels
 
 
 @dataclasses.dataclass(frozen=True)
@@ -70,8 +86,12 @@ class Plan:
     @property
     def games(self) -> set[str]:
         """The games whose images the plan names: users may have games of their own."""
-        images = self.tables.get("images")
-        return set(images) if isinstance(images, dict) else set()
+        return set(self._table("images"))
+
+    def _table(self, name: str) -> dict[str, Any]:
+        """The table with this name; an empty one if the plan lacks it, or has something else of the name."""
+        found = self.tables.get(name)
+        return found if isinstance(found, dict) else {}
 
     def settings(self) -> dict[str, str]:
         """All settings by KEY or TABLE.KEY, as TOML writes them."""
@@ -79,7 +99,7 @@ class Plan:
 
     def protocol(self, agent: str) -> Protocol:
         """How the agent was run."""
-        agents = self.tables.get("agent", {})
+        agents = self._table("agent")
         settings = agents.get(agent) or agents.get(agent.split("_")[0])
         if not isinstance(settings, dict):
             return Protocol()

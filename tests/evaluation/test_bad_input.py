@@ -145,6 +145,13 @@ class TestBadInput:
         (self.lines(*results_of(GOOD)) / "plan.toml").write_text("games = [")
         self.check_refusal("plan.toml is not TOML: ")
 
+    def test_a_plan_that_nests_without_end(self):
+        plan = self.lines(*results_of(GOOD)) / "plan.toml"
+        plan.write_text("a = " + "[" * 5000 + "]" * 5000)
+        self.check_refusal("plan.toml is not TOML: ")
+        plan.write_text(".".join("a" * 51) + " = 1")
+        self.check_refusal("plan.toml has tables within tables on 51 levels; expected at most 50")
+
     def test_a_table_of_a_gigabyte_is_not_read(self):
         with (self.lines(*results_of(GOOD)) / "results.csv").open("r+b") as file:
             file.truncate(2**30)

@@ -47,7 +47,7 @@ class TestProtocols:
 
     def test_what_a_plan_leaves_out_is_unknown(self):
         assert protocol_of(trials=5) == Protocol("paper2013", "unknown", "", "", "5", "unknown")
-        for tables in ({}, {"agent": {"yours": {"trials": 2}}}, {"agent": {"mine": 5}}):
+        for tables in ({}, {"agent": {"yours": {"trials": 2}}}, {"agent": {"mine": 5}}, {"agent": 5}):
             assert Plan(tables).protocol("mine") == Protocol()
         assert Plan({"agent": {"mine": {"trials": 1}}}).protocol("mine").preset == "unknown"
 
