@@ -37,13 +37,13 @@ class Ranges:
 
 def all_ranges(scores: Scores, group: Group) -> list[Ranges]:
     """Returns the four normalisations of a group, except those without any range."""
-    ranges = [_random(scores), _baseline(scores), _inter_algorithm(scores, group), _human(scores)]
+    ranges = [_random(scores), _baseline(scores), _inter_algorithm(scores, group), human(scores.other_rewards)]
     return [each for each in ranges if len(each.without(list(scores.means.index))) < len(scores.means.index)]
 
 
 def human_and_random(scores: Scores) -> list[Ranges]:
     """Returns the two normalisations that do not depend on a group, except those without any range."""
-    return [each for each in (_human(scores), _random(scores)) if len(each.span.dropna())]
+    return [each for each in (human(scores.other_rewards), _random(scores)) if len(each.span.dropna())]
 
 
 def _random(scores: Scores) -> Ranges:
@@ -75,7 +75,7 @@ def _inter_algorithm(scores: Scores, group: Group) -> Ranges:
     return Ranges("inter-algorithm", matrix.min(axis=1), matrix.max(axis=1), bounded=True)
 
 
-def _human(scores: Scores) -> Ranges:
-    """Ranges from published scores of random play to those of a human tester, in 57 games."""
-    comparable = HUMAN.drop(index=list(scores.other_rewards))
+def human(without: tuple[str, ...] = ()) -> Ranges:
+    """Ranges from published scores of random play to those of a human tester, in 57 games except those of `without`."""
+    comparable = HUMAN.drop(index=list(without))
     return Ranges("human", comparable["random"], comparable["human"])

@@ -9,8 +9,7 @@ from ..aggregate import normalised_matrix
 from ..bootstrap import AGGREGATES, Bootstrap, aggregates
 from ..curves import learning_curves
 from ..errors import BadInput
-from ..games import HUMAN
-from ..normalise import Ranges
+from ..normalise import human
 from ..output import figure
 from ..output.figure import Picture
 from ..results import Results, together
@@ -18,7 +17,7 @@ from ..scores import Scores, scores_of
 from . import page
 from .submission import Submission, read_submission
 
-_HUMAN = Ranges("human", HUMAN["random"], HUMAN["human"])
+_HUMAN = human()
 _SHOWN = ("IQM", "median", "average")
 
 

@@ -11,7 +11,7 @@ from .. import aggregate, notes
 from ..bootstrap import Bootstrap
 from ..errors import BadInput
 from ..games import ATARI57, ATARI100K, HUMAN
-from ..normalise import Ranges
+from ..normalise import human
 from ..output import figure
 from ..output.figure import Picture
 from ..output.report import Report
@@ -19,7 +19,7 @@ from ..output.table import Table
 from ..results import Results
 from ..scores import Group, Scores, scores_of
 
-_RANGES = Ranges("human", HUMAN["random"], HUMAN["human"])
+_RANGES = human()
 
 
 def atari100k(results: Results, bootstrap: Bootstrap, _: bool = False) -> Report:
@@ -54,61 +54,43 @@ def _of_its_games(scores: Scores, name: str, benchmark: tuple[str, ...]) -> Scor
 
 
 def _add_group(report: Report, scores: Scores, group: Group, bootstrap: Bootstrap) -> None:
+    _add_scores(report, scores, group)
+    _add_aggregates(report, scores, group, bootstrap)
+    _add_profiles(report, scores, group, bootstrap)
+
+
+def _add_scores(report: Report, scores: Scores, group: Group) -> None:
     normalised = _RANGES.normalise(scores.columns(group.agents))
     columns = pd.concat([HUMAN.loc[normalised.index], scores.columns(group.agents)], axis=1)
-    report.add_table(
-        Table(
-            f"{group.name}-scores",
-            "Scores; random and human are published ones.",
-            columns.rename_axis("game").reset_index(),
-            report.sources,
-            digits=1,
-            best_of=group.agents,
-        )
-    )
-    report.add_table(
-        Table(
-            f"{group.name}-human-normalised",
-            "Human-normalised scores.",
-            normalised.rename_axis("game").reset_index(),
-            report.sources,
-            best_of=group.agents,
-        )
-    )
-    rows = aggregate.aggregate_rows(scores, _RANGES, group, bootstrap)
-    report.add_table(
-        Table(
-            f"{group.name}-aggregates",
-            "Aggregates of human-normalised scores; `above 1` counts games.",
-            rows,
-            report.sources,
-            notes.of_aggregates(scores, group, [_RANGES]),
-        )
-    )
-    if len(rows):
-        report.parts.append(
-            Picture(
-                f"{group.name}-intervals",
-                "Aggregates of human-normalised scores with their intervals.",
-                figure.intervals(rows[rows["set"] == rows["set"].iloc[-1]], aggregate.statistics(scores, group)),
-                report.sources,
-            )
-        )
-    profiles = aggregate.profile_rows(scores, _RANGES, group, bootstrap)
-    if len(profiles):
+    for name, caption, frame, digits in (
+        ("scores", "Scores; random and human are published ones.", columns, 1),
+        ("human-normalised", "Human-normalised scores.", normalised, 3),
+    ):
+        rows = frame.rename_axis("game").reset_index()
         report.add_table(
-            Table(
-                f"{group.name}-profiles",
-                "Share of trials above a normalised score, with its interval.",
-                profiles,
-                report.sources,
-            )
+            Table(f"{group.name}-{name}", caption, rows, report.sources, digits=digits, best_of=group.agents)
         )
-        report.parts.append(
-            Picture(
-                f"{group.name}-profiles",
-                "Performance profiles of human-normalised scores.",
-                figure.profiles(profiles),
-                report.sources,
-            )
-        )
+
+
+def _add_aggregates(report: Report, scores: Scores, group: Group, bootstrap: Bootstrap) -> None:
+    rows = aggregate.aggregate_rows(scores, _RANGES, group, bootstrap)
+    if not len(rows):
+        return
+    caption = "Aggregates of human-normalised scores; `above 1` counts games."
+    remarks = notes.of_aggregates(scores, group, [_RANGES])
+    report.add_table(Table(f"{group.name}-aggregates", caption, rows, report.sources, remarks))
+    whole = rows[rows["set"] == rows["set"].iloc[-1]]  # the set of all games is the last
+    drawn = figure.intervals(whole, aggregate.statistics(scores, group))
+    caption = "Aggregates of human-normalised scores with their intervals."
+    report.parts.append(Picture(f"{group.name}-intervals", caption, drawn, report.sources))
+
+
+def _add_profiles(report: Report, scores: Scores, group: Group, bootstrap: Bootstrap) -> None:
+    rows = aggregate.profile_rows(scores, _RANGES, group, bootstrap)
+    if not len(rows):
+        return
+    name = f"{group.name}-profiles"
+    caption = "Share of trials above a normalised score, with its interval."
+    report.add_table(Table(name, caption, rows, report.sources))
+    caption = "Performance profiles of human-normalised scores."
+    report.parts.append(Picture(name, caption, figure.profiles(rows), report.sources))
