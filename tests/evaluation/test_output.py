@@ -45,6 +45,11 @@ class TestTable:
             "a\\_b & 1 & 0.3 & 0.0 \\\\\nc & 2 & n/a & 2.5 \\\\\n\\bottomrule\n\\end{tabular}\n"
         )
 
+    def test_a_bar_in_a_name_ends_no_cell_of_markdown(self):
+        made = Table("made", "A caption.", pd.DataFrame({"agent": ["a|b"], "x": [1]}), ())
+        assert "| a\\|b | 1 |\n" in made.markdown()
+        assert "a|b & 1 \\\\\n" in made.latex()
+
     def test_the_best_cells_of_a_row_are_bold_and_others_are_not(self):
         frame = pd.DataFrame({"game": ["x", "y"], "a": [1.0, 2], "b": [3.0, 2], "published": [9.0, 9]})
         made = Table("made", "A caption.", frame, (), digits=0, best_of=("a", "b"))

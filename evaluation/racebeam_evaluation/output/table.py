@@ -3,14 +3,20 @@
 import csv
 import dataclasses
 import io
-from collections.abc import Callable
 
 import pandas as pd
 
 from ..csv_file import Source
 
 _NOT_AVAILABLE = "n/a"
-_LATEX = str.maketrans({letter: f"\\{letter}" for letter in "&%_#$"})
+
+
+def _escapes(letters: str) -> dict[int, str]:
+    return str.maketrans({letter: f"\\{letter}" for letter in letters})
+
+
+_LATEX = _escapes("&%_#$")
+_MARKDOWN = _escapes("|")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -41,7 +47,7 @@ class Table:
     def markdown(self) -> str:
         """The caption, the table, the notes, and the digests as comments."""
         marks = ["---:" if pd.api.types.is_numeric_dtype(self.frame[name]) else "---" for name in self.frame]
-        lines = [list(map(str, self.frame)), marks, *self._texts("**{}**".format)]
+        lines = [list(map(str, self.frame)), marks, *self._texts("**{}**", _MARKDOWN)]
         below = [line for note in self.notes for line in (note, "")]
         comments = [f"<!-- {line} -->" for line in made_from(self.sources)]
         return "\n".join([self.caption, "", *(f"| {' | '.join(line)} |" for line in lines), "", *below, *comments, ""])
@@ -52,7 +58,7 @@ class Table:
         comments = [f"% {line}" for line in (self.caption, *self.notes, *made_from(self.sources))]
         header, *rows = [
             " & ".join(line) + r" \\"
-            for line in ([str(name).translate(_LATEX) for name in self.frame], *self._texts(r"\textbf{{{}}}".format))
+            for line in ([str(name).translate(_LATEX) for name in self.frame], *self._texts(r"\textbf{{{}}}", _LATEX))
         ]
         return "\n".join(
             [
@@ -71,16 +77,15 @@ class Table:
     def _cells(self) -> list[tuple[object, ...]]:
         return list(self.frame.itertuples(index=False, name=None))
 
-    def _texts(self, bold: Callable[[str], str]) -> list[list[str]]:
-        """The cells as text for readers."""
-        escape = bold("").startswith("\\")
+    def _texts(self, bold: str, escapes: dict[int, str]) -> list[list[str]]:
+        """The cells as text for readers. bold: the format of the best one; escapes: of letters that have a meaning."""
         best = self.frame[list(self.best_of)].max(axis=1).tolist() if self.best_of else [None] * len(self.frame)
         rows = []
         for row, highest in zip(self._cells(), best):
-            texts = [_rounded(cell, self.digits).translate(_LATEX if escape else {}) for cell in row]
+            texts = [_rounded(cell, self.digits).translate(escapes) for cell in row]
             rows.append(
                 [
-                    bold(text) if name in self.best_of and cell == highest else text
+                    bold.format(text) if name in self.best_of and cell == highest else text
                     for name, cell, text in zip(self.frame, row, texts)
                 ]
             )
