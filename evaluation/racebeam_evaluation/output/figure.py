@@ -116,10 +116,11 @@ def intervals(rows: pd.DataFrame, statistics: list[str]) -> Figure:
     """A line of panels for each normalisation, a panel for each statistic: the interval of each agent."""
     names = list(dict.fromkeys(rows["normalisation"]))
     agents = list(dict.fromkeys(rows["agent"]))
+    colours = _colours(agents)
     figure, panels = _grid(len(names), len(statistics), 2.4 * len(statistics), (0.9 + 0.26 * len(agents)) * len(names))
     for line, (name, shown) in enumerate(_parts(rows, "normalisation")):
         for column, (axes, statistic) in enumerate(zip(panels[line * len(statistics) :], statistics)):
-            _bars(axes, shown, statistic, "agent", _colours(agents))
+            _bars(axes, shown, statistic, [colours[agent] for agent in shown["agent"]])
             axes.set(title=f"{statistic}\n{name}", yticklabels=list(shown["agent"]) if column == 0 else [])
     return figure
 
@@ -129,23 +130,26 @@ def improvements(rows: pd.DataFrame) -> Figure:
     """A row for each pair of agents: the probability that a trial of the first scores more, with its interval."""
     pairs = rows.assign(pair=rows["first"] + " over " + rows["second"])
     figure, (axes,) = _grid(1, 1, 6.4, 0.9 + 0.26 * len(pairs))
-    _bars(axes, pairs, "probability", "pair", _colours(list(dict.fromkeys(pairs["first"]))), by="first")
+    colours = _colours(list(dict.fromkeys(pairs["first"])))
+    _bars(axes, pairs, "probability", [colours[agent] for agent in pairs["first"]])
     axes.axvline(0.5, color="black", linewidth=0.5)
     axes.set(yticklabels=list(pairs["pair"]), xlim=(0, 1), xlabel="probability of improvement")
     return figure
 
 
-def _bars(
-    axes: Axes, rows: pd.DataFrame, statistic: str, of: str, colours: dict[str, str], by: str | None = None
-) -> None:
-    """A bar from "low" to "high" of the statistic for each row, with a mark at its value."""
+def _bars(axes: Axes, rows: pd.DataFrame, statistic: str, colours: list[str]) -> None:
+    """A bar from "low" to "high" of the statistic for each row, in the row's colour, with a mark at its value."""
     places = np.arange(len(rows))
-    each = [colours[name] for name in rows[by or of]]
     value, low, high = (
         rows[name].to_numpy(dtype=float) for name in (statistic, f"{statistic} low", f"{statistic} high")
     )
     axes.barh(
-        places, np.nan_to_num(high - low), left=np.where(np.isnan(low), value, low), height=0.6, color=each, alpha=0.6
+        places,
+        np.nan_to_num(high - low),
+        left=np.where(np.isnan(low), value, low),
+        height=0.6,
+        color=colours,
+        alpha=0.6,
     )
     axes.vlines(value, places - 0.3, places + 0.3, color="black", linewidth=1.2)
     axes.set(yticks=places, ylim=(len(rows) - 0.5, -0.5))
