@@ -197,9 +197,16 @@ def _add_aggregates(report: Report, scores: Scores, group: Group, ranges: list[R
             notes.of_aggregates(scores, group, ranges),
         )
     )
-    bounded = [each for each in ranges if each.name != "random"]  # the random-normalised are too large to draw
-    distributions = _joined([aggregate.distribution_rows(scores, each, group) for each in bounded])
-    profiles = _joined([aggregate.profile_rows(scores, each, group, bootstrap) for each in bounded])
+    drawn = [each for each in ranges if each.name != "random"]  # the random-normalised are too large to draw
+    _add_figures(report, scores, group, drawn, rows, bootstrap)
+
+
+def _add_figures(
+    report: Report, scores: Scores, group: Group, ranges: list[Ranges], rows: pd.DataFrame, bootstrap: Bootstrap
+) -> None:
+    """The figures of aggregates, which are `rows`, and of distributions and profiles, with the tables of these two."""
+    distributions = _joined([aggregate.distribution_rows(scores, each, group) for each in ranges])
+    profiles = _joined([aggregate.profile_rows(scores, each, group, bootstrap) for each in ranges])
     selection = rows[rows["normalisation"] != "random"] if len(rows) else rows
     for name, caption, data, draw in (
         ("aggregates", "Average and median normalised scores", selection, figure.aggregate_scores),
