@@ -1,5 +1,6 @@
 """scripts/release: what it makes of a build that is there. The build itself takes long, and is left out here."""
 
+import argparse
 import hashlib
 import importlib.machinery
 import importlib.util
@@ -130,3 +131,43 @@ class TestRelease:
         names = {part["name"] for part in contents["components"]}
         assert {"libc6", "libssl3", "zlib1g", "Boost headers"} <= names, names
         assert all(part["version"] and part["purl"].startswith("pkg:deb/debian/") for part in contents["components"])
+
+
+class Stub:
+    """Makes a release of one file, or fails in the middle."""
+
+    def __init__(self, fails=False):
+        self.fails = fails
+
+    def make(self, into):
+        (into / "new").touch()
+        if self.fails:
+            raise subprocess.CalledProcessError(1, "cmake")
+        (into / "SHA256SUMS").write_text("sums\n")
+
+
+class TestFolder:
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.into = tmp_path / "packages"
+        self.script = script("release")
+
+    def test_a_release_replaces_an_earlier_one_when_it_is_whole(self):
+        assert self.script.make_in(self.into, Stub()) == "sums\n"
+        (self.into / "new").rename(self.into / "old")
+        with pytest.raises(subprocess.CalledProcessError):
+            self.script.make_in(self.into, Stub(fails=True))
+        assert {path.name for path in self.into.iterdir()} == {"old", "SHA256SUMS"}
+        self.script.make_in(self.into, Stub())
+        assert {path.name for path in self.into.iterdir()} == {"new", "SHA256SUMS"}
+        assert list(self.into.parent.iterdir()) == [self.into]
+
+    def test_a_folder_with_files_of_others_is_refused(self):
+        assert self.script.release_folder(str(self.into)) == self.into
+        self.into.mkdir()
+        assert self.script.release_folder(str(self.into)) == self.into
+        (self.into / "thesis.tex").touch()
+        with pytest.raises(argparse.ArgumentTypeError, match="since it lacks SHA256SUMS; expected"):
+            self.script.release_folder(str(self.into))
+        (self.into / "SHA256SUMS").touch()
+        assert self.script.release_folder(str(self.into)) == self.into
