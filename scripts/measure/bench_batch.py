@@ -8,7 +8,6 @@ on a busy machine. After every chunk, observations and RAM of both sides are com
 
 import argparse
 import json
-import math
 import os
 import pathlib
 import statistics
@@ -138,10 +137,6 @@ def measure(game, options, folder):
     }
 
 
-def geomean(rows, column):
-    return math.exp(statistics.fmean(math.log(row[column]) for row in rows))
-
-
 def main():
     options = parse_arguments()
     if import_error:
@@ -166,7 +161,10 @@ def main():
                 f"{row['over_one_thread']:.2f} | {row['kib_a_machine']:.0f} |",
                 flush=True,
             )
-    means = {column: geomean(rows, column) for column in ("ratio", "cpu_ratio", "over_one_thread")}
+    means = {
+        column: statistics.geometric_mean(row[column] for row in rows)
+        for column in ("ratio", "cpu_ratio", "over_one_thread")
+    }
     print(
         f"| **geomean** | | | **{means['ratio']:.2f}** | **{means['cpu_ratio']:.2f}** | "
         f"**{means['over_one_thread']:.2f}** | |"

@@ -3,6 +3,7 @@ the course of figures over time."""
 
 import html
 import math
+import statistics
 
 ROW, GAP, LEFT, TOP, WIDTH, RIGHT = 14, 3, 150, 60, 640, 60  # pixels
 BAR, LINE, TEXT = "#3b6ea5", "#bbbbbb", "#333333"
@@ -18,7 +19,7 @@ def text(x, y, words, size=11, anchor="start", weight="normal"):
 def draw(ratios, heading):
     """Returns the SVG as text. ratios: {game: ratio to the reference}."""
     rows = sorted(ratios.items(), key=lambda row: row[1])
-    mean = math.exp(sum(map(math.log, ratios.values())) / len(ratios))
+    mean = statistics.geometric_mean(ratios.values())
     end = max(10, math.ceil(rows[-1][1]))
     scale = WIDTH / end
     height = TOP + len(rows) * ROW + 10

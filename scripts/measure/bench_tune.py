@@ -18,7 +18,6 @@ import argparse
 import contextlib
 import datetime
 import json
-import math
 import os
 import re
 import shlex
@@ -118,7 +117,7 @@ def time_frames(game, variants, options):
                 chunk = "play " + " ".join(map(str, actions[first : first + CHUNK]))
                 times.append([side.ask(chunk)["seconds"] for side in sides])
         found.append(ratios(times[WARM_UP:]))
-    return [math.sqrt(math.prod(both)) for both in zip(*found)]
+    return [statistics.geometric_mean(both) for both in zip(*found)]
 
 
 def time_start(game, variants, options):
@@ -158,7 +157,7 @@ def measure(by, variants, options):
     for i in range(1, len(variants)):
         figures = [ratios_of_game[i] for ratios_of_game in of_games]
         greatest = max(figures)
-        found.append((math.exp(sum(map(math.log, figures)) / len(figures)), greatest, games[figures.index(greatest)]))
+        found.append((statistics.geometric_mean(figures), greatest, games[figures.index(greatest)]))
     return found
 
 
