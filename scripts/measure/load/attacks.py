@@ -11,8 +11,8 @@ import pathlib
 import random
 import re
 import select
+import shutil
 import socket
-import subprocess
 import threading
 import time
 
@@ -137,7 +137,10 @@ def record(session, kind):
     session.send(b"act NOOP*50", *[b"act RIGHT*10 LEFT*10"] * 20, b"record stop")
     session.read_on(3)
     for path in pathlib.Path(session.folder).glob(name + "*"):
-        subprocess.run(["rm", "-rf", path], check=False)
+        if path.is_dir():
+            shutil.rmtree(path, ignore_errors=True)
+        else:
+            path.unlink(missing_ok=True)
 
 
 @attack
