@@ -11,7 +11,6 @@ one processor.
 """
 
 import argparse
-import glob
 import itertools
 import json
 import os
@@ -20,7 +19,9 @@ import statistics
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+import cartridges
+from cartridges import ROOT
+
 BUILD = ROOT / "build/release"
 RACEBEAM, WIRE_BENCH = BUILD / "racebeam", BUILD / "tests/server/wire_bench"
 GAMES = [
@@ -75,13 +76,11 @@ def parse_arguments():
 
 
 def image(game):
-    folders = [os.environ.get("RACEBEAM_ROMS", "")] + glob.glob(
-        str(ROOT / ".venv/lib/python*/site-packages/ale_py/roms")
-    )
-    found = [
-        path for path in (os.path.join(folder, game + ".bin") for folder in folders if folder) if os.path.exists(path)
-    ]
-    return found[0] if found else "builtin:beamfall"
+    """The argument of --rom: the image of the game, or Beamfall's if that is missing. Tables name what was played."""
+    try:
+        return cartridges.image(game)
+    except LookupError:
+        return "builtin:beamfall"
 
 
 def name_of(path):

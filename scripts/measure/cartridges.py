@@ -11,9 +11,8 @@ WITHOUT_RULE = ("combat", "joust", "maze_craze", "warlords")  # the reference ha
 
 def folder():
     """The folder of images, or None if it is missing."""
-    folder = os.environ.get("RACEBEAM_ROMS")
-    if folder:
-        candidates = [pathlib.Path(folder)]
+    if roms := os.environ.get("RACEBEAM_ROMS"):
+        candidates = [pathlib.Path(roms)]
     else:
         here = importlib.util.find_spec("ale_py")
         candidates = [pathlib.Path(here.origin).parent / "roms"] if here else []
