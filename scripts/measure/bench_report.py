@@ -1,15 +1,16 @@
 """Writes the results of scripts/bench core: a summary in a document, each game's figures in another, and two
 pictures."""
 
-import math
 import os
 import pathlib
 import platform
 import re
+import statistics
 import subprocess
 
 import bench_picture
 import cartridges
+import page_part
 import processor
 from bench_settings import SETTINGS
 
@@ -17,7 +18,7 @@ PAGE = cartridges.ROOT / "docs/performance.md"
 FIGURES = cartridges.ROOT / "docs/performance/figures.md"
 PICTURE = cartridges.ROOT / "docs/performance/core.svg"
 SUMMARY = cartridges.ROOT / "docs/performance/summary.svg"
-BEGIN, END = "<!-- scripts/bench core --write: begin -->", "<!-- end -->"
+SCRIPT = "scripts/bench core"  # as the document names it
 HEADINGS = {name: setting.heading for name, setting in SETTINGS.items()}
 
 
@@ -50,10 +51,6 @@ def versions(binary):
     }
 
 
-def geomean(numbers):
-    return math.exp(sum(map(math.log, numbers)) / len(numbers))
-
-
 def settings_in(results):
     first = next(iter(results["games"].values()))
     return [name for name in HEADINGS if name in first]
@@ -69,7 +66,7 @@ def summary(results):
         for key, heading in (("reset_ratio", "Reset"), ("save_restore_ratio", "Save and restore, with pictures")):
             columns[heading] = {game: found["states"][key] for game, found in results["games"].items()}
     return {
-        heading: (geomean(ratios.values()), *min((ratio, game) for game, ratio in ratios.items()))
+        heading: (statistics.geometric_mean(ratios.values()), *min((ratio, game) for game, ratio in ratios.items()))
         for heading, ratios in columns.items()
     }
 
@@ -167,19 +164,15 @@ def figures(results):
 
 
 def write(results):
-    """Writes summary, figures and picture. Raises OSError if the document lacks its markers."""
-    before, begin, rest = PAGE.read_text().partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not (begin and end):
-        raise OSError(f"{PAGE} lacks the lines {BEGIN} and {END}, between which the summary goes")
+    """Writes summary, figures and pictures. Raises OSError, and writes nothing, if the document has no place for it."""
+    names = settings_in(results)
+    heading = HEADINGS[names[0]] if names else ""
+    picture = f"![{heading}: ratio to ALE, by game]({PICTURE.relative_to(PAGE.parent)})\n\n" if names else ""
+    page_part.replace(PAGE, SCRIPT, f"{picture}{page(results)}\n")
     FIGURES.parent.mkdir(exist_ok=True)
     FIGURES.write_text(figures(results))
-    picture = ""
-    names = settings_in(results)
     if names:
         ratios = {game: found[names[0]]["ratio"] for game, found in results["games"].items()}
-        PICTURE.write_text(bench_picture.draw(ratios, HEADINGS[names[0]]))
+        PICTURE.write_text(bench_picture.draw(ratios, heading))
         means = {HEADINGS[name]: round(summary(results)[HEADINGS[name]][0], 2) for name in names}  # as in the table
         SUMMARY.write_text(bench_picture.draw_summary(means, len(ratios)))
-        picture = f"![{HEADINGS[names[0]]}: ratio to ALE, by game]({PICTURE.relative_to(PAGE.parent)})\n\n"
-    PAGE.write_text(f"{before}{BEGIN}\n{picture}{page(results)}\n{END}{after}")

@@ -12,6 +12,7 @@ import tempfile
 import bench_picture
 import bench_report
 import bench_settings
+import page_part
 import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -81,7 +82,7 @@ class TestReports:
             bench_report.FIGURES = pathlib.Path(folder) / "figures/figures.md"
             bench_report.PICTURE = pathlib.Path(folder) / "figures/picture.svg"
             bench_report.SUMMARY = pathlib.Path(folder) / "figures/summary.svg"
-            bench_report.PAGE.write_text(f"before\n{bench_report.BEGIN}\nold\n{bench_report.END}\nafter\n")
+            bench_report.PAGE.write_text(f"before\n{page_part.begin(bench_report.SCRIPT)}old\n{page_part.END}\nafter\n")
             bench_report.write(results({"one": 2}))
             page = bench_report.PAGE.read_text()
             assert re.search(r"(?s)^before\n.*\(figures/picture\.svg\).*\| 2\.00 \| 2\.00 \| one \|.*\nafter\n$", page)
@@ -93,6 +94,7 @@ class TestReports:
             bench_report.PAGE.write_text("a page without markers")
             with pytest.raises(OSError, match="lacks the lines"):
                 bench_report.write(results({"one": 2}))
+            assert bench_report.PAGE.read_text() == "a page without markers"
 
 
 class TestActions:
