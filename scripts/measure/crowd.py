@@ -4,6 +4,7 @@ scale."""
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,7 +16,8 @@ OBSERVE = "observe reward terminated truncated ram screen:rle"
 
 class Server:
     """A server for TCP on this machine, from `with` to its end. processors: those that it may use; None: all.
-    status, warnings: its status at its end, and the lines of its log."""
+    port, http: where it listens; http is None without the option --http. status, warnings: its status at its end, and
+    the lines of its log."""
 
     def __init__(self, build, *options, processors=None):
         self.processors = processors or os.sched_getaffinity(0)
@@ -49,8 +51,8 @@ class Server:
                 self.__exit__()
                 sys.exit("load: the server did not start\n" + "\n".join(self.warnings))
             time.sleep(0.02)
-        address = next(line for line in (self.place / "ready").read_text().splitlines() if not line.startswith("#"))
-        self.port = int(address.rsplit(":", 1)[1])
+        ports = map(int, re.findall(r"^[^#].*:(\d+)$", (self.place / "ready").read_text(), re.MULTILINE))
+        self.port, self.http = next(ports), next(ports, None)
         return self
 
     def __exit__(self, *_):
