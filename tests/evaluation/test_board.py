@@ -353,6 +353,7 @@ class TestBadInput(Folder):
             (good.replace("4000000", str(10**15)), f"training_frames is '{10**15}'; expected a whole number from 0"),
             (good.replace("Ours <b>& theirs</b>", "x" * 4001), "words has 4001 letters; expected at most 4000"),
             (good.replace("4000000", "-1"), "training_frames is '-1'; expected a whole number from 0"),
+            (good.replace("org/agent", "org/agent\\n"), "link is 'https://example.org/agent\\n'; expected"),
             (good + 'role = "teacher"\n', "role is 'teacher'; expected learner, planner, baseline"),
             (good.replace("Ours", "Ours" * 2000), "words has "),
             ("#" * 70000, "agent.toml has 70000 bytes; expected a TOML file of at most 65536"),

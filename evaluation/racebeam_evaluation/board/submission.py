@@ -99,7 +99,7 @@ def _about(path: pathlib.Path) -> About:
     _check(path, found, "agent", _NAME.fullmatch(found["agent"]), _NAME_SAYS)
     _check(path, found, "preset", found["preset"] in _PRESETS, ", ".join(_PRESETS))
     _check(path, found, "role", found.get("role", "learner") in ROLES, ", ".join(ROLES))
-    _check(path, found, "link", re.match(r"https?://[^\s]+$|$", found.get("link", "")), "https://... or http://...")
+    _check(path, found, "link", re.fullmatch(r"(https?://\S+)?", found.get("link", "")), "https://... or http://...")
     frames = found["training_frames"]
     _check(path, found, "training_frames", type(frames) is int and 0 <= frames < 10**15, "a whole number from 0")
     return About(**found)
@@ -114,7 +114,7 @@ def _check_text(path: pathlib.Path, key: str, value: object) -> None:
 
 def _check(path: pathlib.Path, found: dict[str, Any], key: str, right: object, expected: str) -> None:
     if not right:
-        raise BadInput(f"{path}: {key} is '{found[key]}'; expected {expected}")
+        raise BadInput(f"{path}: {key} is {str(found[key])!r}; expected {expected}")
 
 
 def _episode(folder: pathlib.Path, line: int, row: dict[str, str], about: About) -> Episode:
