@@ -7,7 +7,7 @@ import sys
 import paper_results
 import plan_figures
 import pytest
-from paper.parts import PLANS
+from paper.parts import PLANS, bounds
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
 import layout  # noqa: E402
@@ -48,6 +48,16 @@ def results(folder, agents, scores, seconds="2.0", frames="1000"):
         folder / "times.csv",
         ["unit,training_seconds,training_frames,evaluation_seconds,evaluation_frames,searched_frames", *times],
     )
+
+
+class TestBounds:
+    def test_they_are_those_of_students_t_for_as_many_scores(self):
+        assert bounds([5]) is None
+        assert bounds([4, 6]) == pytest.approx((5 - 12.706, 5 + 12.706))
+        assert bounds(range(11)) == pytest.approx((5 - 2.228, 5 + 2.228))  # whose standard error is 1
+        for count, quantile in ((30, 2.045), (40, 2.045)):
+            low, high = bounds([0, 2] * (count // 2))
+            assert (high - low) / 2 == pytest.approx(quantile / (count - 1) ** 0.5)
 
 
 class TestPaperResults:
