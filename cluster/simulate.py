@@ -29,7 +29,7 @@ import subprocess
 import sys
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 
 @dataclass(frozen=True)
@@ -65,12 +65,10 @@ class Simulation:
         self.waiting = deque(tasks)  # seconds of work that are left
         self.unfinished = len(self.waiting)
         self.slowness = [cluster.slowness if chance.random() < cluster.slow else 1.0 for _ in range(cluster.nodes)]
-        self.idle = [node for node in range(cluster.nodes) for _ in range(cluster.cores)][
-            ::-1
-        ]  # the node of each idle core
-        self.running: list[dict[int, tuple[float, float]]] = [
-            {} for _ in range(cluster.nodes)
-        ]  # by number: work, and its begin
+        # The node of each idle core. The last one works next, so that the first node is filled first.
+        self.idle = [node for node in reversed(range(cluster.nodes)) for _ in range(cluster.cores)]
+        # Of each node, by number: work, and its begin.
+        self.running: list[dict[int, tuple[float, float]]] = [{} for _ in range(cluster.nodes)]
         self.events: list[tuple[float, int, Callable[..., None], tuple[object, ...]]] = []
         self.numbers = itertools.count()
         self.now = self.busy = self.lost = 0.0
@@ -184,9 +182,14 @@ def rows_of(table: pathlib.Path) -> list[dict[str, str]]:
 def pilot_of(results: pathlib.Path) -> dict[str, list[tuple[float, float]]]:
     """Returns two numbers for each unit in a folder of results, by agent.
 
-    They are the mean length of an episode, as a part of the longest, and the seconds of a decision.
+    They are the mean length of an episode, as a part of the longest, and the seconds of a decision. Raises OSError if
+    a file is missing, and ValueError if the plan does not say how long an episode may be.
     """
-    (longest,) = map(float, re.findall(r"max_episode_frames=(\d+)", (results / "plan.toml").read_text()))
+    plan = results / "plan.toml"
+    found_longest = re.search(r"max_episode_frames=(\d+)", plan.read_text())
+    if not found_longest:
+        raise ValueError(f"{plan} does not say max_episode_frames=N")
+    longest = float(found_longest[1])
     episodes: dict[str, list[dict[str, str]]] = {}
     for row in rows_of(results / "results.csv") + rows_of(results / "curves.csv"):
         episodes.setdefault(row["unit"], []).append(row)
@@ -280,8 +283,20 @@ def parse_arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def main() -> None:
-    options = parse_arguments()
+def units_of(options: argparse.Namespace) -> list[list[float]]:
+    """Seconds of all units, for each of the simulations. Ends the program with a sentence if they cannot be known."""
+    try:
+        agents, measured = agents_of(dry_run_of(options)), pilot_of(options.pilot) if options.pilot else {}
+    except OSError as error:
+        sys.exit(f"simulate.py: cannot read {error.filename}: {error.strerror}; --pilot takes a folder of results")
+    except ValueError as error:
+        sys.exit(f"simulate.py: {error}")
+    units = [lengths_of(agents, measured, random.Random(seed)) for seed in range(options.runs)]
+    return [sorted(lengths, reverse=True) for lengths in units] if options.longest_first else units
+
+
+def dry_run_of(options: argparse.Namespace) -> str:
+    """What the program prints of the plan. Ends this one with a sentence if it fails."""
     try:
         done = subprocess.run(
             [options.program, "experiment", options.plan, "--dry-run", "--unmeasured"], capture_output=True, text=True
@@ -294,23 +309,14 @@ def main() -> None:
         )
     if done.returncode != 0:
         sys.exit(done.stderr.strip())
-    try:
-        agents, measured = agents_of(done.stdout), pilot_of(options.pilot) if options.pilot else {}
-    except OSError as error:
-        sys.exit(f"cannot read {error.filename}: {error.strerror}")
-    units = [lengths_of(agents, measured, random.Random(seed)) for seed in range(options.runs)]
-    if options.longest_first:
-        units = [sorted(lengths, reverse=True) for lengths in units]
-    cluster = Cluster(
-        1,
-        options.cores,
-        options.failures,
-        options.repair,
-        options.requeue,
-        options.checkpoint,
-        options.slow,
-        options.slowness,
-    )
+    return done.stdout
+
+
+def main() -> None:
+    options = parse_arguments()
+    units = units_of(options)
+    times = {field.name: getattr(options, field.name) for field in fields(Cluster) if field.name != "nodes"}
+    cluster = Cluster(nodes=1, **times)
     work = statistics.median(map(sum, units)) / 3600
     print(f"{len(units[0])} units, {work:.1f} core-hours, longest unit {max(map(max, units)) / 3600:.1f} hours")
     nodes = list(options.nodes)
@@ -319,10 +325,15 @@ def main() -> None:
         if fewest is None:
             sys.exit(f"no number of nodes is enough for {options.within:g} hours")
         nodes.append(fewest)
+    print_table(units, cluster, nodes, options.shards)
+
+
+def print_table(units: Sequence[Sequence[float]], cluster: Cluster, nodes: Sequence[int], shards: int) -> None:
+    """A row for each number of nodes."""
     print(f"{'nodes':>6}{'cores':>7}{'hours':>8}{'95 %':>8}{'busy':>7}{'lost':>8}{'failures':>10}")
     for count in nodes:
-        runs = summary(units, replace(cluster, nodes=count), options.shards)
-        cores, elapsed = count * options.cores, percentile(runs, 0.5)
+        runs = summary(units, replace(cluster, nodes=count), shards)
+        cores, elapsed = count * cluster.cores, percentile(runs, 0.5)
         busy = statistics.median(run.busy / run.elapsed / cores for run in runs)
         print(
             f"{count:6}{cores:7}{elapsed / 3600:8.1f}{percentile(runs, 0.95) / 3600:8.1f}{busy:7.0%}"

@@ -134,7 +134,7 @@ class TestUnits:
         }
         assert abs(sum(simulate.lengths_of(agents, means, random.Random(1))) / took - 1) <= 0.25
 
-    def test_the_command_prints_a_row_for_each_number_of_nodes(self):
+    def test_the_command_prints_a_row_for_each_number_of_nodes(self, tmp_path):
         command = [
             sys.executable,
             slurm.TOP / "cluster/simulate.py",
@@ -156,7 +156,12 @@ class TestUnits:
         done = subprocess.run([*command, "--within", "0.00001"], capture_output=True, text=True)
         assert (done.returncode, done.stderr) == (1, "no number of nodes is enough for 1e-05 hours\n")
         done = subprocess.run([*command, "--nodes", "1", "--pilot", "/nowhere"], capture_output=True, text=True)
-        assert (done.returncode, done.stderr) == (1, "cannot read /nowhere/plan.toml: No such file or directory\n")
+        sentence = "cannot read /nowhere/plan.toml: No such file or directory; --pilot takes a folder of results"
+        assert (done.returncode, done.stderr) == (1, f"simulate.py: {sentence}\n")
+        (tmp_path / "plan.toml").write_text('environment = "frame_skip=5"\n')
+        done = subprocess.run([*command, "--nodes", "1", "--pilot", tmp_path], capture_output=True, text=True)
+        sentence = f"{tmp_path}/plan.toml does not say max_episode_frames=N"
+        assert (done.returncode, done.stderr) == (1, f"simulate.py: {sentence}\n")
         done = subprocess.run([*command[:2], "nothing", "--program", BINARY], capture_output=True, text=True)
         assert done.returncode == 1
         assert "unknown plan 'nothing'" in done.stderr
