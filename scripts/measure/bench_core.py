@@ -99,8 +99,7 @@ def must_agree(game, where, theirs, ours, keys):
 
 
 def both_open(reference, game, setting, cpu):
-    opened = reference.open(game, setting.skip, setting.look)
-    return opened, bench_sides.Racebeam(game, setting.skip, setting.look, cpu)
+    return reference.open(game, setting), bench_sides.Racebeam(game, setting, cpu)
 
 
 def time_chunks(reference, game, name, options):

@@ -3,12 +3,21 @@
 import random
 from dataclasses import dataclass
 
+import cartridges
+
 
 @dataclass(frozen=True)
 class Setting:
     heading: str
     skip: int  # frames of an act
     look: bool  # observe the screen after each act
+
+    def command(self, binary, game, cpu=None):
+        """The words that start `racebeam bench --commands` (cli/bench/bench_session.hpp). cpu: None for the default.
+
+        Raises LookupError if the image of the game is missing."""
+        words = [str(binary), "bench", "--commands", "--rom", cartridges.image(game), "--frame-skip", str(self.skip)]
+        return [*words, "--screen", "last" if self.look else "none", *(["--cpu", cpu] if cpu else [])]
 
 
 SETTINGS = {

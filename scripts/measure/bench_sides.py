@@ -56,29 +56,11 @@ class Reference(Side):
     def __init__(self):
         super().__init__("the reference", [sys.executable, HERE / "bench_reference.py"])
 
-    def open(self, game, skip, look):
-        return self.ask(f"open {skip} {look:d} {cartridges.image(game)}")
+    def open(self, game, setting):
+        return self.ask(f"open {setting.skip} {setting.look:d} {cartridges.image(game)}")
 
 
 class Racebeam(Side):
-    def __init__(self, game, skip, look, cpu=None, environment=None):
-        super().__init__(
-            "racebeam",
-            [
-                RACEBEAM,
-                "bench",
-                "--commands",
-                "--rom",
-                cartridges.image(game),
-                "--seed",
-                str(SEED),
-                "--sticky",
-                "0",
-                "--frame-skip",
-                str(skip),
-                "--screen",
-                "last" if look else "none",
-                *(["--cpu", cpu] if cpu else []),
-            ],
-            environment,
-        )
+    def __init__(self, game, setting, cpu=None, environment=None):
+        command = setting.command(RACEBEAM, game, cpu)
+        super().__init__("racebeam", [*command, "--seed", str(SEED), "--sticky", "0"], environment)

@@ -108,9 +108,7 @@ def time_frames(game, variants, options):
         times = []
         with contextlib.ExitStack() as stack:
             sides = [
-                stack.enter_context(
-                    bench_sides.Racebeam(game, setting.skip, setting.look, environment=variable(values))
-                )
+                stack.enter_context(bench_sides.Racebeam(game, setting, environment=variable(values)))
                 for values in variants
             ]
             for first in range(0, len(actions), CHUNK):
@@ -126,7 +124,7 @@ def time_start(game, variants, options):
     for _ in range(options.rounds):
         turn = []
         for values in variants:
-            with bench_sides.Racebeam(game, 1, True, environment=variable(values)) as side:
+            with bench_sides.Racebeam(game, SETTINGS["every"], environment=variable(values)) as side:
                 turn.append(side.ask(chunk)["seconds"])
         times.append(turn)
     return ratios(times)

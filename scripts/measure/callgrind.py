@@ -51,23 +51,9 @@ def count(binary, game, setting, before, frames, cpu=None, environment=PLAIN):
     )
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "callgrind.out"
+        valgrind = ["valgrind", "--tool=callgrind", f"--toggle-collect={COUNTED}", f"--callgrind-out-file={out}"]
         done = subprocess.run(
-            [
-                "valgrind",
-                "--tool=callgrind",
-                f"--toggle-collect={COUNTED}",
-                f"--callgrind-out-file={out}",
-                str(binary),
-                "bench",
-                "--commands",
-                "--rom",
-                cartridges.image(game),
-                "--frame-skip",
-                str(setting.skip),
-                "--screen",
-                "last" if setting.look else "none",
-                *(["--cpu", cpu] if cpu else []),
-            ],
+            [*valgrind, *setting.command(binary, game, cpu)],
             input=commands,
             capture_output=True,
             text=True,
