@@ -17,6 +17,8 @@ from ..scores import Scores, scores_of
 from . import page
 from .submission import Submission, read_submission
 
+Files = dict[str, bytes | pathlib.Path]  # by their paths in the site: contents, or a file to copy
+
 _HUMAN = human()
 _SHOWN = ("IQM", "median", "average")
 
@@ -25,7 +27,7 @@ _SHOWN = ("IQM", "median", "average")
 class Site:
     """What a run writes."""
 
-    files: dict[str, bytes | pathlib.Path]
+    files: Files
     broken: list[str]  # a sentence for each folder that is not shown
     submissions: int
 
@@ -68,7 +70,7 @@ def _check_images(folder: pathlib.Path, submission: Submission, images: dict[str
 def _site(
     submissions: list[Submission], broken: list[tuple[pathlib.Path, str]], bootstrap: Bootstrap, viewer: str
 ) -> Site:
-    files: dict[str, bytes | pathlib.Path] = {}
+    files: Files = {}
     pages = {}
     for place, submission in enumerate(submissions, 1):
         logs = {f"logs/{place}/{each.row['unit']}/{each.row['episode']}.episode": each for each in submission.episodes}
@@ -78,7 +80,9 @@ def _site(
     parts = [page.proof()]
     for preset in dict.fromkeys(each.about.preset for each in submissions):
         selection = [each for each in submissions if each.about.preset == preset]
-        parts += _section(preset, selection, pages, bootstrap, files)
+        section, pictures = _section(preset, selection, pages, bootstrap)
+        parts += section
+        files |= pictures
     if broken:
         items = "".join(f'<li class="broken">{page.text(_from_here(*each))}</li>' for each in broken)
         parts.append(f"<h2>Not shown</h2>\n<ul>{items}</ul>")
@@ -87,18 +91,15 @@ def _site(
 
 
 def _section(
-    preset: str,
-    submissions: list[Submission],
-    pages: dict[str, str],
-    bootstrap: Bootstrap,
-    files: dict[str, bytes | pathlib.Path],
-) -> list[str]:
-    """What is shown of one preset: scores of different ones are not compared."""
+    preset: str, submissions: list[Submission], pages: dict[str, str], bootstrap: Bootstrap
+) -> tuple[list[str], Files]:
+    """What is shown of one preset, and its pictures: scores of different ones are not compared."""
     results = together([each.results for each in submissions])
     scores = scores_of(results)
     parts = [f"<h2>Preset {page.text(preset)}</h2>", _standings(submissions, scores, pages, bootstrap)]
     parts.append(_score_table(scores, submissions, pages))
-    return parts + _curves(preset, results, files)
+    curves, pictures = _curves(preset, results)
+    return parts + curves, pictures
 
 
 def _standings(submissions: list[Submission], scores: Scores, pages: dict[str, str], bootstrap: Bootstrap) -> str:
@@ -153,11 +154,11 @@ def _score_table(scores: Scores, submissions: list[Submission], pages: dict[str,
     return page.table(["game", *names], rows, range(1, 1 + len(names)))
 
 
-def _curves(preset: str, results: Results, files: dict[str, bytes | pathlib.Path]) -> list[str]:
+def _curves(preset: str, results: Results) -> tuple[list[str], Files]:
+    """The learning curves, if there are training episodes, and the files of their picture."""
     if results.curves is None:
-        return []
+        return [], {}
     curves = learning_curves(results.curves)
     caption = "Scores of training episodes, which leave no logs and were not checked."
     picture = Picture(f"curves-{preset}", caption, figure.learning_curves(curves), results.curve_sources)
-    files |= picture.files()
-    return [f"<p>{caption}</p>", f'<img src="{picture.name}.svg" alt="{caption}">']
+    return [f"<p>{caption}</p>", f'<img src="{picture.name}.svg" alt="{caption}">'], {**picture.files()}
