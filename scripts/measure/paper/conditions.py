@@ -31,6 +31,46 @@ CHANGED = (
         "built its tree anew for each decision, and opened nodes with a reward like others",
     ),
 )
+# What was scaled down. {iw1}: the games in which IW(1) has a published score.
+SCALE = (
+    ("part", "paper", "here", "what that can show", "what it cannot show"),
+    (
+        "baselines",
+        "55 games; number of episodes not printed",
+        "55 games, 30 episodes",
+        "the paper's columns",
+        "differences below the spread of 30 episodes",
+    ),
+    (
+        "learners",
+        "55 games, 30 trials of 5,000 episodes",
+        "5 games, 2 trials of 200,000 decisions",
+        "that each learner learns",
+        "scores of whole training; tests between learners",
+    ),
+    (
+        "Basic, longer",
+        "5,000 episodes, 30 trials",
+        "2,000,000 decisions, 1 trial",
+        "scores of long training",
+        "the spread over trials",
+    ),
+    (
+        "learners, whole training",
+        "55 games, 30 trials of 5,000 episodes",
+        "5 games, 1 to 3 trials of 5,000 episodes, as far as they have run",
+        "scores of whole training",
+        "the spread over trials, with one trial",
+    ),
+    (
+        "UCT, full tree",
+        "55 games, 10 episodes",
+        "3 games and 1 game, 1 episode",
+        "the budget's strength and cost",
+        "means; other games",
+    ),
+    ("IW(1)", "{iw1} games", "2 games, 1 episode", "the same", "the same"),
+)
 MACHINE = ("processor", "version")  # of machine.txt: what the table of plans shows
 
 
@@ -79,53 +119,9 @@ class Conditions(Part):
         self.say("""The plan `paper` has the paper's whole benchmark. `racebeam experiment paper --dry-run` prints what
             it costs. The figures
             of this document are from smaller plans:""")
-        self.add(
-            rows_of(
-                ["part", "paper", "here", "what that can show", "what it cannot show"],
-                [
-                    "baselines",
-                    "55 games; number of episodes not printed",
-                    "55 games, 30 episodes",
-                    "the paper's columns",
-                    "differences below the spread of 30 episodes",
-                ],
-                [
-                    "learners",
-                    "55 games, 30 trials of 5,000 episodes",
-                    "5 games, 2 trials of 200,000 decisions",
-                    "that each learner learns",
-                    "scores of whole training; tests between learners",
-                ],
-                [
-                    "Basic, longer",
-                    "5,000 episodes, 30 trials",
-                    "2,000,000 decisions, 1 trial",
-                    "scores of long training",
-                    "the spread over trials",
-                ],
-                [
-                    "learners, whole training",
-                    "55 games, 30 trials of 5,000 episodes",
-                    "5 games, 1 to 3 trials of 5,000 episodes, as far as they have run",
-                    "scores of whole training",
-                    "the spread over trials, with one trial",
-                ],
-                [
-                    "UCT, full tree",
-                    "55 games, 10 episodes",
-                    "3 games and 1 game, 1 episode",
-                    "the budget's strength and cost",
-                    "means; other games",
-                ],
-                [
-                    "IW(1)",
-                    f"{sum('iw1' in scores for scores in self.paper.values())} games",
-                    "2 games, 1 episode",
-                    "the same",
-                    "the same",
-                ],
-            )
-        )
+        iw1 = sum("iw1" in scores for scores in self.paper.values())
+        header, *rows = SCALE
+        self.add(rows_of(header, *([cell.format(iw1=iw1) for cell in row] for row in rows)))
 
     def differences(self):
         self.add("## Why figures differ from the published ones")

@@ -39,10 +39,17 @@ class Learners(Part):
                 ),
             )
         )
+        self.speeds_of_learners(found, agents)
+        if (ROOT / "docs/pictures/learning-curves.svg").exists():
+            self.add("![Scores of training episodes by frames, a panel for each game](pictures/learning-curves.svg)")
+
+    def speeds_of_learners(self, found, agents):
+        """In how many games each learner is above Random, and its decisions a second."""
+        scores, speeds = found["scores"], found["speeds"]
+        random, trial = scores["random"], found["settings"][agents[0]]
         self.say(f"""Games in which the mean of each learner is above that of Random (goal: at least three), and its
             speed, emulation included. {trial["trials"]} trials are too few to tell such a difference from chance:
             `racebeam-evaluate` gives the number of games its interval, and tests each game.""")
-        speeds = found["speeds"]
         self.add(
             rows_of(
                 ["learner", "games above Random", "decisions a second, mean of the games", "lowest", "highest", "goal"],
@@ -59,8 +66,6 @@ class Learners(Part):
                 ),
             )
         )
-        if (ROOT / "docs/pictures/learning-curves.svg").exists():
-            self.add("![Scores of training episodes by frames, a panel for each game](pictures/learning-curves.svg)")
 
     def long_training(self):
         self.add("## Basic, for 2,000,000 decisions")

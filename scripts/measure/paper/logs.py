@@ -3,6 +3,11 @@
 from .learners import LEARNERS
 from .parts import Part, episodes, number, rows_of, share_of_bench
 
+VERIFICATION = (
+    *("plan", "confirmed", "wrong", "not checked", "frames a second and core", "of the bench"),
+    *("of the time of the run", "ALE agrees", "ALE does not"),
+)
+
 
 class Logs(Part):
     """Verification and size of logs."""
@@ -15,23 +20,7 @@ class Logs(Part):
             `scripts/check/verify-with-ale` plays the same logs in ALE. "Of the bench" is the speed beside that of
             `racebeam bench --screen none` for the same games, frames and frame skip; the start of the process
             counts.""")
-        rows, none = [], {}
-        for name, found in self.figures.items():
-            none.setdefault(found["machine"].get("processor", "-"), {}).update(found["bench"]["none"])
-            verified, ale = found["verified"], found["ale"] or {}
-            if not any(ale.values()):
-                ale = {}  # ALE played none of its games
-            if verified:
-                rows.append(
-                    [
-                        self.title(name),
-                        *(f"{verified[key]:,}" for key in ("confirmed", "wrong", "not_checked")),
-                        number(verified["frames"] / verified["seconds"], 0),
-                        share_of_bench(verified),
-                        number(100 * verified["seconds"] / found["seconds"], 1) + "%",
-                        *(f"{ale[key]:,}" if ale else "-" for key in ("agree", "differ")),
-                    ]
-                )
+        rows = [self.verification_row(name, found) for name, found in self.figures.items() if found["verified"]]
         if not rows:
             self.say("Not run yet.")
             return
@@ -42,27 +31,33 @@ class Logs(Part):
             if found["verified"] and (more := found["verified"]["confirmed"] - episodes(found)) > 0:
                 self.say(f"""The figures of {self.title(name)} include {more:,} rows that the tables no longer have: an
                     agent was mended, and its units were run again.""")
-        self.add(
-            rows_of(
-                [
-                    "plan",
-                    "confirmed",
-                    "wrong",
-                    "not checked",
-                    "frames a second and core",
-                    "of the bench",
-                    "of the time of the run",
-                    "ALE agrees",
-                    "ALE does not",
-                ],
-                *rows,
-            )
-        )
-        for processor, speeds in none.items():
-            if speeds:
+        self.add(rows_of(VERIFICATION, *rows))
+        self.bench_speeds()
+
+    def verification_row(self, name, found):
+        """The row of a plan that was verified, with the columns of VERIFICATION."""
+        verified, ale = found["verified"], found["ale"] or {}
+        if not any(ale.values()):
+            ale = {}  # ALE played none of its games
+        return [
+            self.title(name),
+            *(f"{verified[key]:,}" for key in ("confirmed", "wrong", "not_checked")),
+            number(verified["frames"] / verified["seconds"], 0),
+            share_of_bench(verified),
+            number(100 * verified["seconds"] / found["seconds"], 1) + "%",
+            *(f"{ale[key]:,}" if ale else "-" for key in ("agree", "differ")),
+        ]
+
+    def bench_speeds(self):
+        """A paragraph for each processor: how fast the bench was there in each game."""
+        speeds = {}
+        for found in self.figures.values():
+            speeds.setdefault(found["machine"].get("processor", "-"), {}).update(found["bench"]["none"])
+        for processor, games in speeds.items():
+            if games:
                 self.say(
                     f"`racebeam bench --screen none --frame-skip 5` on {processor}, frames a second: "
-                    + ", ".join(f"{game} {number(speed, 0)}" for game, speed in speeds.items())
+                    + ", ".join(f"{game} {number(speed, 0)}" for game, speed in games.items())
                     + "."
                 )
 

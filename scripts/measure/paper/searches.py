@@ -7,64 +7,50 @@ from .parts import Part, agreement, number, rows_of
 SEARCH_GOALS = {("uct", "boxing"): 95, ("uct", "asterix"): 100000, ("uct", "seaquest"): 2500}
 SIMULATIONS = {10: "uct10", 50: "uct50", 150: "uct150", 500: "uct"}
 
+SEARCHES = (
+    *("agent", "game", "score", "published", "agrees", "goal", "decisions"),
+    *("seconds a decision", "frames a second", "of the bench"),
+)
+
+
+def seconds_a_decision(episode):
+    return episode["seconds"] / episode["decisions"]
+
 
 class Searches(Part):
     """Scores of agents that search, and their speed."""
 
     def searches(self):
         self.add("## Search")
-        rows = []
-        seconds_of_uct = []
-        for plan in ("uct", "full_tree", "iw1", "searches"):
-            if self.lacks(plan):
-                continue
-            found = self.figures[plan]
-            for episode in found["searches"]:
-                name = episode["agent"]
-                game, score = episode["game"], episode["score"]
-                seconds = episode["seconds"] / episode["decisions"]
-                if name == "uct":
-                    seconds_of_uct.append(seconds)
-                speed = episode["searched_frames"] / episode["seconds"]
-                bench = found["bench"]["search"].get(game)
-                rows.append(
-                    [
-                        name,
-                        game,
-                        number(score),
-                        number(self.paper.get(game, {}).get(name)),
-                        agreement([score], self.paper.get(game, {}).get(name), "episode"),
-                        number(SEARCH_GOALS.get((name, game)), 0),
-                        f"{episode['decisions']:,}",
-                        number(seconds, 2),
-                        number(speed, 0),
-                        number(speed / bench, 2) if bench else "-",
-                    ]
-                )
-        if rows:
+        plans = [plan for plan in ("uct", "full_tree", "iw1", "searches") if not self.lacks(plan)]
+        every = [(self.figures[plan], episode) for plan in plans for episode in self.figures[plan]["searches"]]
+        if every:
             self.say("""One episode each, at the full budget of a decision. The last column compares with
                 `racebeam bench --search --frame-skip 5`.""")
-            self.add(
-                rows_of(
-                    [
-                        "agent",
-                        "game",
-                        "score",
-                        "published",
-                        "agrees",
-                        "goal",
-                        "decisions",
-                        "seconds a decision",
-                        "frames a second",
-                        "of the bench",
-                    ],
-                    *rows,
-                )
-            )
+            self.add(rows_of(SEARCHES, *(self.search_row(*each) for each in every)))
+        seconds_of_uct = [seconds_a_decision(episode) for _, episode in every if episode["agent"] == "uct"]
         if seconds_of_uct:
             self.say(f"""UCT takes {number(statistics.mean(seconds_of_uct), 2)} seconds a decision in the mean (goal:
             at most 1; the paper's
                 took 15).""")
+
+    def search_row(self, found, episode):
+        """The row of an episode of a plan, with the columns of SEARCHES."""
+        agent, game, score = episode["agent"], episode["game"], episode["score"]
+        published = self.paper.get(game, {}).get(agent)
+        speed, bench = episode["searched_frames"] / episode["seconds"], found["bench"]["search"].get(game)
+        return [
+            agent,
+            game,
+            number(score),
+            number(published),
+            agreement([score], published, "episode"),
+            number(SEARCH_GOALS.get((agent, game)), 0),
+            f"{episode['decisions']:,}",
+            number(seconds_a_decision(episode), 2),
+            number(speed, 0),
+            number(speed / bench, 2) if bench else "-",
+        ]
 
     def simulations(self):
         self.add("## UCT: score against simulations")
