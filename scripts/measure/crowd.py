@@ -15,13 +15,13 @@ OBSERVE = "observe reward terminated truncated ram screen:rle"
 
 
 class Server:
-    """A server for TCP on this machine, from `with` to its end. processors: those that it may use; None: all.
-    port, http: where it listens; http is None without the option --http. status, warnings: its status at its end, and
-    the lines of its log."""
+    """A server for TCP on this machine, from `with` to its end. processors: those that it may use; None: all. grace: in
+    seconds. port, http: where it listens; http is None without the option --http. status, warnings: its status at its
+    end, and the lines of its log."""
 
-    def __init__(self, build, *options, processors=None):
+    def __init__(self, build, *options, processors=None, grace=0, log_level="warning"):
         self.processors = processors or os.sched_getaffinity(0)
-        self.folder = tempfile.TemporaryDirectory()
+        self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.place = pathlib.Path(self.folder.name)
         self.command = [
             build / "racebeam",
@@ -31,9 +31,9 @@ class Server:
             "--ready-file",
             self.place / "ready",
             "--grace",
-            "0",
+            str(grace),
             "--log-level",
-            "warning",
+            log_level,
             *options,
         ]
 
@@ -56,10 +56,20 @@ class Server:
         return self
 
     def __exit__(self, *_):
-        self.process.terminate()
-        self.status = self.process.wait(60)
+        self.stop()
+        self.status = self.process.wait()
         self.warnings = (self.place / "log").read_text(errors="replace").splitlines()
         self.folder.cleanup()
+
+    def stop(self):
+        """Tells the server to end, and kills it after a minute. Returns the seconds until it has ended."""
+        start = time.monotonic()
+        self.process.terminate()
+        try:
+            self.process.wait(60)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+        return time.monotonic() - start
 
     def resident(self):
         """The resident memory, in KiB."""

@@ -10,15 +10,12 @@ to stop during the attack. If one of the goals is missed, the exit status is 1.
 import itertools
 import multiprocessing
 import os
-import pathlib
-import re
 import socket
-import subprocess
 import sys
-import tempfile
 import threading
 import time
 
+import crowd
 import processor
 from attacks import ATTACKS, HOARDERS, STRANGERS, TOKEN, Session
 
@@ -158,52 +155,22 @@ class Helper:
         return self.answers.recv()
 
 
-def start_server(build, folder):
-    tokens, ready, records = (pathlib.Path(folder) / name for name in ("tokens", "ready", "records"))
-    tokens.write_bytes(TOKEN + b"\n")
-    tokens.chmod(0o600)
-    records.mkdir()
-    command = [
-        build / "racebeam",
-        "serve",
-        "--listen",
-        "tcp://127.0.0.1:0",
-        "--http",
-        "127.0.0.1:0",
-        "--threads",
-        str(THREADS),
-        "--token-file",
-        tokens,
-        "--ready-file",
-        ready,
-        "--record-dir",
-        records,
-        "--record-limit",
-        "20000000",
-        "--grace",
-        str(GRACE),
-        "--log-level",
-        "error",
-    ]
-    limited = (
-        b"--max-memory"
-        in subprocess.run([build / "racebeam", "serve", "--help"], capture_output=True, check=True).stdout
-    )
-    if limited:
-        command += ["--max-memory", f"{MEMORY}M"]
-    server = subprocess.Popen(command, stdin=subprocess.DEVNULL)
-    while not ready.exists():
-        if server.poll() is not None:
-            sys.exit("load: the server did not start")
-        time.sleep(0.02)
-    port, http = (int(found) for found in re.findall(r":(\d+)$", ready.read_text(), re.MULTILINE)[:2])
-    return server, port, http, records, limited
+class Target(crowd.Server):
+    """The server that is attacked. records: the folder of its recordings."""
 
+    def __init__(self, build):
+        super().__init__(build, grace=GRACE, log_level="error")
+        tokens, self.records = self.place / "tokens", self.place / "records"
+        tokens.write_bytes(TOKEN + b"\n")
+        tokens.chmod(0o600)
+        self.records.mkdir()
+        self.command += ["--http", "127.0.0.1:0", "--threads", str(THREADS), "--max-memory", f"{MEMORY}M"]
+        self.command += ["--token-file", tokens, "--record-dir", self.records, "--record-limit", "20000000"]
 
-def peak_memory(server):
-    """The highest resident memory, in MiB."""
-    with open(f"/proc/{server.pid}/status") as status:
-        return next(int(line.split()[1]) for line in status if line.startswith("VmHWM")) / 1024
+    def peak_memory(self):
+        """The highest resident memory, in MiB."""
+        with open(f"/proc/{self.process.pid}/status") as status:
+            return next(int(line.split()[1]) for line in status if line.startswith("VmHWM")) / 1024
 
 
 def percentile(waits, share):
@@ -217,21 +184,14 @@ def show_waits(name, waits):
     )
 
 
-def time_to_end(server):
-    start = time.monotonic()
-    server.terminate()
-    try:
-        server.wait(30)
-    except subprocess.TimeoutExpired:
-        server.kill()
-    return time.monotonic() - start
-
-
-def measure(attack, server, port, http, records, seconds):
-    watchers = {"bystander": Helper(watch, Bystander(port), 0.003), "/healthz": Helper(watch, Health(http), 0.05)}
-    attackers = Helper(attack_all, attack, port, records)
+def measure(attack, server, seconds):
+    watchers = {
+        "bystander": Helper(watch, Bystander(server.port), 0.003),
+        "/healthz": Helper(watch, Health(server.http), 0.05),
+    }
+    attackers = Helper(attack_all, attack, server.port, server.records)
     if attack is HOARDERS:
-        watchers["newcomer"] = Helper(watch, Newcomers(port), 0.2)
+        watchers["newcomer"] = Helper(watch, Newcomers(server.port), 0.2)
     time.sleep(seconds)
     print(f"{'':14}{'asked':>8}" + "".join(f"{key:>10}" for key in ("p50 ms", "p99 ms", "max ms")))
     found = {}
@@ -241,18 +201,16 @@ def measure(attack, server, port, http, records, seconds):
         found |= {name + " p99": percentile(waits, 0.99), name + " max": max(waits)}
     replies = attackers.ask()
     print("attackers got: " + ", ".join(f"{count} {kind}" for kind, count in sorted(replies.items())))
-    found["memory"] = peak_memory(server)
-    found["SIGTERM"] = time_to_end(server)
+    found["memory"] = server.peak_memory()
+    found["SIGTERM"] = server.stop()
     attackers.process.terminate()
     return found
 
 
-def judge(found, limited):
+def judge(found):
     """Prints whether each goal has been reached. Returns whether all have."""
     units = {"memory": "MiB", "SIGTERM": "s"}
-    goals_met = {
-        name: found[name] < goal or (name == "memory" and not limited) for name, goal in GOALS.items() if name in found
-    }
+    goals_met = {name: found[name] < goal for name, goal in GOALS.items() if name in found}
     for name, good in goals_met.items():
         print(
             f"{name:14}{found[name]:10.2f} {units.get(name, 'ms'):4} below {GOALS[name]:4}: "
@@ -264,18 +222,11 @@ def judge(found, limited):
 def attack_one(name, attack, build, seconds):
     """Returns whether the server has withstood it."""
     print(f"\n{name}: {len(attack)} attackers")
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        server, port, http, records, limited = start_server(build, folder)
-        try:
-            found = measure(attack, server, port, http, records, seconds)
-        finally:
-            server.kill()
-            status = server.wait()
-    if not limited:
-        print("this server has no --max-memory: its memory is not limited")
-    is_sound = judge(found, limited)
-    print(f"the server ended with status {status}")
-    return is_sound and status == 0
+    with Target(build) as server:
+        found = measure(attack, server, seconds)
+    is_sound = judge(found)
+    print(f"the server ended with status {server.status}")
+    return is_sound and server.status == 0
 
 
 def run(build, seconds):

@@ -19,7 +19,6 @@ import random
 import re
 import statistics
 import sys
-import tempfile
 import threading
 import time
 import urllib.request
@@ -133,9 +132,9 @@ def time_requests(ask_once, pause, orders, answers):
 class Watchers:
     """The bystander and the reader of /healthz, which stay."""
 
-    def __init__(self, port, http):
-        self.bystander = hostile.Helper(time_requests, hostile.Bystander(port), 0.005)
-        self.health = hostile.Helper(time_requests, hostile.Health(http), 0.1)
+    def __init__(self, server):
+        self.bystander = hostile.Helper(time_requests, hostile.Bystander(server.port), 0.005)
+        self.health = hostile.Helper(time_requests, hostile.Health(server.http), 0.1)
 
     def end(self):
         for helper in (self.bystander, self.health):
@@ -143,13 +142,14 @@ class Watchers:
 
 
 @contextlib.contextmanager
-def load(port, http, folder):
+def load(server):
     """What uses the server, until it is killed."""
+    place = (server.port, server.records)
     helpers = [
-        hostile.Helper(run_threads, [(play_on, port, folder)] * PLAYERS),
-        hostile.Helper(run_threads, [(share, port, folder)]),
-        hostile.Helper(hostile.attack_all, list(ATTACKS.values()), port, folder),
-        hostile.Helper(run_threads, [(watch, http)] * WATCHERS),
+        hostile.Helper(run_threads, [(play_on, *place)] * PLAYERS),
+        hostile.Helper(run_threads, [(share, *place)]),
+        hostile.Helper(hostile.attack_all, list(ATTACKS.values()), *place),
+        hostile.Helper(run_threads, [(watch, server.http)] * WATCHERS),
     ]
     try:
         yield
@@ -161,7 +161,7 @@ def load(port, http, folder):
 
 def resources(server):
     """Returns MiB of resident memory, open files and threads."""
-    place = pathlib.Path(f"/proc/{server.pid}")
+    place = pathlib.Path(f"/proc/{server.process.pid}")
     status = dict(re.findall(r"^(\w+):\s*(\d+)", (place / "status").read_text(), re.MULTILINE))
     return int(status["VmRSS"]) / 1024, len(list((place / "fd").iterdir())), int(status["Threads"])
 
@@ -226,9 +226,9 @@ def write_interval(path, row):
         table.writerow({name: round(value, 3) for name, value in row.items()})
 
 
-def measure_interval(server, watchers, interval, *place):
+def measure_interval(server, watchers, interval):
     """An interval of load, and a rest. Returns its figures by the name of their column."""
-    with load(*place):
+    with load(server):
         time.sleep(interval)
         resident, files, threads = resources(server)
         row = latencies(watchers, interval)
@@ -245,12 +245,12 @@ def measure_interval(server, watchers, interval, *place):
     }
 
 
-def follow(server, watchers, hours, interval, table, *place):
+def follow(server, watchers, hours, interval, table):
     """Returns the rows of all intervals, until the time is over or the server has ended."""
     rows, begin = [], time.monotonic()
     while time.monotonic() - begin < hours * 3600:
         try:
-            row = measure_interval(server, watchers, interval, *place)
+            row = measure_interval(server, watchers, interval)
         except (EOFError, OSError):  # the server has ended, and so has the bystander
             break
         rows.append({"seconds": time.monotonic() - begin, **row})
@@ -260,23 +260,19 @@ def follow(server, watchers, hours, interval, table, *place):
 
 def measure(build, hours, interval, table):
     """Returns the rows of all intervals, and whether the server has lasted and ended with status 0."""
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        server, port, http, records, _ = hostile.start_server(build, folder)
-        watchers = Watchers(port, http)
+    with hostile.Target(build) as server:
+        watchers = Watchers(server)
         try:
-            rows = follow(server, watchers, hours, interval, table, port, http, records)
-            has_lasted = server.poll() is None
+            rows = follow(server, watchers, hours, interval, table)
+            has_lasted = server.process.poll() is None
             if has_lasted:
-                show_totals(http)
-            watchers.end()
-            took = hostile.time_to_end(server)
+                show_totals(server.http)
         finally:
             watchers.end()
-            server.kill()
-            status = server.wait()
+        took = server.stop()
     when = f"{took:.1f} s after SIGTERM" if has_lasted else "before its time"
-    print(f"the server ended with status {status}, {when}")
-    return rows, has_lasted and status == 0
+    print(f"the server ended with status {server.status}, {when}")
+    return rows, has_lasted and server.status == 0
 
 
 def run(build, hours, interval, into):
