@@ -14,16 +14,13 @@ import sys
 import threading
 import time
 
+from crowd import processor_seconds
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests/server"), str(ROOT / "tests/server/web")]
 GOAL = 0.95  # of the acts a second without watchers
 AHEAD = 16
 ACTS = b"act FIRE\nact RIGHT\nact LEFT\nact UP\n" * (AHEAD // 4)
-
-
-def processor_seconds(process):
-    fields = pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / 100
 
 
 def watch(port, stop, seen):
@@ -94,7 +91,9 @@ def measure(watchers, seconds):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="scripts/bench watchers", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument(
         "--watchers", type=int, nargs="+", default=[0, 1, 16], metavar="N", help="how many; the first is the base"
     )

@@ -14,6 +14,12 @@ LOAD = "load beamfall seed=1 sticky=0 max_episode_frames=0"
 OBSERVE = "observe reward terminated truncated ram screen:rle"
 
 
+def processor_seconds(process):
+    """The seconds of all threads of a process, in the program and in the kernel. process: its number."""
+    stat = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    return (int(stat[11]) + int(stat[12])) / os.sysconf("SC_CLK_TCK")
+
+
 class Server:
     """A server for TCP on this machine, from `with` to its end. processors: those that it may use; None: all. grace: in
     seconds. port, http: where it listens; http is None without the option --http. status, warnings: its status at its
@@ -77,9 +83,7 @@ class Server:
             return next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
 
     def processor_seconds(self):
-        """Returns the seconds of all its threads, in the program and in the kernel."""
-        stat = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rpartition(")")[2].split()
-        return (int(stat[11]) + int(stat[12])) / os.sysconf("SC_CLK_TCK")
+        return processor_seconds(self.process.pid)
 
 
 class Crowd:
