@@ -78,9 +78,8 @@ def verdict(first: Sample, second: Sample) -> str:
 def welch(first: Sample, second: Sample) -> float:
     """The two-tailed p-value of Welch's t-test. At least one sample varies."""
     with warnings.catch_warnings():
-        warnings.simplefilter(
-            "ignore", RuntimeWarning
-        )  # of nearly equal values, whose p-value is right to fewer digits
+        # Of nearly equal values, whose p-value is right to fewer digits.
+        warnings.simplefilter("ignore", RuntimeWarning)
         return float(scipy.stats.ttest_ind(first, second, equal_var=False).pvalue)
 
 

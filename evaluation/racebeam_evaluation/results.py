@@ -46,9 +46,7 @@ class Results:
     """The episodes of one or more folders."""
 
     episodes: pd.DataFrame  # a row for each evaluation episode; the columns of _RESULTS
-    curves: (
-        pd.DataFrame | None
-    )  # a row for each training episode; the columns of _CURVES; None without training episodes
+    curves: pd.DataFrame | None  # a row for each training episode; the columns of _CURVES; None without any
     sources: tuple[Source, ...]  # of episodes
     curve_sources: tuple[Source, ...]
     notes: tuple[str, ...] = ()  # sentences on what the folders' plans say differently

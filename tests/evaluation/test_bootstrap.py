@@ -131,7 +131,6 @@ class TestBootstrap:
         constant = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(5), np.full(3, 2.0)]))
         assert constant.low.tolist() == constant.high.tolist()
         single = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(1), np.array([1.0, 2, 3])]))
-        assert single.value[2] == pytest.approx(
-            5 / 6 * 1 + 1 / 6 * 2, rel=0, abs=0.5e-7
-        )  # of the weights 4/3, 1/3 and 1/3, the middle half
+        # The middle half of the weights 4/3, 1/3 and 1/3.
+        assert single.value[2] == pytest.approx(5 / 6 * 1 + 1 / 6 * 2, rel=0, abs=0.5e-7)
         assert np.isnan(single.low).all()

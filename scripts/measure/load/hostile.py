@@ -20,13 +20,8 @@ import processor
 from attacks import ATTACKS, HOARDERS, STRANGERS, TOKEN, Session
 
 SESSIONS, THREADS, GRACE, MEMORY = 64, 2, 2, 512
-GOALS = {
-    "bystander p99": 20,
-    "/healthz p99": 50,
-    "newcomer max": 1000,
-    "memory": MEMORY,
-    "SIGTERM": GRACE + 1,
-}  # ms, MiB, s
+# In milliseconds, except memory, which is in MiB, and SIGTERM, which is in seconds.
+GOALS = {"bystander p99": 20, "/healthz p99": 50, "newcomer max": 1000, "memory": MEMORY, "SIGTERM": GRACE + 1}
 REQUESTS = [function for number, function in zip(range(SESSIONS), itertools.cycle(ATTACKS.values()))]
 
 
