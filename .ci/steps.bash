@@ -14,7 +14,7 @@ run() {
   "$@" 2>&1 | tee "$log" || status=$?
   steps=$((steps + 1)) times+=("$((SECONDS - began)) $name")
   last=$(tail -n 1 "$log")
-  if [[ $last =~ ^([0-9]+)\ passed,\ ([0-9]+)\ failed,\ ([0-9]+)\ skipped$ ]]; then
+  if [[ $last =~ ^([0-9]+)\ passed,\ ([0-9]+)\ failed,\ ([0-9]+)\ (skipped|left\ something\ out)$ ]]; then
     passed=$((passed + BASH_REMATCH[1])) failed=$((failed + BASH_REMATCH[2])) skipped=$((skipped + BASH_REMATCH[3]))
   fi
   if ((status == 77)); then
