@@ -20,33 +20,36 @@ import tempfile
 import time
 import zlib
 
-GAMES = "pong,breakout,seaquest,qbert,ms_pacman,freeway,asterix,beam_rider,space_invaders,up_n_down"
+import_error = None
+try:
+    import numpy as np
+    from ale_py import ALEInterface, LoggerMode
+    from ale_py.vector_env import AtariVectorEnv as Reference
+    from racebeam import AtariVectorEnv, images, program
 
-parser = argparse.ArgumentParser(
-    prog="scripts/bench vector", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-)
-parser.add_argument("--games", default=GAMES, help=f"A,B (default {GAMES})")
-parser.add_argument("--envs", default="16,64", help="numbers of environments (default 16,64)")
-parser.add_argument(
-    "--steps", type=int, default=1600, help="steps per chunk, of all environments together (default 1600)"
-)
-parser.add_argument("--chunks", type=int, default=7, help="chunks per game (default 7)")
-parser.add_argument(
-    "--only", choices=("alone", "servers", "learner"), help="one of the comparisons (default: all of them)"
-)
-options = parser.parse_args()
-
-import numpy as np  # noqa: E402
-from ale_py import ALEInterface, LoggerMode  # noqa: E402
-from ale_py.vector_env import AtariVectorEnv as Reference  # noqa: E402
-from racebeam import AtariVectorEnv, images, program  # noqa: E402
-
+    random = np.random.default_rng(1)
+except ImportError as error:
+    import_error = error
 try:
     import envpool
 except ImportError:
     envpool = None
 
-random = np.random.default_rng(1)
+GAMES = "pong,breakout,seaquest,qbert,ms_pacman,freeway,asterix,beam_rider,space_invaders,up_n_down"
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(
+        prog="scripts/bench vector", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--games", default=GAMES, help=f"A,B (default {GAMES})")
+    parser.add_argument("--envs", default="16,64", help="numbers of environments (default 16,64)")
+    parser.add_argument(
+        "--steps", type=int, default=1600, help="steps per chunk, of all environments together (default 1600)"
+    )
+    parser.add_argument("--chunks", type=int, default=7, help="chunks per game (default 7)")
+    parser.add_argument("--only", choices=COMPARISONS, help="one of the comparisons (default: all of them)")
+    return parser.parse_args()
 
 
 def play_together(envs, count, steps):
@@ -97,7 +100,7 @@ def players(game, count):
     }
 
 
-def measure(game, count):
+def measure(game, count, options):
     """The steps a second of each, and the ratio."""
     everyone, times = players(game, count), {}
     state = random.bit_generator.state
@@ -153,7 +156,7 @@ def server(image):
             process.wait()
 
 
-def measure_servers(game, count):
+def measure_servers(game, count, options):
     """Steps a second in this process, over a Unix socket and over TCP."""
     with server(images.find(game)) as addresses, contextlib.ExitStack() as stack:
         everyone = [
@@ -206,7 +209,7 @@ def step_times(envs, count, steps):
     return times
 
 
-def measure_beside_learner(game, count):
+def measure_beside_learner(game, count, options):
     """Microseconds of a step, as a median and a 99th percentile, alone and beside a learner."""
     everyone = {
         "ale_py": Reference(game, count),
@@ -232,22 +235,22 @@ def measure_beside_learner(game, count):
     return rows
 
 
-def compare_alone(count):
+def compare_alone(count, options):
     ratios = []
     for game in options.games.split(","):
-        speeds, ratio = measure(game, count)
+        speeds, ratio = measure(game, count, options)
         if not ratios:
             print(f"{f'{count} environments':<18}" + "".join(f"{name:>16}" for name in speeds) + f"{'ratio':>8}")
         ratios.append(ratio)
         print(f"{game:<18}" + "".join(f"{speed:16.0f}" for speed in speeds.values()) + f"{ratio:8.2f}", flush=True)
-    print(f"{'mean':<18}{statistics.mean(ratios):{16 * len(speeds) + 8}.2f}   least {min(ratios):.2f}")
+    print(f"{'geometric mean':<18}{statistics.geometric_mean(ratios):{16 * len(speeds) + 8}.2f}   least {min(ratios):.2f}")
 
 
-def compare_servers(count):
+def compare_servers(count, options):
     print(f"{f'{count} environments':<18}{'in process':>16}{'Unix':>16}{'TCP':>16}{'Unix':>8}{'TCP':>8}")
     ratios = []
     for game in options.games.split(","):
-        speeds = measure_servers(game, count)
+        speeds = measure_servers(game, count, options)
         ratios.append([speed / speeds[0] for speed in speeds[1:]])
         print(
             f"{game:<18}"
@@ -255,13 +258,13 @@ def compare_servers(count):
             + "".join(f"{ratio:8.2f}" for ratio in ratios[-1]),
             flush=True,
         )
-    print(f"{'mean':<66}" + "".join(f"{statistics.mean(column):8.2f}" for column in zip(*ratios)))
+    print(f"{'geometric mean':<66}" + "".join(f"{statistics.geometric_mean(column):8.2f}" for column in zip(*ratios)))
 
 
-def compare_beside_learner(count):
+def compare_beside_learner(count, options):
     print(f"{f'{count} environments':<30}{'us of a step':>14}{'p99':>8}{'beside a learner':>18}{'p99':>8}")
     for game in options.games.split(","):
-        for name, (alone, late, beside, late_beside) in measure_beside_learner(game, count).items():
+        for name, (alone, late, beside, late_beside) in measure_beside_learner(game, count, options).items():
             print(f"{game:<18}{name:<12}{alone:14.0f}{late:8.0f}{beside:18.0f}{late_beside:8.0f}", flush=True)
 
 
@@ -294,8 +297,17 @@ def python_alone():
 
 COMPARISONS = {"alone": compare_alone, "servers": compare_servers, "learner": compare_beside_learner}
 
-ALEInterface.setLoggerMode(LoggerMode.Error)
-for compare in [COMPARISONS[options.only]] if options.only else COMPARISONS.values():
-    for count in map(int, options.envs.split(",")):
-        compare(count)
-print(f"only Python takes {python_alone():.1f} us of a step")
+
+def main():
+    options = parse_arguments()
+    if import_error:
+        raise SystemExit(f"bench: {import_error}; scripts/wheel --venv installs it")
+    ALEInterface.setLoggerMode(LoggerMode.Error)
+    for compare in [COMPARISONS[options.only]] if options.only else COMPARISONS.values():
+        for count in map(int, options.envs.split(",")):
+            compare(count, options)
+    print(f"only Python takes {python_alone():.1f} us of a step")
+
+
+if __name__ == "__main__":
+    main()
