@@ -235,8 +235,8 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
     }
     const Impl::Entry entry = impl_->find_entry(board);
     const std::int32_t minimum = entry.place == Impl::Place::kImage ? 1 : tuning::kOutsideImage;
-    const std::int32_t run = entry.start != nullptr ? impl_->run_block(board, entry.start)
-                                                    : impl_->interpreted_run.next(minimum);
+    const std::int32_t run =
+        entry.start != nullptr ? impl_->run_block(board, entry.start) : impl_->interpreted_run.next(minimum);
     if (run == 0 || board.stop) continue;
     const bool ends_exactly = run == 1 || remaining < run + tuning::kRunSlack;
     const std::int32_t enough = std::min(run, remaining);
