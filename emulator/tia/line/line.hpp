@@ -18,8 +18,8 @@ enum Color : unsigned { kColup0, kColup1, kColupf, kColubk };  // indices of Tia
 
 struct Line {
   std::array<PixelMask, kObjects> mask;  // by Object
-  Collisions overlaps = 0;  // the pairs whose masks share pixels
-  TiaRegisters shown;       // the registers that the masks were made from
+  Collisions overlaps = 0;               // the pairs whose masks share pixels
+  TiaRegisters shown;                    // the registers that the masks were made from
 
   std::uint8_t outdated(const TiaRegisters& tia) const;     // objects whose registers have changed since
   void refresh(const TiaState& tia, std::uint8_t objects);  // rebuilds the masks of these objects
