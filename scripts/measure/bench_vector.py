@@ -243,7 +243,8 @@ def compare_alone(count, options):
             print(f"{f'{count} environments':<18}" + "".join(f"{name:>16}" for name in speeds) + f"{'ratio':>8}")
         ratios.append(ratio)
         print(f"{game:<18}" + "".join(f"{speed:16.0f}" for speed in speeds.values()) + f"{ratio:8.2f}", flush=True)
-    print(f"{'geometric mean':<18}{statistics.geometric_mean(ratios):{16 * len(speeds) + 8}.2f}   least {min(ratios):.2f}")
+    mean = statistics.geometric_mean(ratios)
+    print(f"{'geometric mean':<18}{mean:{16 * len(speeds) + 8}.2f}   least {min(ratios):.2f}")
 
 
 def compare_servers(count, options):
