@@ -62,6 +62,11 @@ class TestRegistration:
         assert self.warnings_of(skip(gym.make(every_frame), 4)) == []
         assert self.warnings_of(gym.make("racebeam/Beamfall-v5")) == []
 
+    def test_a_wrapper_may_reset_before_it_has_its_environment(self):
+        env = gym.make("racebeam/Beamfall-v5", obs_type="ram", render_mode="rgb_array")
+        seen, _ = gym.wrappers.AddRenderObservation(env, render_only=False).reset(seed=1)
+        assert seen["pixels"].shape == (210, 160, 3)
+
     @pytest.mark.needs_modules("cv2")
     def test_AtariPreprocessing_that_skips_twice_is_warned_of(self):
         every_frame, wrap = gym.make("racebeam/BeamfallNoFrameskip-v4"), gym.wrappers.AtariPreprocessing

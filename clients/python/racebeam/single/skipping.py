@@ -44,9 +44,14 @@ def _wrappers_on_stack(env: gymnasium.Env[Any, Any]) -> list[gymnasium.Wrapper[A
     while frame.f_back is not None:
         frame = frame.f_back
         caller = frame.f_locals.get("self")
-        if isinstance(caller, gymnasium.Wrapper) and caller.unwrapped is env:
+        if isinstance(caller, gymnasium.Wrapper) and _wraps(caller, env):
             wrappers[id(caller)] = caller
     return list(wrappers.values())
+
+
+def _wraps(wrapper: gymnasium.Wrapper[Any, Any, Any, Any], env: gymnasium.Env[Any, Any]) -> bool:
+    """Returns whether a wrapper is around an environment. One whose constructor still runs may not have it yet."""
+    return "env" in vars(wrapper) and wrapper.unwrapped is env
 
 
 def _skip_of(wrapper: gymnasium.Wrapper[Any, Any, Any, Any]) -> int:
