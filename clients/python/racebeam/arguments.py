@@ -205,6 +205,13 @@ def flag(name: str, value: Any) -> bool:
         raise WrongType(f"{name} is {value!r}; it takes True or False") from None
 
 
+def _float(value: Any) -> float:
+    """Converts a number, and refuses texts, which float() parses."""
+    if isinstance(value, (str, bytes, bytearray)):
+        raise TypeError
+    return float(value)
+
+
 def share(name: str, value: Any) -> float:
     """Checks a probability.
 
@@ -220,7 +227,7 @@ def share(name: str, value: Any) -> float:
         WrongValue: If `value` is not from 0 to 1.
     """
     try:
-        number = float(value)
+        number = _float(value)
     except (TypeError, ValueError):
         raise WrongType(f"{name} is {value!r}; it takes a number from 0 to 1") from None
     if not 0 <= number <= 1:
@@ -243,7 +250,7 @@ def real(name: str, value: Any) -> float:
         WrongValue: If `value` is NaN.
     """
     try:
-        number = float(value)
+        number = _float(value)
     except (TypeError, ValueError, OverflowError):
         raise WrongType(f"{name} is {value!r}; it takes a number") from None
     if math.isnan(number):

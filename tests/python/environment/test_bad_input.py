@@ -45,7 +45,7 @@ class TestBadInput:
         self.check_refusal(racebeam.InvalidInput, "preset 'dqn'", make, "beamfall", preset="dqn")
         self.check_refusal(racebeam.InvalidInput, r"preset \[1\]", make, "beamfall", preset=[1])
         self.check_refusal(racebeam.InvalidInput, "^rules .*5", make, "beamfall", rules=5)
-        for probability in (2, -0.5, "x", float("nan"), [0.5]):
+        for probability in (2, -0.5, "x", "0.5", b"0.5", float("nan"), [0.5]):
             self.check_refusal(
                 wrong, "repeat_action_probability is", make, "beamfall", repeat_action_probability=probability
             )
@@ -56,7 +56,7 @@ class TestBadInput:
             ("noop_max", (1.5, -1, 10**12)),
             ("frameskip", (2**31, (1, 2**31), (1.0, 2), True)),
             ("server", (5, ["unix:x"])),
-            ("continuous_action_threshold", ("x", float("nan"), None)),
+            ("continuous_action_threshold", ("x", "0.5", float("nan"), None)),
             ("timeout", ("x", 0, -1, float("nan"))),
         ):
             for value in values:
