@@ -68,6 +68,24 @@ class TestLogs:
                 write_log(self.path, "beamfall", [0], seed=seed, frame_skip=4)
         assert not self.path.exists()
 
+    def test_actions_are_numbers_or_members(self):
+        members = [racebeam.Action.FIRE, racebeam.ConsoleAction.SELECT, racebeam.Action.LEFT]
+        assert members[0].value == 1
+        expected = replay("beamfall", [member.value for member in members], seed=1, frame_skip=4)
+        assert replay("beamfall", members, seed=1, frame_skip=4) == expected
+        assert replay("beamfall", iter(members), seed=1, frame_skip=4) == expected
+        write_log(self.path, "beamfall", iter(members), seed=1, frame_skip=4, max_episode_frames=12)
+        assert contents(self.path.read_bytes())[1][-3:] == bytes(member.value for member in members)
+        for action in ("FIRE", 1.0, None):
+            with pytest.raises(TypeError, match=rf"actions\[1\] is {action!r}; it takes a member of Action"):
+                replay("beamfall", [0, action], seed=1, frame_skip=4)
+
+    def test_an_agent_that_verify_would_refuse_is_refused(self):
+        for words in ({"agent": "a b"}, {"agent": ""}, {"agent": "é"}, {"agent": 3}, {"agent_seed": -1}):
+            with pytest.raises(InvalidInput, match=f"{next(iter(words))} is .*; it takes"):
+                write_log(self.path, "beamfall", [1] * 20, seed=1, frame_skip=4, max_episode_frames=40, **words)
+        assert not self.path.exists()
+
     def test_states_that_are_equal_have_one_hash(self):
         one, other = (replay("beamfall", actions, seed=1, frame_skip=1) for actions in ([1] * 256, [1] * 300))
         assert (len(one.hashes), len(other.hashes)) == (2, 2)

@@ -5,11 +5,13 @@ from __future__ import annotations
 import hashlib
 import importlib.metadata
 import itertools
+import operator
 import os
+import re
 import struct
 import zlib
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
 
 from . import _core, images
 from .errors import InvalidInput
@@ -20,6 +22,8 @@ __all__ = ["Episode", "replay", "write_log"]
 MAGIC, FORMAT = b"RBEPISOD", 1
 DECISIONS_PER_HASH = 256
 MOST_SEED = 2**32 - 2  # ALE takes the next one for the time of day
+MOST_AGENT_SEED = 2**32 - 1
+AGENT = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 
 
 class Episode(NamedTuple):
@@ -211,18 +215,47 @@ def log_of(
     return log, row | {"state_hash": f"{episode.hashes[-1]:016x}", "log_digest": digest}
 
 
+def check_agent(name: object) -> str:
+    """Checks the name of an agent, which is a part of the names of folders.
+
+    Args:
+        name: The name.
+
+    Returns:
+        The name.
+
+    Raises:
+        InvalidInput: If it is not a text of 1 to 64 letters, digits, "-", "_" and ".", a letter or a digit first.
+    """
+    if not isinstance(name, str) or not AGENT.fullmatch(name):
+        raise InvalidInput(
+            f"agent is {name!r}; it takes 1 to 64 letters, digits, '-', '_' and '.', a letter or a digit first"
+        )
+    return name
+
+
+def _numbers_of(actions: Iterable[Any]) -> list[int]:
+    numbers = []
+    for index, action in enumerate(actions):
+        try:
+            numbers.append(operator.index(getattr(action, "value", action)))
+        except TypeError:
+            raise TypeError(f"actions[{index}] is {action!r}; it takes a member of Action, or its number") from None
+    return numbers
+
+
 def _words(pairs: dict[str, str]) -> str:
     return " ".join(f"{key}={value}" for key, value in pairs.items())
 
 
 def replay(
-    game: str, actions: Sequence[int], *, seed: int, frame_skip: int, sticky: float = 0.0, max_episode_frames: int = 0
+    game: str, actions: Iterable[Any], *, seed: int, frame_skip: int, sticky: float = 0.0, max_episode_frames: int = 0
 ) -> Episode:
     """Plays actions in this process, from power-on to the end of the episode.
 
     Args:
         game: Name of the game.
-        actions: Numbers of `Action`, 0 to 17, and of `ConsoleAction`, 18 to 25.
+        actions: Members of `Action` and of `ConsoleAction`, or their numbers, 0 to 17 and 18 to 25.
         seed: Seed of `load`, from 0 to 2**32 - 2.
         frame_skip: Frames of an action.
         sticky: Probability that a frame repeats the previous action.
@@ -235,19 +268,20 @@ def replay(
         UnknownGame: If no game has this name.
         MissingImage: If no image of the game is found.
         InvalidInput: If the seed, an action or a setting is out of range.
+        TypeError: If an action is neither a member nor a number.
 
     Examples:
         >>> from racebeam.episode_log import replay
         >>> replay("beamfall", [1] * 10, seed=7, frame_skip=4).frames
         40
     """
-    return play(Start(game, seed, frame_skip, sticky, max_episode_frames), actions)
+    return play(Start(game, seed, frame_skip, sticky, max_episode_frames), _numbers_of(actions))
 
 
 def write_log(
     path: str | os.PathLike[str],
     game: str,
-    actions: Sequence[int],
+    actions: Iterable[Any],
     *,
     seed: int,
     frame_skip: int,
@@ -261,29 +295,34 @@ def write_log(
     Args:
         path: Path of the log. It ends in ".episode".
         game: Name of the game.
-        actions: Numbers of `Action`, 0 to 17, up to the end of the episode.
+        actions: Members of `Action` and of `ConsoleAction`, or their numbers, up to the end of the episode.
         seed: Seed of `load`, from 0 to 2**32 - 2.
         frame_skip: Frames of an action.
         sticky: Probability that a frame repeats the previous action.
         max_episode_frames: Frames after which the episode is truncated; 0 for no limit.
-        agent: Name of the agent, a word.
-        agent_seed: Seed of the agent.
+        agent: Name of the agent: letters, digits, "_", "." and "-".
+        agent_seed: Seed of the agent, from 0 to 2**32 - 1.
 
     Returns:
         How the episode ended.
 
     Raises:
-        InvalidInput: If the episode is not over after the actions, or `replay` raises it.
+        InvalidInput: If the episode is not over after the actions, the agent is wrong, or `replay` raises it.
+        TypeError: If an action is neither a member nor a number.
         OSError: If the file cannot be written.
     """
     name = os.fspath(path)
     if not name.endswith(".episode"):
         raise InvalidInput(f"the log is {name!r}; its name must end in .episode")
+    if not 0 <= agent_seed <= MOST_AGENT_SEED:
+        raise InvalidInput(f"agent_seed is {agent_seed}; it takes 0 to {MOST_AGENT_SEED}")
+    origin = Origin(check_agent(agent), agent_seed=agent_seed)
     start = Start(game, seed, frame_skip, sticky, max_episode_frames)
-    episode = play(start, actions)
+    numbers = _numbers_of(actions)
+    episode = play(start, numbers)
     if not episode.is_over:
-        raise InvalidInput(f"the episode is not over after {len(actions)} actions; a log has a whole episode")
-    log, _ = log_of(start, actions, episode, Origin(agent, agent_seed=agent_seed))
+        raise InvalidInput(f"the episode is not over after {len(numbers)} actions; a log has a whole episode")
+    log, _ = log_of(start, numbers, episode, origin)
     with open(name, "wb") as file:
         file.write(log)
     return episode
