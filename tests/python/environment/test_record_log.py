@@ -238,6 +238,14 @@ class TestSubmissions:
         if os.path.exists(harness.BINARY):
             assert self.verify()[0] == 0
 
+    @pytest.mark.needs_program
+    def test_numbers_of_numpy_and_any_words_are_written(self):
+        about = {"words": 'A "quoted"\x7f text\n', "role": "baseline", "link": "https://example.org/a"}
+        env = RecordLog(racebeam.AtariEnv("beamfall"), self.folder, training_frames=np.int64(5), about=about)
+        play_games(env, 1)
+        assert "training_frames = 5\n" in (self.folder / "agent.toml").read_text()
+        assert self.verify()[0] == 0
+
     def test_bad_arguments_are_refused_and_leave_nothing(self):
         for words in ({"trial": 0}, {"trial": "x"}, {"trial": 2**31}, {"agent_seed": -1}, {"agent_seed": 2**32}):
             with pytest.raises((ValueError, TypeError), match=f"{next(iter(words))} is .*; it takes"):
@@ -245,6 +253,27 @@ class TestSubmissions:
         for agent in ("", "../x", "a b", "a/b", "x" * 65):
             with pytest.raises(InvalidInput, match="agent is"):
                 self.record(agent=agent)
+        for words in (
+            {"agent": 3},
+            {"version": 3},
+            {"version": None},
+            {"training_frames": -1},
+            {"training_frames": 1.5},
+            {"training_frames": 10**15},
+            {"phrase": ""},
+            {"phrase": 3},
+            {"phrase": "a\nb"},
+            {"phrase": "é" * 501},
+            {"about": [1]},
+            {"about": {"colour": "red"}},
+        ):
+            with pytest.raises((InvalidInput, TypeError, ValueError), match=f"{next(iter(words))} is .*; it takes"):
+                RecordLog(racebeam.AtariEnv("beamfall"), self.folder, **words)
+        for key, word in (("words", 3), ("role", "boss"), ("link", "example.org")):
+            with pytest.raises((InvalidInput, TypeError, ValueError), match=f"{key} is {word!r}; it takes"):
+                RecordLog(racebeam.AtariEnv("beamfall"), self.folder, about={key: word})
+        with pytest.raises(TypeError, match="folder is 3; it takes a path"):
+            RecordLog(racebeam.AtariEnv("beamfall"), 3)
         for arguments in (
             {"frameskip": (2, 5)},
             {"noop_max": 30},
@@ -256,7 +285,7 @@ class TestSubmissions:
 
     def test_two_programs_cannot_share_a_folder(self):
         self.record(1)
-        with pytest.raises(FileExistsError):
+        with pytest.raises(FileExistsError, match="takes a new folder, and this one exists"):
             self.record(1)
         if os.path.exists(harness.BINARY):
             assert self.verify()[0] == 0

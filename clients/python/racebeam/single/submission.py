@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import json
 import os
 import pathlib
-import re
 import sys
 import time
-from typing import IO
+from typing import IO, Any
 
+from ..arguments import WrongType
 from ..episode_log import Episode, Origin, Start, log_of
-from ..errors import InvalidInput
+from .agent_file import agent_file
 
 if sys.platform == "win32":
     import msvcrt
 else:
     import fcntl
 
-NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 COLUMNS = (
     "unit,game,image_md5,agent,trial,episode,environment_seed,agent_seed,score,frames,decisions,end,lives,state_hash,"
     "log_digest,version"
@@ -48,8 +46,9 @@ class Submission:
         about: Other keys of agent.toml: "words", "link" and "role".
 
     Raises:
-        InvalidInput: If the name of the agent is wrong.
-        TypeError: If an argument has a wrong type.
+        InvalidInput: If the name of the agent, the phrase or the link is wrong.
+        WrongType: If an argument has a wrong type, or `about` has another key.
+        WrongValue: If the number or the role is out of range.
         FileExistsError: If the folder exists.
         OSError: If the folder cannot be made.
     """
@@ -65,21 +64,8 @@ class Submission:
         phrase: str | None = None,
         about: dict[str, str] | None = None,
     ) -> None:
-        if not NAME.fullmatch(agent):
-            raise InvalidInput(
-                f"agent is {agent!r}; it takes 1 to 64 letters, digits, '-', '_' and '.', a letter or a digit first"
-            )
-        words: dict[str, object] = {
-            "agent": agent,
-            "version": version,
-            "preset": _preset_of(start),
-            "training_frames": training_frames,
-            **({} if phrase is None else {"phrase": phrase}),
-            **(about or {}),
-        }
-        text = "".join(f"{key} = {json.dumps(word, ensure_ascii=False)}\n" for key, word in words.items())
-        self._folder = pathlib.Path(folder)
-        self._folder.mkdir()
+        text = agent_file(agent, version, _preset_of(start), training_frames, phrase, about)
+        self._folder = _new_folder(folder)
         _write(self._folder / "agent.toml", text)
         _write(self._folder / "results.csv", COLUMNS + "\n")
 
@@ -106,6 +92,18 @@ class Submission:
         except OSError:
             path.unlink()
             raise
+
+
+def _new_folder(folder: Any) -> pathlib.Path:
+    try:
+        path = pathlib.Path(folder)
+        path.mkdir()
+    except TypeError:
+        raise WrongType(f"folder is {folder!r}; it takes a path") from None
+    except FileExistsError as error:
+        error.strerror = "a submission takes a new folder, and this one exists"
+        raise
+    return path
 
 
 def _append(table: pathlib.Path, line: str) -> None:

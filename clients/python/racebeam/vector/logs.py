@@ -61,10 +61,7 @@ class VectorLogs:
         agent_seed = integer("agent_seed", words.pop("agent_seed", 0), *SEEDS)
         origin = Origin(words.get("agent", "agent"), trial, 1, agent_seed)
         self._origins = [origin._replace(trial=origin.trial + env) for env in range(len(games))]
-        try:
-            self._submission = Submission(words.pop("folder"), self._starts[0], **words)
-        except TypeError as error:
-            raise _wrong(arguments) from error
+        self._submission = Submission(words.pop("folder"), self._starts[0], **words)
         self._numbers = [machines.actions_of(env) for env in range(len(games))]
         self._seeds = options.seed + np.arange(len(games), dtype=np.int64)  # seeds of the present games
         self._games = [_Game() for _ in games]
