@@ -1,6 +1,7 @@
 """AtariEnv(server=...) plays what AtariEnv plays, and a server that goes away is an exception."""
 
 import contextlib
+import copy
 import gc
 import os
 import pathlib
@@ -308,6 +309,25 @@ class TestSessions:
         with self.server_of(b"ok server=x protocol=2\n") as address:
             with pytest.raises(ConnectionError, match="speaks version 2"):
                 racebeam.connect(address)
+
+    def test_bytes_to_write_are_bytes_or_numbers(self, subtests):
+        with racebeam.launch() as session:
+            session.load("beamfall")
+            for data in (b"\1\xff", bytearray(b"\1\xff"), memoryview(b"\1\xff"), [1, 255], np.array([1, 255])):
+                with subtests.test(data=data):
+                    session.poke(3, b"\0\0")
+                    session.poke(3, data)
+                    assert session.peek(3, 2) == b"\1\xff"
+            for data in (5, "01FF", None, [256], [1.0], np.array([0.5])):
+                with subtests.test(data=data), pytest.raises(TypeError, match="data is .*; it takes bytes, or numbers"):
+                    session.poke(3, data)
+
+    def test_a_session_cannot_be_copied(self):
+        with racebeam.launch() as session:
+            for call in (copy.copy, copy.deepcopy, pickle.dumps):
+                with pytest.raises(TypeError, match="a session cannot be pickled or copied"):
+                    call(session)
+            assert session.games()
 
     def test_a_request_is_one_line(self):
         with racebeam.launch() as session:

@@ -90,14 +90,18 @@ class Commands(Exchange):
         """
         return bytes.fromhex(self.ask("peek", index, count)[0]["bytes"])
 
-    def poke(self, index: int, data: bytes) -> None:
+    def poke(self, index: int, data: bytes | Iterable[int]) -> None:
         """Write bytes of RAM.
 
         Args:
             index: Index of the first byte, 0 to 127.
-            data: The bytes.
+            data: The bytes, or numbers from 0 to 255.
         """
-        self.ask("poke", index, data.hex().upper())
+        try:
+            written = bytes(list(data))
+        except (TypeError, ValueError):
+            raise TypeError(f"data is {data!r}; it takes bytes, or numbers from 0 to 255") from None
+        self.ask("poke", index, written.hex().upper())
 
     def export_state(self, name: str, episode: bool | int = False, whole: bool | int = False) -> bytes:
         """Return a state, for later or for another process.

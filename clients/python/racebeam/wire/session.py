@@ -123,6 +123,9 @@ class Session(Commands):
     def __exit__(self, *_: object) -> None:
         self.close_connection()
 
+    def __reduce__(self) -> str:
+        raise TypeError("a session cannot be pickled or copied; connect() opens another one")
+
     def __del__(self) -> None:
         with contextlib.suppress(Exception):  # the constructor failed, or Python itself is ending
             self.close_connection()
