@@ -121,7 +121,9 @@ class VectorBase(VectorEnv[Any, Any, Any]):
         if out is None:
             out = np.empty(shape, np.uint8)
         elif not (isinstance(out, np.ndarray) and out.dtype == np.uint8 and out.shape == shape and out.flags.carray):
-            raise InvalidInput(f"out must be a writable, contiguous array of uint8 with the shape {shape}")
+            raise InvalidInput(
+                f"out is {_describe(out)}; it takes a writable, contiguous array of uint8 with the shape {shape}"
+            )
         finals = np.empty(shape, np.uint8) if self._has_finals else None
         observations, ram = (None, out) if self._shows_ram else (out, None)
         results = Results.allocate(observations, ram, count, finals)
@@ -215,6 +217,14 @@ class _Closed:
 
 def _closed_error() -> error.ClosedEnvironmentError:
     return error.ClosedEnvironmentError("these environments were closed; make new ones")
+
+
+def _describe(out: object) -> str:
+    """Returns what an argument is, for a message."""
+    if not isinstance(out, np.ndarray):
+        return f"of type {type(out).__name__}"
+    faults = "" if out.flags.writeable else ", read-only", "" if out.flags.c_contiguous else ", not contiguous"
+    return f"an array of {out.dtype} with the shape {out.shape}{''.join(faults)}"
 
 
 def row_of(observations: Any, env: int) -> Any:

@@ -101,8 +101,14 @@ class VectorOfEach(VectorBase):
         return (getattr(self, name),) * self.num_envs
 
     def _check_env(self, env: int) -> None:
-        if not 0 <= operator.index(env) < self.num_envs:
+        if not 0 <= self._index_of(env) < self.num_envs:
             raise IndexError(f"environment {env} is out of range; accepted: 0 to {self.num_envs - 1}")
+
+    def _index_of(self, env: int) -> int:
+        try:
+            return operator.index(env)
+        except TypeError:
+            raise TypeError(f"environment {env!r} is not a whole number; accepted: 0 to {self.num_envs - 1}") from None
 
     def _open_machines(self) -> Machines:
         """Returns the machines that play the environments; for other modules of this package."""
@@ -125,9 +131,10 @@ class VectorOfEach(VectorBase):
 
         Raises:
             IndexError: If the index is out of range.
+            TypeError: If it is not an integer.
         """
         self._check_open()
-        return self._open_machines().save(operator.index(env), include_rng)
+        return self._open_machines().save(self._index_of(env), include_rng)
 
     def restore(self, env: int, state: _core.SavedMachine) -> None:
         """Restores the state of one environment. `show` returns its observation.
@@ -138,11 +145,11 @@ class VectorOfEach(VectorBase):
 
         Raises:
             IndexError: If the index is out of range.
-            TypeError: If `state` is not a state.
+            TypeError: If the index is not an integer, or `state` is not a state.
             InvalidInput: If the state belongs to another game, or its observations have another shape.
         """
         self._check_open()
         if not isinstance(state, _core.SavedMachine):
             raise TypeError(f"the state has the type {type(state).__name__}; it takes what save() returned")
-        self._machines.restore(operator.index(env), state)
+        self._machines.restore(self._index_of(env), state)
         self._first_seed = None
