@@ -211,6 +211,12 @@ class TestBadInput:
             with subtests.test(mask=mask), pytest.raises(error):
                 envs.reset(options={"reset_mask": mask})
 
+    def test_a_block_closes_the_environments(self):
+        with AtariVectorEnv("beamfall", 2) as envs:
+            envs.reset(seed=1)
+        with pytest.raises(ClosedEnvironmentError):
+            envs.reset()
+
     def test_after_close(self):
         envs = AtariVectorEnv("beamfall", 2, render_mode="rgb_array")
         envs.close()

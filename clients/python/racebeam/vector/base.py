@@ -183,6 +183,12 @@ class VectorBase(VectorEnv[Any, Any, Any]):
 
     # The end
 
+    def __enter__(self) -> Any:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
     def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError(
             f"{type(self).__name__} cannot be pickled or copied, because it owns threads; make another one with the "
