@@ -143,6 +143,17 @@ class TestWindow:
             *("(1280,", "840)", "False"),
         )
 
+    def test_a_window_that_nobody_sees_is_warned_of(self):
+        self.check(
+            "import os, warnings\n"
+            "for name in ('SDL_VIDEODRIVER', 'DISPLAY', 'WAYLAND_DISPLAY'): os.environ.pop(name, None)\n"
+            "import racebeam\n"
+            "warnings.simplefilter('error')\n"
+            "try: racebeam.AtariEnv('beamfall', render_mode='human')\n"
+            "except (UserWarning, racebeam.InvalidInput) as found: print('a display' in str(found))",
+            "True",
+        )
+
     def test_without_a_display_a_sentence_says_so(self):
         self.check(
             "import racebeam\n"

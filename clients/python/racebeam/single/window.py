@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import weakref
 from collections.abc import Iterable
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..arguments import warn
 from ..errors import InvalidInput
 from ..extras import install_hint
 
@@ -77,6 +79,7 @@ class Window:
         self._title, self._size = title, (2 * scale * width, scale * height)
         self._is_dismissed = False  # by the close button
         self._surface()
+        self._warn_of_hidden_window()
         self._clock = pygame.time.Clock()
         self._channel = self._open_sound() if sound else None
         self._open.add(self)
@@ -97,6 +100,14 @@ class Window:
             raise InvalidInput(
                 f"render_mode is 'human', which needs a display: {error}; it takes None or 'rgb_array' here"
             ) from error
+
+    def _warn_of_hidden_window(self) -> None:
+        """Warns if SDL found no display, and chose by itself a driver that shows nothing."""
+        if self._pygame.display.get_driver() == "offscreen" and "SDL_VIDEODRIVER" not in os.environ:
+            warn(
+                "render_mode is 'human', which needs a display: SDL found none, and nobody sees the window; it takes "
+                "None or 'rgb_array' here"
+            )
 
     def _open_sound(self) -> Any:
         """Returns a channel of the mixer, or None if the computer has no sound."""
