@@ -85,6 +85,12 @@ class TestImport:
             made.write_text("BadInput = Frames = None\ndef load(path): return 'frames of ' + path\n")
             assert python(load, PYTHONPATH=folder).stdout == "frames of folder\n"
 
+    def test_a_part_whose_package_is_missing_says_what_it_needs(self):
+        hidden = "import sys; sys.modules['stable_baselines3'] = None\n"  # as if it were not installed
+        script = "try: import racebeam.sb3\nexcept ImportError as error: print(error)"
+        sentence = f"racebeam.sb3 needs Stable-Baselines3; {install_hint('stable_baselines3')}\n"
+        assert python(hidden + script).stdout == sentence
+
     def test_the_metadata(self):
         described = importlib.metadata.metadata("racebeam")
         version = re.search(r"project\(racebeam VERSION ([0-9.]+)", (package.SOURCE / "CMakeLists.txt").read_text())[1]

@@ -12,6 +12,7 @@ REQUIREMENTS = {
     "jax": "jax>=0.5",
     "pygame": "pygame>=2.1.3",
     "racebeam_evaluation": "./evaluation",
+    "stable_baselines3": "stable-baselines3>=2.4",
     "submitit": "submitit>=1.5",
 }
 

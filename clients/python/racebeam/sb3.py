@@ -16,11 +16,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 from gymnasium.vector import AutoresetMode
-from stable_baselines3.common import monitor, vec_env  # type: ignore[import-not-found,unused-ignore]
 
 from .arguments import WrongType, WrongValue
+from .extras import install_hint
 from .vector_env import AtariVectorEnv, VectorArguments
 from .vector_options import autoreset_of
+
+try:
+    from stable_baselines3.common import monitor, vec_env  # type: ignore[import-not-found,unused-ignore]
+except ModuleNotFoundError as error:
+    if not str(error.name).startswith("stable_baselines3"):
+        raise
+    raise ImportError(f"racebeam.sb3 needs Stable-Baselines3; {install_hint('stable_baselines3')}") from error
 
 if sys.version_info >= (3, 11):
     from typing import Unpack
