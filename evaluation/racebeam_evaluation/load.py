@@ -7,6 +7,7 @@ import pandas as pd
 
 from .aggregate import aggregate_rows
 from .bootstrap import Bootstrap
+from .errors import BadInput
 from .foreign.read import read_file
 from .normalise import all_ranges
 from .results import Results, differences, read_folder, together
@@ -54,6 +55,8 @@ def load(*paths: str | pathlib.Path, mix: bool = False) -> Frames:
 
 def read_all(paths: list[pathlib.Path], mix: bool = False) -> Results:
     """The results of folders, and of files of other programs, together."""
+    if not paths:
+        raise BadInput("no results are named; expected a folder or a file")
     files = [path for path in paths if path.is_file()]
     folders = [path for path in paths if path not in files]
     notes = differences(folders, mix)

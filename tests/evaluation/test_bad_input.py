@@ -9,7 +9,7 @@ import pytest
 package.require()
 
 from made_results import CURVES, RESULTS, curve, evaluate, result, results_of, write
-from racebeam_evaluation import BadInput
+from racebeam_evaluation import BadInput, load
 from racebeam_evaluation.csv_file import Kind, content_of, digest, read
 from racebeam_evaluation.main import _parser
 
@@ -32,6 +32,10 @@ class TestBadInput:
 
     def lines(self, *lines, header=RESULTS, curves=()):
         return write(self.root / "a", lines, curves, header)
+
+    def test_nothing_is_named(self):
+        with pytest.raises(BadInput, match="no results are named"):
+            load()
 
     def test_columns_are_missing(self):
         self.lines("1,pong,2", header="unit,game,score")
