@@ -76,10 +76,12 @@ end
 
 -- Requests and replies
 
--- A word of a request: true is 1, and false is 0.
+-- A word of a request: true is 1, and false is 0. A whole number has no fraction: Lua 5.3 and later write 10 / 2 as 5.0.
 local function text_of(value)
   if type(value) == "boolean" then
     return value and "1" or "0"
+  elseif type(value) == "number" and value % 1 == 0 and math.abs(value) < 2 ^ 53 then
+    return ("%d"):format(value)
   end
   return tostring(value)
 end
@@ -265,6 +267,9 @@ function Session:peek(index, count)
 end
 
 function Session:poke(index, bytes)
+  if type(bytes) ~= "string" then
+    fault("invalid", ("the bytes are of type %s; poke takes a string of bytes"):format(type(bytes)))
+  end
   self:request("poke", index, (bytes:gsub(".", function(byte)
     return ("%02X"):format(byte:byte())
   end)))

@@ -315,6 +315,7 @@ end
 
 -- A connection to the server at an address, and the token of its announce file, if there is one.
 function transport.open(address, options)
+  address = tostring(address)
   local kind, rest = address:match("^(%w+):(.+)$")
   local found, token
   if address == "stdio" then

@@ -142,6 +142,19 @@ describe("a server that the client starts", function()
     end
   end)
 
+  it("takes whole numbers of any type, and only strings as bytes", function()
+    local game = launched()
+    assert.equal(5, game:load("beamfall", { seed = 10 / 2, sticky = 0.25, frame_skip = 2 ^ 2 }).seed)
+    assert.equal(0.25, game:settings().sticky)
+    game:observe("frame")
+    assert.equal(4, game:act(2 / 2).frame)
+    assert.equal("refused", select(2, pcall(game.act, game, 1.5)).kind)
+    for _, bytes in ipairs({ 3, true, { 1, 2 } }) do
+      assert.equal("invalid", select(2, pcall(game.poke, game, 0, bytes)).kind)
+    end
+    assert.equal("invalid", select(2, pcall(racebeam.connect, 3)).kind)
+  end)
+
   it("whose program is missing raises an error", function()
     local done, problem = pcall(function()
       racebeam.launch({ program = "/nonexistent/racebeam" }):hello()
