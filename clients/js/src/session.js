@@ -6,7 +6,12 @@ import { Fields } from "./fields.js";
 import { Lines } from "./lines.js";
 import { keyed, list, words } from "./words.js";
 
+const isByte = (value) => Number.isInteger(value) && value >= 0 && value <= 255;
+
 function toHex(bytes) {
+  if (!(Array.isArray(bytes) || ArrayBuffer.isView(bytes)) || !Array.from(bytes).every(isByte)) {
+    throw new TypeError(`the bytes are '${bytes}'; they must be a Uint8Array, or an array of numbers from 0 to 255`);
+  }
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("").toUpperCase();
 }
 

@@ -176,8 +176,13 @@ test("the caller's words are checked", async (context) => {
   for (const address of [`file:${folder}/nothing`, `unix:${folder}/nothing`, `pipes:${folder}/nothing`]) {
     await assert.rejects(connect(address), LostError, address);
   }
-  await assert.rejects(launch({ program: "/nonexistent/racebeam" }).hello(), LostError);
+  const missing = await launch({ program: "/nonexistent/racebeam" }).hello().catch((error) => error);
+  assert.ok(missing instanceof LostError);
+  assert.match(missing.message, /the program \/nonexistent\/racebeam cannot be started: /);
   const { session } = await served(context, () => "ok\n");
+  for (const bytes of ["01FF", 3, null, undefined, [256], [-1], [0.5], ["1"]]) {
+    await assert.rejects(session.poke(0, bytes), TypeError);
+  }
   await assert.rejects(session.request("act\nact"), TypeError);
   await assert.rejects(session.request("# a comment"), TypeError);
   await session.act("FIRE");

@@ -49,7 +49,9 @@ async function pipes(prefix) {
 export function processOf(program, options) {
   const child = spawn(program, ["serve", "--stdio", "--log-level", "warning", ...options], { stdio: ["pipe", "pipe", "inherit"] });
   const ended = new Promise((resolve) => child.once("close", resolve).once("error", resolve));
-  child.once("error", (error) => child.stdout.destroy(error));
+  child.once("error", (error) => {
+    child.stdout.destroy(new LostError(`the program ${program} cannot be started: ${error.message}`, { cause: error }));
+  });
   const end = () => {
     child.stdin.destroy();
     return ended;

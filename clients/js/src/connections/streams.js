@@ -4,6 +4,11 @@ import { rawSize } from "../raw.js";
 const NEWLINE = 10;
 const NOTHING = new Uint8Array(0);
 
+/** Why a connection ended: an error that says so itself, or the end of the server. */
+function reasonOf(error) {
+  return error instanceof LostError ? error : new LostError("the server has closed the connection", { cause: error });
+}
+
 /** A connection over two streams of Node, such as those of a socket. */
 export class Streams {
   #streams;
@@ -26,7 +31,7 @@ export class Streams {
     const { input, output } = this.#streams;
     input.on("data", (data) => this.#read(data));
     for (const event of ["end", "close", "error"]) {
-      input.on(event, (error) => receiver.lost(new LostError("the server has closed the connection", { cause: error })));
+      input.on(event, (error) => receiver.lost(reasonOf(error)));
     }
     output.on("error", () => {}); // the end of the input tells more
   }
