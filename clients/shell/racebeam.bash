@@ -100,7 +100,11 @@ _racebeam_try() {
     }
     exec {racebeam_output}>&"$racebeam_input"
   elif [[ $address == pipes:?* ]]; then
-    exec {racebeam_input}<"${address#pipes:}_out" {racebeam_output}>"${address#pipes:}_in" || return 2  # in this order
+    { exec {racebeam_input}<"${address#pipes:}_out" {racebeam_output}>"${address#pipes:}_in"; } 2>/dev/null || {  # in this order
+      racebeam_input=''
+      _racebeam_fail 2 "no server answers at $address$source"
+      return
+    }
   elif [[ $address == stdio ]]; then
     exec {racebeam_input}<&0 {racebeam_output}>&1
   else
@@ -115,8 +119,10 @@ _racebeam_try() {
 
 # racebeam_launch [PROGRAM]: opens a session with a server that it starts, and that ends with it.
 racebeam_launch() {
+  local program=${1:-${RACEBEAM_PROGRAM:-racebeam}}
   racebeam_close
-  coproc RACEBEAM_SERVER { exec "${1:-${RACEBEAM_PROGRAM:-racebeam}}" serve --stdio --log-level warning; }
+  type -P -- "$program" >/dev/null || { _racebeam_fail 2 "there is no program $program"; return; }
+  coproc RACEBEAM_SERVER { exec "$program" serve --stdio --log-level warning; }
   exec {racebeam_input}<&"${RACEBEAM_SERVER[0]}" {racebeam_output}>&"${RACEBEAM_SERVER[1]}"
   exec {RACEBEAM_SERVER[0]}<&- {RACEBEAM_SERVER[1]}>&-
 }

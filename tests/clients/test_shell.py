@@ -50,6 +50,14 @@ class TestAgents:
         done = self.page("file:/nonexistent/announce")
         assert (done.returncode, done.stdout, done.stderr) == (1, "", "/nonexistent/announce cannot be read\n")
 
+    def test_a_server_that_is_missing_is_a_sentence_and_a_status(self):
+        for call, sentence in (
+            ("racebeam_connect pipes:/nonexistent/game", "no server answers at pipes:/nonexistent/game"),
+            ("racebeam_launch /nonexistent/racebeam", "there is no program /nonexistent/racebeam"),
+        ):
+            done = run("bash", "-c", f'source {SHELL}/racebeam.bash; {call}; echo "$? $racebeam_error"')
+            assert (done.stdout, done.stderr) == (f"2 {sentence}\n", "")
+
     def test_the_script_of_the_page_ends_when_its_server_goes(self):
         class Leaving(socketserver.StreamRequestHandler):
             def handle(self):
