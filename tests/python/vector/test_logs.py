@@ -184,6 +184,15 @@ class TestLogs:
         envs.step([1, 1, 1])
         with pytest.warns(UserWarning, match="environment 0, beamfall, has no log: it was left before its end"):
             envs.reset()
+        assert (envs.logged, envs.unlogged) == (0, 3)
+
+    def test_games_with_a_log_are_counted(self):
+        envs = self.make(max_num_frames_per_episode=8)
+        assert (envs.logged, envs.unlogged) == (0, 0)
+        self.play(envs, 6)
+        assert (envs.logged, envs.unlogged) == (len(self.rows()), 0) == (6, 0)
+        without = AtariVectorEnv("beamfall", 1)
+        assert (without.logged, without.unlogged) == (0, 0)
 
     def test_what_a_log_cannot_repeat_is_refused_and_leaves_nothing(self, subtests):
         for arguments in (

@@ -40,6 +40,16 @@ class PlayedVector(VectorOfEach):
 
     _logs: VectorLogs | None = None
 
+    @property
+    def logged(self) -> int:
+        """Number of games with a log. Without `log`, it is 0."""
+        return 0 if self._logs is None else self._logs.logged
+
+    @property
+    def unlogged(self) -> int:
+        """Number of games without a log, although `log` was given."""
+        return 0 if self._logs is None else self._logs.unlogged
+
     def reset(
         self, *, seed: Seeds | None = None, options: dict[str, Any] | None = None, out: Pixels | None = None
     ) -> tuple[Any, Info]:
