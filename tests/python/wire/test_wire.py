@@ -310,6 +310,22 @@ class TestSessions:
             with pytest.raises(ConnectionError, match="speaks version 2"):
                 racebeam.connect(address)
 
+    def test_saving_a_state_uses_no_old_word(self, tmp_path):
+        program, address = racebeam.program.path(), f"unix:{tmp_path}/s"
+        with (
+            open(tmp_path / "log", "w") as log,
+            subprocess.Popen(
+                [program, "serve", "--listen", address, "--ready-file", tmp_path / "ready", "--log-level", "warning"],
+                stderr=log,
+            ) as process,
+        ):
+            while not (tmp_path / "ready").exists():
+                time.sleep(0.01)
+            racebeam.AtariEnv("beamfall", server=address).clone_state(include_rng=True)
+            racebeam.AtariVectorEnv("beamfall", 2, server=address).save(0)
+            process.terminate()
+        assert "old word" not in (tmp_path / "log").read_text()
+
     def test_bytes_to_write_are_bytes_or_numbers(self, subtests):
         with racebeam.launch() as session:
             session.load("beamfall")

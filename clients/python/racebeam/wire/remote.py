@@ -62,7 +62,7 @@ class RemoteInterface(RemotePlay):
         Args:
             include_rng: Whether the state has the generator of sticky actions.
         """
-        self.ask(self.session.save, STATE, random=int(include_rng))
+        self.ask(self.session.save, STATE, generator=int(include_rng))
         data = self.ask(self.session.export_state, STATE)
         self.ask(self.session.drop, STATE)
         now = self._look("frame", "episode_frame")

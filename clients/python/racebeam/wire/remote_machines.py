@@ -279,7 +279,7 @@ class RemoteMachines(Halves):
         """
         self._check_machine(machine)
         with self._exclusively():
-            self._machine.ask(self._session.save, STATE, random=int(include_rng), machine=machine)
+            self._machine.ask(self._session.save, STATE, generator=int(include_rng), machine=machine)
             data = self._machine.ask(self._session.export_state, STATE, episode=1)
             self._machine.ask(self._session.drop, STATE)
         state = SavedMachine.__new__(SavedMachine)
