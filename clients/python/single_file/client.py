@@ -597,6 +597,15 @@ def open_secure_socket(address: str, tls: ssl.SSLContext | None, timeout: float 
         raise
 
 
+def outlives_streams(options: Iterable[str]) -> bool:
+    """Returns whether a server has another address, so that the end of its standard streams does not end it.
+
+    Args:
+        options: Options of `racebeam serve`.
+    """
+    return any(option.partition("=")[0] in ("--listen", "--pipes") for option in options)
+
+
 def close_pipes(writer: IO[bytes], reader: IO[bytes]) -> None:
     """Closes pipes without waiting for a server that does not read.
 
@@ -1756,6 +1765,8 @@ class Session(Commands):
 
         def close() -> None:
             close_pipes(writer, reader)
+            if outlives_streams(options):
+                process.terminate()
             process.wait()
 
         return cls(reader, writer, close, arrays)

@@ -1,5 +1,6 @@
 """AtariEnv(server=...) plays what AtariEnv plays, and a server that goes away is an exception."""
 
+import asyncio
 import contextlib
 import copy
 import gc
@@ -24,6 +25,7 @@ import numpy as np
 import racebeam
 import racebeam.program
 import racebeam.wire.addresses
+from racebeam.wire import aio
 
 pytestmark = pytest.mark.needs_program
 
@@ -372,6 +374,22 @@ class TestSessions:
         for options in (("--nope",), ("--classic", "--rom", "builtin:beamfall")):
             with pytest.raises(ConnectionError, match=f"does not serve: .* serve --stdio .*{options[0]}"):
                 racebeam.launch(*options)
+
+    def test_a_server_with_another_address_ends_with_its_session(self, tmp_path):
+        with racebeam.launch("--listen", f"unix:{tmp_path}/s") as session:
+            racebeam.connect(f"unix:{tmp_path}/s").close_connection()
+            assert session.games()
+        with pytest.raises(OSError):
+            racebeam.connect(f"unix:{tmp_path}/s")
+
+    def test_so_does_one_of_asyncio(self, tmp_path):
+        async def play():
+            async with await aio.launch("--listen", f"unix:{tmp_path}/s") as session:
+                await session.request("games")
+
+        asyncio.run(asyncio.wait_for(play(), 60))
+        with pytest.raises(OSError):
+            racebeam.connect(f"unix:{tmp_path}/s")
 
     def test_the_single_file_works_without_the_package(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -22,7 +22,7 @@ from .connection import LONGEST_REPLY
 from .messages import Refused, Values
 from .opening import not_serving, server_command
 from .session import Session
-from .transport import open_socket
+from .transport import open_socket, outlives_streams
 
 Read = Callable[[str], Coroutine[Any, Any, Any]]  # converts the line of a reply to a value
 
@@ -94,7 +94,9 @@ async def launch(*options: str, program: str | None = None, arrays: bool = False
     process = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, limit=LONGEST_REPLY)
     assert process.stdout is not None and process.stdin is not None
     try:
-        return await _greet(AsyncSession(process.stdout, process.stdin, "", LONGEST_REPLY, arrays, process), None)
+        session = AsyncSession(process.stdout, process.stdin, "", LONGEST_REPLY, arrays, process)
+        session._must_terminate = outlives_streams(options)
+        return await _greet(session, None)
     except ConnectionError as error:
         raise not_serving(command, error) from error
 
@@ -148,6 +150,7 @@ class AsyncSession:
         timeout: float | None = None,
     ) -> None:
         self._writer, self._process = writer, process
+        self._must_terminate = False  # the process serves other addresses, too
         self._session = Session(cast(IO[bytes], None), cast(IO[bytes], writer), writer.close, arrays)
         self._session.address, self._session.longest_reply = address, longest_reply
         self._timeout = timeout
@@ -254,6 +257,8 @@ class AsyncSession:
         self._reading.cancel()
         await asyncio.gather(self._reading, return_exceptions=True)
         if self._process is not None:
+            if self._must_terminate and self._process.returncode is None:
+                self._process.terminate()
             await self._process.wait()
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import IO
 
 from .commands import Commands
-from .transport import SocketStream, close_pipes, open_secure_socket
+from .transport import SocketStream, close_pipes, open_secure_socket, outlives_streams
 
 __all__ = ["Session"]
 
@@ -76,6 +76,8 @@ class Session(Commands):
 
         def close() -> None:
             close_pipes(writer, reader)
+            if outlives_streams(options):
+                process.terminate()
             process.wait()
 
         return cls(reader, writer, close, arrays)

@@ -7,6 +7,7 @@ import os
 import socket
 import ssl
 import time
+from collections.abc import Iterable
 from typing import IO
 
 from .addresses import ADDRESSES
@@ -74,6 +75,15 @@ def open_secure_socket(address: str, tls: ssl.SSLContext | None, timeout: float 
     except BaseException:
         connection.close()
         raise
+
+
+def outlives_streams(options: Iterable[str]) -> bool:
+    """Returns whether a server has another address, so that the end of its standard streams does not end it.
+
+    Args:
+        options: Options of `racebeam serve`.
+    """
+    return any(option.partition("=")[0] in ("--listen", "--pipes") for option in options)
 
 
 def close_pipes(writer: IO[bytes], reader: IO[bytes]) -> None:
