@@ -54,7 +54,7 @@ def _checked(about: Any) -> dict[str, str]:
     words = {key: _text(key, word) for key, word in about.items()}
     if "role" in words:
         check_choice("role", words["role"], ROLES)
-    if "link" in words and not re.match(r"https?://\S+$", words["link"]):
+    if "link" in words and not re.fullmatch(r"(https?://\S+)?", words["link"]):
         raise InvalidInput(f"link is {words['link']!r}; it takes https://... or http://...")
     return words
 
