@@ -41,7 +41,7 @@ export class Lines {
   }
 
   /** Ends the connection, and rejects what waits with `error`. */
-  end(error = new LostError("the session has ended")) {
+  end(error = new LostError("the client closed the session")) {
     this.#farewell = undefined;
     this.#lose(error);
     return this.#closed;

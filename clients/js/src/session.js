@@ -15,6 +15,14 @@ function toHex(bytes) {
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("").toUpperCase();
 }
 
+/** The words of lists of actions. */
+function sequences(lists) {
+  if (!Array.isArray(lists) || !lists.every(Array.isArray)) {
+    throw new TypeError(`the lists are '${lists}'; branch takes an array of arrays of actions, such as [["FIRE", "UP"]]`);
+  }
+  return lists.map((actions) => actions.join(","));
+}
+
 /** The groups, or a promise of them if values are still to be decoded. */
 function settled(groups) {
   const waiting = [];
@@ -143,7 +151,7 @@ export class Session extends Commands {
   }
 
   async branch(name, lists, settings = {}) {
-    const branches = (await this.request("branch", name, settings, lists.map((actions) => actions.join(",")))).slice(1);
+    const branches = (await this.request("branch", name, settings, sequences(lists))).slice(1);
     for (const branch of branches) {
       branch.rewards = rewards(branch.rewards);
       if ("rewards_b" in branch) {

@@ -139,7 +139,8 @@ test("the end of a session is reported without a request", async (context) => {
   assert.ok(await session.ended instanceof LostError);
   const { session: other } = await served(context, () => "ok\n");
   await other.disconnect();
-  assert.match((await other.ended).message, /has ended/);
+  assert.equal((await other.ended).message, "the client closed the session");
+  await assert.rejects(other.reset(), { name: "LostError", message: "the session has ended: the client closed the session" });
 });
 
 test("use after disconnect() is refused", async (context) => {

@@ -44,6 +44,8 @@ test("each command has a method", { skip }, async (context) => {
   assert.equal((await game.restore("b")).frame, 15);
   const branches = await game.branch("b", [["FIRE*4", "UP"], [0]], { keep: "leaf" });
   assert.deepEqual(branches.map((branch) => branch.rewards.length), [5, 1]);
+  await assert.rejects(game.branch("b", "RIGHT*5"), /the lists are 'RIGHT\*5'; branch takes an array of arrays/);
+  await assert.rejects(game.branch("b", ["RIGHT*5"]), /branch takes an array of arrays/);
   assert.equal(branches[1].state, "leaf1");
   assert.equal((await game.record("gif", "film")).recording, "film.gif");
   await game.act("FIRE");

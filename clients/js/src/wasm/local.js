@@ -76,7 +76,7 @@ class LocalConnection {
         this.#add(request);
       }
       if (this.#emulator.calls.finished(this.#session)) {
-        this.#receiver.lost(new LostError("the session has ended"));
+        this.#receiver.lost(new LostError("the emulator closed the session"));
       }
     } catch (cause) {
       this.#receiver.lost(new LostError(`the emulator has failed: ${cause.message}`, { cause }));
