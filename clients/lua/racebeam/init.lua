@@ -232,6 +232,9 @@ end
 
 -- settings.image: the bytes of a cartridge, when `game` is "inline".
 function Session:load(game, settings)
+  if settings ~= nil and type(settings) ~= "table" then
+    fault("invalid", ("the settings are of type %s; load takes a table"):format(type(settings)))
+  end
   local words = {}
   for key, setting in pairs(settings or {}) do
     words[key] = key == "image" and decode.to_base64(setting) or setting
@@ -318,6 +321,9 @@ end
 
 -- Saves a picture of the screen as a PNG file. machine: one of those of open, 0 the first.
 function Session:save_png(path, machine)
+  if type(path) ~= "string" then
+    fault("invalid", ("the path is of type %s; save_png takes a string"):format(type(path)))
+  end
   local bytes = decode.base64(self:request_text("data", "shot", machine and { machine = machine } or ""))
   local file, problem = io.open(path, "wb")
   if file then

@@ -153,6 +153,8 @@ describe("a server that the client starts", function()
       assert.equal("invalid", select(2, pcall(game.poke, game, 0, bytes)).kind)
     end
     assert.equal("invalid", select(2, pcall(racebeam.connect, 3)).kind)
+    assert.equal("invalid", select(2, pcall(game.load, game, "beamfall", "seed=7")).kind)
+    assert.equal("invalid", select(2, pcall(game.save_png, game)).kind)
   end)
 
   it("whose program is missing raises an error", function()
