@@ -140,7 +140,8 @@ class Conditions(Part):
                     """Single trials: a learner's score hangs on the moment at which training ends
                     ([paper-notes.md](paper-notes.md#the-end-of-training)). The paper has the mean of 30 trials.""",
                     """Steps: Basic in Freeway and Beam Rider, and BASS in Seaquest, score less than in the paper, and
-                    more with a fifth of the step ([paper-notes.md](paper-notes.md#the-end-of-training)).""",
+                    more with a fifth of the step ([paper-notes.md](paper-notes.md#the-end-of-training)). DISCO in
+                    Freeway scores more than in the paper; no experiment has told why.""",
                     """Exploration: in Ms. Pac-Man, UCT scores far less than in the paper with the printed constant, and
                     more with a larger one ([paper-notes.md](paper-notes.md#ucts-kept-visits)).""",
                     """Choices: the paper leaves much open ([paper-notes.md](paper-notes.md)).""",
