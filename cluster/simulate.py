@@ -296,7 +296,7 @@ def units_of(options: argparse.Namespace) -> list[list[float]]:
 
 
 def dry_run_of(options: argparse.Namespace) -> str:
-    """What the program prints of the plan. Ends this one with a sentence if it fails."""
+    """Returns what `racebeam experiment --dry-run` prints of the plan. Exits with a sentence if racebeam fails."""
     try:
         done = subprocess.run(
             [options.program, "experiment", options.plan, "--dry-run", "--unmeasured"], capture_output=True, text=True

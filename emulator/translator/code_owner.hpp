@@ -26,7 +26,7 @@ class CodeOwner {
 };
 
 // Limits the code of all images without an owner, with the data that belong to it. Beyond the limit,
-// instructions are interpreted. Until the first call, there is no limit.
+// instructions are interpreted. Until the first call, the size is unlimited.
 void limit_shared_code(std::size_t bytes);
 std::size_t shared_code();  // bytes of such code now
 

@@ -89,7 +89,7 @@ class Plan:
         return set(self._table("images"))
 
     def _table(self, name: str) -> dict[str, Any]:
-        """The table with this name; an empty one if the plan lacks it, or has something else of the name."""
+        """The table with this name; an empty one if the plan lacks it, or has another kind of value there."""
         found = self.tables.get(name)
         return found if isinstance(found, dict) else {}
 

@@ -13,8 +13,8 @@ namespace racebeam {
 class Tokens {
  public:
   // Reads a file with one token a line: 16 to 1024 printable characters without blanks. Empty lines, and
-  // lines that begin with #, are ignored. Throws std::runtime_error with a sentence that names the line. If
-  // the path is empty, there is no file. own: another token that is admitted, or empty.
+  // lines that begin with #, are ignored. Throws std::runtime_error with a sentence that names the line. An
+  // empty path stands for no file. own: another token to admit; empty for none.
   explicit Tokens(std::string path, const std::string& own = {});
 
   void read_again();  // throws like the constructor, and then does not change anything

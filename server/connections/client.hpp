@@ -61,7 +61,7 @@ class Client {
 
   // The client is idle. In each pause, the first call makes the session release its caches.
   void rest();
-  std::function<void()> on_rest;  // empty if there are no caches to release
+  std::function<void()> on_rest;  // empty if the session has no caches
 
   Clock::time_point came() const { return came_; }
   Clock::time_point active() const { return active_; }  // when bytes were last received or sent

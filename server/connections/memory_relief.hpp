@@ -23,7 +23,7 @@ class MemoryRelief {
   bool was_short_ = false;
 };
 
-// Returns the client of the session to end first; null if there is no such session. A session whose client
+// Returns the client whose session is ended first; null if none may be ended. A session whose client
 // reads is exempt if it holds less than the mean of its owner's sessions, or if its owner holds less than the
 // mean of all owners.
 Client* most_burdensome(const std::unordered_set<Client*>& clients, Clock::time_point now);

@@ -93,7 +93,7 @@ def _site(
 def _section(
     preset: str, submissions: list[Submission], pages: dict[str, str], bootstrap: Bootstrap
 ) -> tuple[list[str], Files]:
-    """What is shown of one preset, and its pictures: scores of different ones are not compared."""
+    """Returns the section of a preset, and its pictures. Scores of different presets are not compared."""
     results = together([each.results for each in submissions])
     scores = scores_of(results)
     parts = [f"<h2>Preset {page.text(preset)}</h2>", _standings(submissions, scores, pages, bootstrap)]
@@ -155,7 +155,7 @@ def _score_table(scores: Scores, submissions: list[Submission], pages: dict[str,
 
 
 def _curves(preset: str, results: Results) -> tuple[list[str], Files]:
-    """The learning curves, if there are training episodes, and the files of their picture."""
+    """Returns the learning curves, and the files of their picture. Both are empty without training episodes."""
     if results.curves is None:
         return [], {}
     curves = learning_curves(results.curves)

@@ -204,7 +204,7 @@ def _add_aggregates(report: Report, scores: Scores, group: Group, ranges: list[R
 def _add_figures(
     report: Report, scores: Scores, group: Group, ranges: list[Ranges], rows: pd.DataFrame, bootstrap: Bootstrap
 ) -> None:
-    """The figures of aggregates, which are `rows`, and of distributions and profiles, with the tables of these two."""
+    """Returns the figures of `rows`, of the distributions and of the profiles, and the tables of the last two."""
     distributions = _joined([aggregate.distribution_rows(scores, each, group) for each in ranges])
     profiles = _joined([aggregate.profile_rows(scores, each, group, bootstrap) for each in ranges])
     selection = rows[rows["normalisation"] != "random"] if len(rows) else rows

@@ -143,7 +143,7 @@ class Watchers:
 
 @contextlib.contextmanager
 def load(server):
-    """What uses the server, until it is killed."""
+    """Loads the server with players, attackers and watchers, which are killed at the end of the block."""
     place = (server.port, server.records)
     helpers = [
         hostile.Helper(run_threads, [(play_on, *place)] * PLAYERS),
