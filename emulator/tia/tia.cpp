@@ -32,13 +32,19 @@ RACEBEAM_INLINE bool meets_the_same(const std::uint32_t* entry, std::uint32_t or
 // kLooks: the pixels are the same, but the registers may end differently
 enum class Likeness { kOther, kBegins, kLooks, kIsSame };
 
+// Whether the end of the line may have a further effect: the Cosmic Ark mode moves missile 0.
+bool may_be_cosmic(const RegisterVectors& registers, const LineRecord& record) {
+  return (record.view.seen & kMayBeCosmic) != 0 || std::bit_cast<TiaRegisters>(registers.part).cosmic != 0;
+}
+
 // How far a line that starts with `registers` and has the writes from `entry` on equals a recorded one.
 RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::uint32_t* entry,
                                  std::uint32_t origin, const LineRecord& record) {
   const bool same = record.starts_with(registers);
   if (!same && !record.looks_like(registers)) return Likeness::kOther;
   const LineWrite next(entry[record.count], origin);
-  if (next.is_of_line() && !(same && next.is_late())) return Likeness::kBegins;
+  if (next.is_of_line() && !(next.is_late() && (same || !may_be_cosmic(registers, record))))
+    return Likeness::kBegins;
   if (!meets_the_same(entry, origin, record)) return Likeness::kBegins;
   return same ? Likeness::kIsSame : Likeness::kLooks;
 }

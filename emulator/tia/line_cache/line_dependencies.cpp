@@ -53,10 +53,11 @@ constexpr std::uint8_t control_of(unsigned reg) {
 constexpr std::array<LineEffect, 64> make_effects() {
   std::array<LineEffect, 64> table{};
   for (unsigned reg = 0; reg < 64; ++reg) {
-    const std::uint16_t dependencies = reg == HMOVE   ? kMoves
-                                       : reg == CXCLR ? kClears
-                                       : reg == HMM0  ? kMayBeCosmic
-                                                      : 0;
+    const std::uint16_t dependencies = reg == HMOVE                     ? kMoves
+                                       : reg == CXCLR                   ? kClears
+                                       : reg == HMM0                    ? kMayBeCosmic
+                                       : reg >= COLUP0 && reg <= COLUBK ? kRecolors
+                                                                        : 0;
     const std::uint32_t last =
         reg == kNone ? 0 : TiaWrite(kEarliestWrite + last_cycle(reg), 0x3F, 0xFF).packed();
     table[reg] = {last, first_late(reg), control_of(reg), dependencies};

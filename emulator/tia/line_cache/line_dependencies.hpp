@@ -26,6 +26,7 @@ constexpr std::uint16_t kLit = 1U << 7;           // something other than VBLANK
 constexpr std::uint16_t kMoves = 1U << 8;         // there is an HMOVE
 constexpr std::uint16_t kClears = 1U << 9;        // there is a CXCLR, which clears earlier collisions
 constexpr std::uint16_t kMayBeCosmic = 1U << 10;  // there is an HMM0, which may start the Cosmic Ark mode
+constexpr std::uint16_t kRecolors = 1U << 11;     // a colour is written
 // Bits of LineDependencies::control. Bits 0-5: a write affects the control of Object n.
 constexpr std::uint8_t kPlaceOfP0 = 1U << 6, kPlaceOfP1 = 1U << 7;  // their old positions count
 

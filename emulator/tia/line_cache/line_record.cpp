@@ -57,6 +57,20 @@ ByteSet moved_positions(int cycle, const std::array<std::uint8_t, 5>& motion) {
   return moved;
 }
 
+// LineDependencies::seen after a line that ended so. An object in the colour of the background is not seen,
+// and where it is the only one, it meets nothing. Its shape does not count then, but the colours do: they
+// also do where a playfield is shown, or one in the players' colours.
+std::uint16_t without_hidden_object(unsigned seen, const TiaRegisters& tia) {
+  static constexpr std::array<std::uint8_t, kObjects> kColor = {0, 1, 0, 1, 2, 2};
+  const unsigned objects = seen & kAllObjects;
+  if (std::has_single_bit(objects) && (seen & kRecolors) == 0) {
+    const std::uint8_t color = kColor[static_cast<std::size_t>(std::countr_zero(objects))];
+    if (tia.color[color] == tia.color[3])
+      seen = (seen ^ objects) | (color == 2 ? object_bit(kPlayfield) : kScoreSeen);
+  }
+  return static_cast<std::uint16_t>(seen);
+}
+
 }  // namespace
 
 void LineRecord::open(const TiaRegisters& registers) {
@@ -87,6 +101,7 @@ const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t o
 }
 
 void LineRecord::close(const TiaState& tia, std::int32_t first_clock) {
+  view.seen = without_hidden_object(view.seen, tia);
   end = tia;
   hmove_clock = static_cast<std::int16_t>(tia.hmove_clock - static_cast<std::uint32_t>(first_clock));
   if ((start.cosmic | tia.cosmic) != 0 || (view.seen & kMayBeCosmic) != 0) start.spare[0] = kNever;

@@ -14,7 +14,7 @@ struct RegisterBytes {
 
 inline constexpr auto kRegisterBytes = [] {  // by address bits 5-0
   std::array<RegisterBytes, 64> table{};
-#define REGISTER(name, use, delay, repeat, late, renews, sets, may_set, reads) \
+#define REGISTER(name, use, delay, repeat, late, renews, bits, sets, may_set, reads) \
   table[name] = {RACEBEAM_TIA_BYTES(sets), RACEBEAM_TIA_BYTES(may_set), RACEBEAM_TIA_BYTES(reads)};
 #include "emulator/tia/registers/registers.inc"
 #undef REGISTER

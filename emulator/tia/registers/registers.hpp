@@ -26,16 +26,20 @@ struct RegisterTraits {
   OnRepeat repeat = OnRepeat::kActs;
   WhenLate late = WhenLate::kNext;
   TiaRegister renews = kNone;
+  std::uint8_t bits = 0;
 };
 
 inline constexpr auto kRegisters = [] {  // by address bits 5-0
   std::array<RegisterTraits, 64> table{};
-#define REGISTER(name, use, delay, repeat, late, renews, sets, may_set, reads) \
-  table[name] = {RegisterUse::k##use, delay, OnRepeat::k##repeat, WhenLate::k##late, renews};
+#define REGISTER(name, use, delay, repeat, late, renews, bits, sets, may_set, reads) \
+  table[name] = {RegisterUse::k##use, delay, OnRepeat::k##repeat, WhenLate::k##late, renews, bits};
 #include "emulator/tia/registers/registers.inc"
 #undef REGISTER
   return table;
 }();
+
+// The bits of a written value that matter, which are all that is logged.
+constexpr std::uint8_t logged_bits(unsigned reg) { return kRegisters[reg].bits; }
 
 constexpr bool is_sound(unsigned reg) { return kRegisters[reg].use == RegisterUse::kSound; }
 

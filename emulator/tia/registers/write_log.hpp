@@ -9,8 +9,8 @@
 
 namespace racebeam {
 
-// A write in one word: cycle (18 bits, from the log's base on), register (6), value (8). Later writes are
-// larger words.
+// A write in one word: cycle (18 bits, from the log's base on), register (6), value (8, as logged_bits()
+// says). Later writes are larger words.
 class TiaWrite {
  public:
   static constexpr unsigned kCycleShift = 14;
@@ -83,7 +83,7 @@ struct WriteLog {
 
   // A write that may change the picture, whatever was written before.
   void append(std::int32_t cycle, unsigned reg, std::uint8_t value) {
-    *next++ = TiaWrite(cycle - base, reg, value).packed();
+    *next++ = TiaWrite(cycle - base, reg, value & logged_bits(reg)).packed();
     written[reg] = kUnknown;
     written[kRegisters[reg].renews] |= kUnsettled;
     if (reg == HMCLR)
@@ -92,11 +92,12 @@ struct WriteLog {
 
   // Appends it unless it repeats the last write and the register only holds what is written.
   void append_change(std::int32_t cycle, unsigned reg, std::uint8_t value) {
-    const unsigned before = written[reg], after = value;
+    const unsigned before = written[reg];
+    const std::uint8_t after = value & logged_bits(reg);
     if (before == after) return;
     written[reg] = static_cast<std::uint16_t>(after | kOnRepeat[reg]);
     if ((before & ~unsigned{kUnsettled}) != after) written[kRegisters[reg].renews] |= kUnsettled;
-    *next++ = TiaWrite(cycle - base, reg, value).packed();
+    *next++ = TiaWrite(cycle - base, reg, after).packed();
   }
 };
 

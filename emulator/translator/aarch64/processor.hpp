@@ -54,6 +54,7 @@ class Processor {
 
   Register operand(const Value& value);  // the value's register; otherwise it is loaded into kScratch
   void ram_at(Register index);           // kPlace + layout.ram is the byte of RAM at `index`
+  Register logged_value(unsigned reg, Reg value, Register scratch);
   void keep_byte(Register reg) { as_.and_(reg, reg, 0xFFU); }
   void branch_on_sign(NzHome home, bool if_set, Label& taken);
   void branch_on_zero(NzHome home, bool if_set, Label& taken);

@@ -49,8 +49,16 @@ void Host::forget_motion() {
   for (const unsigned reg : {HMP0, HMP1, HMM0, HMM1, HMBL}) as_.strh(kScratch, kLog, place_of_written(reg));
 }
 
+// The register with the value as it is logged: `scratch`, if bits are left out.
+Register Processor::logged_value(unsigned reg, Reg value, Register scratch) {
+  if (logged_bits(reg) == 0xFF) return reg_of(value);
+  as_.mov(scratch, unsigned{logged_bits(reg)});
+  as_.and_(scratch, scratch, reg_of(value));
+  return scratch;
+}
+
 void Host::append_change(unsigned reg, Reg value, int cycles) {
-  const Register byte = reg_of(value);
+  const Register byte = logged_value(reg, value, kTime);
   Label repeated;
   if (WriteLog::kOnRepeat[reg] == 0) {
     as_.ldrh(kScratch, kLog, place_of_written(reg));
@@ -77,7 +85,10 @@ void Host::append(unsigned reg, Reg value, int cycles) {
   as_.ldr(kScratch, kLog, static_cast<int>(offsetof(WriteLog, base)));
   as_.sub(kTime, kCycle, kScratch);
   add_constant(kTime, kTime, cycles);
-  as_.orr(kTime, reg_of(value), kTime, TiaWrite::kCycleShift);
+  if (logged_bits(reg) == 0)
+    as_.lsl(kTime, kTime, TiaWrite::kCycleShift);
+  else
+    as_.orr(kTime, logged_value(reg, value, kOther), kTime, TiaWrite::kCycleShift);
   add_constant(kTime, kTime, static_cast<int>(reg << 8));
   as_.ldr(kPlace, kLog, static_cast<int>(offsetof(WriteLog, next)));
   as_.str_post(kTime, kPlace, sizeof(std::uint32_t));

@@ -43,6 +43,7 @@ class Processor {
   void carry_from_host(bool inverted, Flags live);
   void shift(Operation operation, Reg8 reg, CarryHome carry, Flags live);
   void modify(const Xbyak::RegExp& place, Operation operation, CarryHome carry, Flags live);
+  Reg32 logged_value(unsigned reg, Reg value, Reg32 scratch);
   void clobbered_flags() { host_nz_ = false, host_carry_ = HostCarry::kUnknown; }
   template <class Function>
   void call(Function* function);

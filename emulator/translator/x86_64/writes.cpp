@@ -50,20 +50,28 @@ void Host::forget_motion() {
   as_.mov(as_.word[as_.r15 + (kFirst + 8)], WriteLog::kUnknown);
 }
 
+// The register with the value as it is logged: `scratch`, if bits are left out.
+Xbyak::Reg32 x86_64::Processor::logged_value(unsigned reg, Reg value, Reg32 scratch) {
+  if (logged_bits(reg) == 0xFF) return reg_of(value);
+  as_.mov(scratch, reg_of(value));
+  as_.and_(scratch, logged_bits(reg));
+  return scratch;
+}
+
 void Host::append_change(unsigned reg, Reg value, int cycles) {
-  const Xbyak::Reg16 word_value = reg_of(value).cvt16();
+  const Xbyak::Reg32 logged = logged_value(reg, value, as_.ecx);
   const auto before = as_.word[as_.r15 + place_of_written(reg)];
   Label repeated;
   if (WriteLog::kOnRepeat[reg] == 0) {
     const unsigned other = kRegisters[reg].renews;
     if (other != kNone) as_.movzx(as_.edx, before);
-    as_.cmp(before, word_value);
+    as_.cmp(before, logged.cvt16());
     as_.je(repeated);
-    as_.mov(before, word_value);
+    as_.mov(before, logged.cvt16());
     if (other != kNone) {
       Label same_value;
       as_.and_(as_.edx, WriteLog::kUnknown | 0xFF);
-      as_.cmp(as_.edx, reg_of(value));
+      as_.cmp(as_.edx, logged);
       as_.je(same_value);
       // This accesses a whole word: after a store of one of its bytes, the next load of the word would stall.
       as_.or_(as_.word[as_.r15 + place_of_written(other)], WriteLog::kUnsettled);
@@ -79,7 +87,11 @@ void Host::append(unsigned reg, Reg value, int cycles) {
   as_.lea(as_.ecx, as_.ptr[as_.rbp + cycles]);
   as_.sub(as_.ecx, as_.dword[as_.r15 + offsetof(WriteLog, base)]);
   as_.shl(as_.ecx, TiaWrite::kCycleShift);
-  as_.lea(as_.ecx, as_.ptr[as_.rcx + reg_of(value).cvt64() + static_cast<int>(reg << 8)]);
+  if (logged_bits(reg) == 0)
+    as_.add(as_.ecx, reg << 8);
+  else
+    as_.lea(as_.ecx,
+            as_.ptr[as_.rcx + logged_value(reg, value, as_.edx).cvt64() + static_cast<int>(reg << 8)]);
   as_.mov(as_.rdx, as_.ptr[as_.r15 + offsetof(WriteLog, next)]);
   as_.mov(as_.ptr[as_.rdx], as_.ecx);
   as_.add(as_.qword[as_.r15 + offsetof(WriteLog, next)], sizeof(std::uint32_t));

@@ -256,6 +256,25 @@ TEST_CASE("A repeated write acts only where the table says so") {
   }
 }
 
+TEST_CASE("The bits of a value that a row names matter, and no others, except that PF0 keeps all") {
+  Trial trial(7);
+  for (const unsigned reg : picture_registers()) {
+    unsigned matter = 0;
+    for (int i = 0; i < kTries; ++i) {
+      const TiaWrite write = trial.write(reg);
+      const unsigned bit = 1U << trial.below(8);
+      const TiaWrite other(write.cycle(), reg, static_cast<std::uint8_t>(write.value() ^ bit));
+      const TiaRegisters start = trial.registers();
+      const std::uint32_t hmove = trial.hmove_clock(write);
+      const Played one = play(start, hmove, {write}, i % 2 == 0),
+                   two = play(start, hmove, {other}, i % 2 == 0);
+      if (one.bytes != two.bytes || one.effects.clock != two.effects.clock) matter |= bit;
+    }
+    INFO(kNames[reg]);
+    CHECK(matter == kRegisters[reg].bits);
+  }
+}
+
 TEST_CASE("A write renews the register that its row names") {
   Trial trial(5);
   for (const unsigned reg : picture_registers()) {
