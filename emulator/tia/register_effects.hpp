@@ -122,7 +122,8 @@ RACEBEAM_INLINE bool RegisterEffects<Policy>::assign(T& reg, T value, std::int32
 }
 
 template <ChangePolicy Policy>
-void RegisterEffects<Policy>::play(const std::uint32_t* first, const std::uint32_t* last, std::int32_t base) {
+RACEBEAM_INLINE void RegisterEffects<Policy>::play(const std::uint32_t* first, const std::uint32_t* last,
+                                                   std::int32_t base) {
   for (const std::uint32_t* entry = first; entry != last; ++entry) {
     const TiaWrite write(*entry);
     play(write, base + write.cycle());

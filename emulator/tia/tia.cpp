@@ -211,9 +211,14 @@ void Tia::play_rest(const std::uint32_t* next) {
 // Plays writes that need no drawing.
 void Tia::skip(const std::uint32_t* next) {
   if (next == played_) return;
+  replay(next);
+  played_ = next;
+}
+
+// Changes the registers as the writes up to `next` do.
+[[gnu::noinline]] void Tia::replay(const std::uint32_t* next) {
   RegisterEffects(tia_, frame_, video_, ReplayPolicy{beam_}).play(played_, next, log_->base);
   tia_.enabled = enabled_objects(tia_);
-  played_ = next;
 }
 
 // The end of the writes before the window, or after it is full, which cannot be seen.
@@ -319,8 +324,7 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions latches) {
 
 // Plays the writes of a line whose pixels exist, because the registers may end differently.
 void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
-  RegisterEffects(tia_, frame_, video_, ReplayPolicy{beam_}).play(played_, next, log_->base);
-  tia_.enabled = enabled_objects(tia_);
+  replay(next);
   tia_.comb_armed = record.end.comb_armed;
   beam_.end_line();
   if (!record.is_summarized()) record.summarize(video_.pal);

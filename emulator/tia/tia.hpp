@@ -59,6 +59,7 @@ class Tia {
   void play(const std::uint32_t* next);
   void play_rest(const std::uint32_t* next);
   void skip(const std::uint32_t* next);
+  void replay(const std::uint32_t* next);
   const std::uint32_t* end_of_unseen() const;
   bool at_line() const;
   std::uint32_t line_origin() const;

@@ -65,6 +65,10 @@ constexpr std::array<LineEffect, 64> make_effects() {
   return table;
 }
 
+// The bits of CTRLPF that matter where the ball is shown, its width and priority, or the playfield, its
+// priority and the score's colours. A latch reflects the playfield.
+constexpr std::uint8_t kBallControl = 0x34, kPlayfieldControl = 0x06;
+
 // The motions count where HMOVE moves an object that is shown. The cosmic counter counts for the end of a
 // line.
 constexpr TiaRegisters make_seen(unsigned seen) {
@@ -81,7 +85,8 @@ constexpr TiaRegisters make_seen(unsigned seen) {
     mask.color[i] = either | byte_if(kScoreSeen);
   }
   mask.ball = {0, 0, 0, ball, static_cast<std::uint8_t>(ball & moves)};
-  mask.color[2] = mask.ctrlpf = ball | playfield;
+  mask.color[2] = ball | playfield;
+  mask.ctrlpf = (ball & kBallControl) | (playfield & kPlayfieldControl);
   mask.reflect = playfield;
   mask.pf = {playfield, playfield, playfield};
   mask.cosmic_shape = static_cast<CosmicShape>(byte_if(object_bit(kM0)));

@@ -50,7 +50,7 @@ struct LineEffect {
 extern const std::array<LineEffect, 64> kLineEffects;
 
 extern const std::array<TiaRegisters, 512>
-    kSeenBytes;  // $FF for each byte that counts, by LineDependencies::seen without kClears
+    kSeenBytes;  // the bits that count, by LineDependencies::seen without kClears
 extern const std::array<TiaRegisters, 256> kControlBytes;  // and by LineDependencies::control
 
 }  // namespace racebeam

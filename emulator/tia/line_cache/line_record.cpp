@@ -63,7 +63,7 @@ ByteSet moved_positions(int cycle, const std::array<std::uint8_t, 5>& motion) {
 std::uint16_t without_hidden_object(unsigned seen, const TiaRegisters& tia) {
   static constexpr std::array<std::uint8_t, kObjects> kColor = {0, 1, 0, 1, 2, 2};
   const unsigned objects = seen & kAllObjects;
-  if (std::has_single_bit(objects) && (seen & kRecolors) == 0) {
+  if (objects != 0 && (objects & (objects - 1)) == 0 && (seen & kRecolors) == 0) {
     const std::uint8_t color = kColor[static_cast<std::size_t>(std::countr_zero(objects))];
     if (tia.color[color] == tia.color[3])
       seen = (seen ^ objects) | (color == 2 ? object_bit(kPlayfield) : kScoreSeen);
@@ -148,7 +148,7 @@ void LineRecord::summarize(bool pal) {
     }
     // clang-format on
   }
-  counts |= seen_bytes().bytes_set();
+  counts |= seen_bytes().bytes_set();  // and CTRLPF, whose bits seldom all count, by kAlways
   if (view.seen & kMoves) counts |= kMotions;
   if (!foreseen) counts |= kForeseen;
   sets |= counts;

@@ -87,6 +87,26 @@ TEST_CASE("Bits that a register does not keep do not matter, and the others do")
   CHECK(rows(PF1, 0x01) == 0);
 }
 
+TEST_CASE("Bits of CTRLPF matter where they show something") {
+  const auto rows = [](unsigned shown, unsigned varied) {
+    return rows_that_recur([=](int number) {
+      return Script{write(0, 3, COLUPF, 0x2E),
+                    write(0, 9, COLUBK, 0x80),
+                    write(0, 15, shown, 0x1A),
+                    write(0, 21, GRP0, shown == ENABL ? 0xFF : 0),
+                    write(0, 40, RESP0, 0),
+                    write(0, 43, RESBL, 0),
+                    write(1, 9, CTRLPF, number % 2 != 0 ? varied : 0U)};
+    });
+  };
+  CHECK(rows(PF1, 0x30) == kAll);  // the ball's width
+  CHECK(rows(PF1, 0x02) == 0);     // the score's colours
+  CHECK(rows(PF1, 0x01) == 0);     // reflection
+  CHECK(rows(ENABL, 0x30) == 0);
+  CHECK(rows(ENABL, 0x04) == 0);  // a player is there, too
+  CHECK(rows(ENABL, 0x03) == kAll);
+}
+
 // The ball, which is placed elsewhere in each frame, in this colour on a background of $80.
 Script moving_ball(int number, unsigned color) {
   return {write(0, 3, COLUPF, color), write(0, 9, COLUBK, 0x80), write(0, 15, ENABL, 2),
