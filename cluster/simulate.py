@@ -229,8 +229,10 @@ def summary(units: Sequence[Sequence[float]], cluster: Cluster, shards: int) -> 
     )
 
 
-def percentile(runs: Sequence[Run], part: float) -> float:
-    return runs[min(len(runs) - 1, math.ceil(part * len(runs)) - 1)].elapsed
+def percentile(runs: Sequence[Run], share: float) -> float:
+    """The nearest rank: the least time within which at least `share` of the runs end. `runs` are in that order."""
+    rank = math.ceil(round(share * len(runs), 6))  # 0.07 * 100 is more than 7
+    return runs[max(rank, 1) - 1].elapsed
 
 
 def fewest_nodes(units: Sequence[Sequence[float]], cluster: Cluster, shards: int, within: float) -> int | None:

@@ -7,6 +7,8 @@ import xml.etree.ElementTree
 
 import bench_picture
 import cartridges
+import hostile
+import pytest
 import soak
 
 FLAT = {"rest_resident": 100.0, "rest_files": 40, "threads": 7, "p99": 10.0, "health_p99": 20.0}
@@ -18,6 +20,26 @@ def rows(**growing):
         {"seconds": 60 * n, **{name: value * (1 + (growing.get(name, 1) - 1) * n / 99) for name, value in FLAT.items()}}
         for n in range(100)
     ]
+
+
+class TestPercentile:
+    @pytest.mark.parametrize(
+        "waits, share, by_hand",
+        [
+            ([40, 15, 50, 20, 35], 0.3, 20),  # 1.5 waits: the second one
+            ([40, 15, 50, 20, 35], 0.4, 20),
+            ([40, 15, 50, 20, 35], 0.5, 35),
+            ([40, 15, 50, 20, 35], 1, 50),
+            (range(1, 11), 0.99, 10),
+            (range(1, 101), 0.99, 99),
+            (range(1, 102), 0.99, 100),
+            (range(1, 101), 0.07, 7),
+            ([9, 8], 0.5, 8),
+            ([9, 8], 0, 8),
+        ],
+    )
+    def test_it_is_the_nearest_rank(self, waits, share, by_hand):
+        assert hostile.percentile(waits, share) == by_hand
 
 
 class TestVerdict:

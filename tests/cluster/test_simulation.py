@@ -83,6 +83,23 @@ class TestSimulations:
         assert slowest[1] <= within
         assert simulate.fewest_nodes(units, Cluster(1), 0, HOUR) is None  # a unit takes longer
 
+    @pytest.mark.parametrize(
+        "times, share, by_hand",
+        [
+            ([15, 20, 35, 40, 50], 0.3, 20),  # 1.5 runs: the second one
+            ([15, 20, 35, 40, 50], 0.4, 20),
+            ([15, 20, 35, 40, 50], 0.5, 35),
+            ([15, 20, 35, 40, 50], 1, 50),
+            (range(1, 21), 0.95, 19),
+            (range(1, 22), 0.95, 20),
+            (range(1, 101), 0.07, 7),
+            ([8, 9], 0, 8),
+        ],
+    )
+    def test_a_percentile_is_the_nearest_rank(self, times, share, by_hand):
+        runs = [simulate.Run(elapsed=seconds, busy=0, lost=0, failures=0) for seconds in times]
+        assert simulate.percentile(runs, share) == by_hand
+
 
 PLAN = """games = ["beamfall", "updraft"]
 agents = ["random", "ram"]

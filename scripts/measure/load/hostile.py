@@ -8,6 +8,7 @@ to stop during the attack. If one of the goals is missed, the exit status is 1.
 """
 
 import itertools
+import math
 import multiprocessing
 import os
 import socket
@@ -169,7 +170,9 @@ class Target(crowd.Server):
 
 
 def percentile(waits, share):
-    return sorted(waits)[min(int(len(waits) * share), len(waits) - 1)]
+    """The nearest rank: the least wait that at least `share` of all waits do not exceed. Share 0: the least wait."""
+    rank = math.ceil(round(share * len(waits), 6))  # 0.07 * 100 is more than 7
+    return sorted(waits)[max(rank, 1) - 1]
 
 
 def show_waits(name, waits):

@@ -25,6 +25,7 @@
 #include <thread>
 
 #include "tests/server/wire/line_channel.hpp"
+#include "tests/server/wire/percentile.hpp"
 
 namespace {
 
@@ -133,12 +134,6 @@ void dribble(const Plan& plan, const std::atomic<bool>& over) {
   }
 }
 
-double percentile(const std::vector<double>& sorted, double part) {
-  return sorted.empty()
-             ? 0
-             : 1e6 * sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
-}
-
 int run(const Plan& plan) {
   std::vector<int> waiting;
   std::vector<Actor> actors;
@@ -163,11 +158,11 @@ int run(const Plan& plan) {
   std::cout << nlohmann::ordered_json{{"acts", latencies.size()},
                                       {"bytes", acts.bytes},
                                       {"seconds", acts.seconds},
-                                      {"p50", percentile(latencies, 0.5)},
-                                      {"p90", percentile(latencies, 0.9)},
-                                      {"p99", percentile(latencies, 0.99)},
-                                      {"p999", percentile(latencies, 0.999)},
-                                      {"max", percentile(latencies, 1)},
+                                      {"p50", 1e6 * wire::percentile(latencies, 0.5)},
+                                      {"p90", 1e6 * wire::percentile(latencies, 0.9)},
+                                      {"p99", 1e6 * wire::percentile(latencies, 0.99)},
+                                      {"p999", 1e6 * wire::percentile(latencies, 0.999)},
+                                      {"max", 1e6 * wire::percentile(latencies, 1)},
                                       {"connects", connected.load()}}
                    .dump()
             << std::endl;
