@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "clients/python/single_file"))
 import client as racebeam  # noqa: E402
 from bench_report import machine  # noqa: E402
-from bench_wire import image, name_of  # noqa: E402
+from cartridges import image_or_own, name_of  # noqa: E402
 
 BUILD = ROOT / "build/release"
 ENCODINGS = ("hex", "rle", "delta", "base64", "zlib")
@@ -99,7 +99,7 @@ def main():
     parser.add_argument("--acts", type=int, default=300, help="acts of each game (default 300)")
     arguments = parser.parse_args()
     subprocess.run([ROOT / "scripts/build", "decode_bench"], check=True, stdout=sys.stderr)
-    roms = list(dict.fromkeys(image(game) for game in arguments.games))
+    roms = list(dict.fromkeys(image_or_own(game) for game in arguments.games))
     found = machine()
     print(f"{found['processor']}, Python {sys.version.split()[0]}; means of {', '.join(map(name_of, roms))}\n")
     print("| field and encoding | bytes a reply | decoding in Python, us | in C++, us |\n|---|---:|---:|---:|")

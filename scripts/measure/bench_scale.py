@@ -19,7 +19,7 @@ import time
 from contextlib import ExitStack
 
 from bench_report import machine
-from bench_wire import ROOT, image, name_of
+from cartridges import ROOT, image_or_own, name_of
 from crowd import Crowd, Server
 
 SHOWN = (
@@ -68,7 +68,7 @@ def parse_arguments():
 
 def acting(arguments, sessions, observe, processors=None):
     """The client's result, with the server's processor time and memory."""
-    rom = image(arguments.game)
+    rom = image_or_own(arguments.game)
     options = [] if rom.startswith("builtin:") else ["--rom", rom]
     load = f"load {name_of(rom)} seed=1 sticky=0 max_episode_frames=0 frame_skip={arguments.frame_skip}"
     with Server(arguments.build, *options, processors=processors) as server:
@@ -95,7 +95,7 @@ def acting(arguments, sessions, observe, processors=None):
 
 def steps(arguments):
     print(
-        f"\n{name_of(image(arguments.game))}, frame_skip={arguments.frame_skip}, {ACTORS} sessions\n\n"
+        f"\n{name_of(image_or_own(arguments.game))}, frame_skip={arguments.frame_skip}, {ACTORS} sessions\n\n"
         "| observation | bytes a reply | steps/s | us of a core | steps/s a core | MB/s a core |\n|---|---:|---:|"
         "---:|---:|---:|"
     )

@@ -14,13 +14,11 @@ import argparse
 import itertools
 import json
 import os
-import pathlib
 import statistics
 import subprocess
 import sys
 
-import cartridges
-from cartridges import ROOT
+from cartridges import ROOT, image_or_own, name_of
 
 BUILD = ROOT / "build/release"
 RACEBEAM, WIRE_BENCH = BUILD / "racebeam", BUILD / "tests/server/wire_bench"
@@ -75,18 +73,6 @@ def parse_arguments():
     return parser.parse_args()
 
 
-def image(game):
-    """The argument of --rom: the image of the game, or Beamfall's if that is missing. Tables name what was played."""
-    try:
-        return cartridges.image(game)
-    except LookupError:
-        return "builtin:beamfall"
-
-
-def name_of(path):
-    return path.removeprefix("builtin:") if path.startswith("builtin:") else pathlib.Path(path).stem
-
-
 class Session:
     """A session on standard streams."""
 
@@ -120,7 +106,7 @@ def ratio(own, *others):
 
 
 def print_speed(game, steps, ahead, placement, one_write=False):
-    rom = image(game)
+    rom = image_or_own(game)
     apart = ["--apart"] if placement == "apart" else []
     options = apart + (["--one-write"] if one_write else [])
     done = subprocess.run(
@@ -147,21 +133,21 @@ def print_speed(game, steps, ahead, placement, one_write=False):
 def print_bytes(games, frames=1000):
     print(f"\nbytes a frame, mean of {frames} frames of random play\n{'':20}" + "".join(f"{e:>15}" for e in ENCODINGS))
     for game in games:
-        session = Session(image(game))
+        session = Session(image_or_own(game))
         means = []
         for encoding in ENCODINGS:
             session.ask("reset")
             session.ask("observe " + encoding)
             total = sum(len(session.ask(f"act {frame // 4 * 7 % 6}").partition(b"=")[2]) - 1 for frame in range(frames))
             means.append(total / frames)
-        print(f"{name_of(image(game)):20}" + "".join(f"{mean:15.0f}" for mean in means), flush=True)
+        print(f"{name_of(image_or_own(game)):20}" + "".join(f"{mean:15.0f}" for mean in means), flush=True)
         session.close()
 
 
 def print_batch(game, machines=64):
     """Compares many machines in one session with one in process, with the same fields and settings. With two requests
     in flight, a client sends the actions of a step before it reads the reply to the previous step."""
-    rom = image(game)
+    rom = image_or_own(game)
     print(
         f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} processors, steps/s and "
         f"times one in process"

@@ -41,3 +41,16 @@ def image(game):
     if not path.is_file():
         raise LookupError(f"no image of {game} was found in {place}")
     return str(path)
+
+
+def image_or_own(game):
+    """The argument of --rom: the image of the game, or Beamfall's if that is missing. Tables name what was played."""
+    try:
+        return image(game)
+    except LookupError:
+        return "builtin:beamfall"
+
+
+def name_of(rom):
+    """The name of the game whose image image_or_own() returned."""
+    return rom.removeprefix("builtin:") if rom.startswith("builtin:") else pathlib.Path(rom).stem

@@ -1,5 +1,8 @@
-"""scripts/measure/processor.py: figures name the design of the processor, not only its brand."""
+"""scripts/measure/processor.py and cartridges.py: figures name the design of the processor, and what was played."""
 
+import re
+
+import cartridges
 import processor
 import pytest
 
@@ -37,3 +40,17 @@ class TestProcessor:
 
     def test_this_machine_has_a_name(self):
         assert processor.name()
+
+
+class TestCartridges:
+    def test_beamfall_stands_for_an_image_that_is_missing(self, tmp_path, monkeypatch):
+        (tmp_path / "pong.bin").write_bytes(b"an image")
+        monkeypatch.setenv("RACEBEAM_ROMS", str(tmp_path))
+        names = [cartridges.name_of(cartridges.image_or_own(game)) for game in ("pong", "seaquest", "updraft")]
+        assert names == ["pong", "beamfall", "updraft"]
+
+    def test_tools_share_helpers_without_importing_each_other(self):
+        shared = {"bench_picture", "bench_report", "bench_settings", "bench_sides"}
+        for path in (cartridges.ROOT / "scripts/measure").glob("bench_*.py"):
+            imports = re.findall(r"^(?:import|from) (bench_\w+)", path.read_text(), re.MULTILINE)
+            assert set(imports) <= shared, path.name
