@@ -19,6 +19,7 @@ _REPORTS = {
     "atari100k": benchmark.atari100k,
     "atari57": benchmark.atari57,
 }
+_DEFAULT_REPORT = "paper2013"
 
 _EPILOG = """\
 The exit status is 0 if all could be computed, 1 for bad input (nothing is then written), 2 for a usage error, and 3 if
@@ -34,6 +35,7 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error("expected RESULTS, or --paper")
     if options.board and not options.results:
         parser.error("expected folders of submissions for --board")
+    _refuse_ignored(parser, options)
     try:
         check_free(options.into)
         if options.board:
@@ -47,6 +49,16 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"racebeam-evaluate: {sentence}", file=sys.stderr)
     print(f"{len(report.parts)} tables and figures: {options.into / 'report.md'}")
     return 3 if report.untested else 0
+
+
+def _refuse_ignored(parser: argparse.ArgumentParser, options: argparse.Namespace) -> None:
+    """Ends the program with a usage error if an option would have no effect."""
+    kind = "--board" if options.board else "--paper" if options.paper else ""
+    for name, is_given in (("--report", options.report is not None), ("--mix", options.mix)):
+        if kind and is_given:
+            parser.error(f"{name} cannot be given with {kind}")
+    if options.viewer and not options.board:
+        parser.error("--viewer can only be given with --board")
 
 
 def _write_board(options: argparse.Namespace) -> int:
@@ -82,9 +94,7 @@ def _parser() -> argparse.ArgumentParser:
         help="address of a racebeam server's page, in which links of the board replay episodes",
     )
     parser.add_argument("--into", required=True, type=pathlib.Path, metavar="FOLDER", help="a new or an empty folder")
-    parser.add_argument(
-        "--report", choices=_REPORTS, default="paper2013", help="the kind of report (default: %(default)s)"
-    )
+    parser.add_argument("--report", choices=_REPORTS, help=f"the kind of report (default: {_DEFAULT_REPORT})")
     parser.add_argument(
         "--mix",
         action="store_true",
@@ -119,4 +129,4 @@ def _report(options: argparse.Namespace) -> Report:
     bootstrap = Bootstrap(options.seed, options.repetitions)
     if options.paper:
         return evaluate_paper(bootstrap)
-    return _REPORTS[options.report](read_all(options.results, options.mix), bootstrap, options.mix)
+    return _REPORTS[options.report or _DEFAULT_REPORT](read_all(options.results, options.mix), bootstrap, options.mix)

@@ -205,6 +205,17 @@ class TestBadInput:
         folder = self.lines(*results_of(GOOD))
         self.check_refusal("expected RESULTS, or --paper", "--seed", "1", status=2)
         self.check_refusal("expected RESULTS, or --paper", folder, "--paper", status=2)
+
+    def test_options_that_would_have_no_effect(self):
+        folder = self.lines(*results_of(GOOD))
+        for words, sentence in (
+            (("--paper", "--report", "paper2013"), "--report cannot be given with --paper"),
+            (("--paper", "--mix"), "--mix cannot be given with --paper"),
+            ((folder, "--board", "--report", "atari57"), "--report cannot be given with --board"),
+            ((folder, "--board", "--mix"), "--mix cannot be given with --board"),
+            ((folder, "--viewer", "https://example.org"), "--viewer can only be given with --board"),
+        ):
+            self.check_refusal(sentence, *words, status=2)
         self.check_refusal("'-1' is not accepted; expected 0 to 4294967295", folder, "--seed=-1", status=2)
         self.check_refusal("'0' is not accepted; expected 1 to 1000000", folder, "--repetitions", "0", status=2)
         options = _parser().parse_args(["--into", "a", "--seed", "4294967295", "--repetitions", "1000000"])
