@@ -14,13 +14,15 @@ constexpr std::size_t kMostPhraseBytes = 1000;
 
 }  // namespace
 
-void check_phrase(std::string_view phrase) {
-  const bool is_plain = std::ranges::none_of(phrase, [](char letter) {
+bool is_phrase(std::string_view text) {
+  const bool is_plain = std::ranges::none_of(text, [](char letter) {
     return static_cast<unsigned char>(letter) < ' ' || letter == '\x7f' || letter == '"' || letter == '\\';
   });
-  if (phrase.empty() || phrase.size() > kMostPhraseBytes || !is_plain)
-    throw InvalidInput("a phrase has 1 to " + std::to_string(kMostPhraseBytes) +
-                       " bytes, without quotation marks, backslashes and control characters");
+  return !text.empty() && text.size() <= kMostPhraseBytes && is_plain;
+}
+
+void check_phrase(std::string_view phrase) {
+  if (!is_phrase(phrase)) throw InvalidInput("a phrase has " + std::string(kPhraseRule));
 }
 
 // Returns the first 32 bits of a digest with the highest bit cleared, so that any program can use the seed.

@@ -7,9 +7,12 @@
 
 namespace racebeam {
 
-// Throws InvalidInput for a phrase that is empty, too long, or has a quotation mark, a backslash or a control
-// character.
-void check_phrase(std::string_view phrase);
+// What a phrase has.
+constexpr std::string_view kPhraseRule =
+    "1 to 1000 bytes, without quotation marks, backslashes and control characters";
+
+bool is_phrase(std::string_view text);
+void check_phrase(std::string_view phrase);  // throws InvalidInput
 
 std::uint32_t seed_of_phrase(std::string_view phrase, std::string_view game, int trial,
                              int episode);  // from 1 to 2^31 - 1

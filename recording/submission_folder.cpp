@@ -150,6 +150,19 @@ std::string first_log(const std::string& folder) {
 
 }  // namespace
 
+bool is_plain_name(std::string_view name, std::size_t most_letters) {
+  const auto is_letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  return !name.empty() && name.size() <= most_letters && is_letter(name[0]) &&
+         std::ranges::all_of(name, [&](char c) { return is_letter(c) || c == '_' || c == '.' || c == '-'; });
+}
+
+std::string plain_name_rule(std::size_t most_letters) {
+  return "1 to " + std::to_string(most_letters) +
+         " letters, digits, '-', '_' and '.', a letter or a digit first";
+}
+
 std::string_view preset_of(std::string_view settings) {
   std::vector<std::string_view> words, expected;
   split(settings, words);

@@ -2,6 +2,7 @@
 // (docs/evaluation.md, "Submissions and the board").
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -17,6 +18,15 @@ struct AboutAgent {  // agent.toml
   std::string phrase, role, link;  // empty: agent.toml lacks the key
   bool operator==(const AboutAgent&) const = default;
 };
+
+constexpr std::size_t kMostAgentName = 64;                         // letters, also of a version
+constexpr std::size_t kMostUnitName = 100;                         // GAME-AGENT-TRIAL; also of an episode
+constexpr std::int64_t kMostTrainingFrames = 999'999'999'999'999;  // the board accepts as many
+constexpr std::array<std::string_view, 3> kAgentRoles = {"learner", "planner", "baseline"};
+
+// Whether a name is that of a file, and leads nowhere else; and the rule as errors state it.
+bool is_plain_name(std::string_view name, std::size_t most_letters);
+std::string plain_name_rule(std::size_t most_letters);
 
 // The unit whose episodes are added.
 struct SubmissionOrder {

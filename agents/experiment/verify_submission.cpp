@@ -5,11 +5,10 @@
 #include <optional>
 #include <set>
 
+#include "agents/experiment/agent_file.hpp"
 #include "agents/experiment/phrase_seeds.hpp"
 #include "agents/experiment/play.hpp"
 #include "agents/experiment/row_tally.hpp"
-#include "games/files/toml_section.hpp"
-#include "recording/phrase_seed.hpp"
 #include "recording/sha256.hpp"
 #include "recording/submission_folder.hpp"
 #include "system/input_file.hpp"
@@ -20,34 +19,6 @@ namespace racebeam {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kLongestName = 100;
-constexpr std::size_t kMostAgentBytes = std::size_t{1} << 16;  // of agent.toml
-
-// Whether a name is that of a file, and leads nowhere else.
-bool is_plain(std::string_view name) {
-  const auto is_letter = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-  };
-  return !name.empty() && name.size() <= kLongestName && is_letter(name[0]) &&
-         std::ranges::all_of(name, [&](char c) { return is_letter(c) || c == '_' || c == '.' || c == '-'; });
-}
-
-// What agent.toml says of the rows and their logs; nothing: it lacks the key.
-struct About {
-  std::optional<std::string> agent, preset, phrase;
-};
-
-About about_of(const ResultsFolder& folder) {
-  const std::string path = folder.root() + "/agent.toml";
-  const std::string text = read_input_file("description of the agent", path, kMostAgentBytes);
-  const TomlSource source{text, path};
-  const toml::table table = parse_toml(source);
-  const Section top(source, table, "");
-  About about{top.text("agent"), top.text("preset"), top.text("phrase")};
-  if (about.phrase) top.guard(*top.node("phrase"), "phrase", [&] { check_phrase(*about.phrase); });
-  return about;
-}
 
 bool is_divergence(const ResultRow& row) { return field(row, "end") == "diverged"; }
 
@@ -105,7 +76,7 @@ class SubmissionVerification {
   SubmissionVerification(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
                          const Finding& finding)
       : folder_(folder),
-        about_(about_of(folder)),
+        about_(read_agent_file(folder.root() + "/agent.toml")),
         tally_(threads, finding),
         judge_(folder, images, tally_.threads(), cpu) {
     if (about_.phrase) phrase_.emplace(*about_.phrase);
@@ -113,8 +84,8 @@ class SubmissionVerification {
 
   Verdict all() {
     each_result(folder_.results(), [&](const ResultRow& row, std::size_t line) { take(row, line); });
-    if (about_.preset && !judge_.preset().empty() && judge_.preset() != *about_.preset)
-      tally_.wrong("agent.toml: preset is '" + *about_.preset + "'; the settings of the logs are those of '" +
+    if (!judge_.preset().empty() && judge_.preset() != about_.preset)
+      tally_.wrong("agent.toml: preset is '" + about_.preset + "'; the settings of the logs are those of '" +
                    std::string(judge_.preset()) + "'");
     if (phrase_) phrase_->each_gap([&](const std::string& sentence) { tally_.wrong(sentence); });
     tally_.find_surplus(folder_.logs(), [&](const std::string& path, bool is_folder) {
@@ -136,18 +107,18 @@ class SubmissionVerification {
   std::string fault_of(const ResultRow& row) {
     const std::string& episode = field(row, "episode");
     for (const std::string_view column : {"unit", "episode"})
-      if (!is_plain(field(row, column)))
-        return std::string(column) + " is " + quote(field(row, column)) + "; it takes 1 to " +
-               std::to_string(kLongestName) + " letters, digits, '-', '_' and '.', a letter or a digit first";
+      if (!is_plain_name(field(row, column), kMostUnitName))
+        return std::string(column) + " is " + quote(field(row, column)) + "; it takes " +
+               plain_name_rule(kMostUnitName);
     const bool is_first = logs_.insert(folder_.log(row[0], episode)).second;
-    if (about_.agent && field(row, "agent") != *about_.agent)
-      return "agent is '" + field(row, "agent") + "'; agent.toml has '" + *about_.agent + "'";
+    if (field(row, "agent") != about_.agent)
+      return "agent is '" + field(row, "agent") + "'; agent.toml has '" + about_.agent + "'";
     if (!is_first) return "it stands twice";
     return phrase_ && !is_divergence(row) ? phrase_->fault(row) : "";
   }
 
   const ResultsFolder& folder_;
-  const About about_;
+  const AgentFile about_;
   RowTally tally_;
   SubmissionJudge judge_;
   std::optional<PhraseRows> phrase_;  // nothing: any seeds

@@ -346,13 +346,13 @@ class TestBadInput(Folder):
             (good + "colour = 1\n", "unknown key 'colour'; accepted: agent, version,"),
             (good.replace("version", "# version"), "agent.toml lacks the key 'version'; expected agent, version,"),
             (good.replace('"mine"', "5"), "agent is 5; expected a text"),
-            (good.replace('"mine"', '"../mine"'), "agent is '../mine'; expected 1 to 100 letters, digits"),
+            (good.replace('"mine"', '"../mine"'), "agent is '../mine'; expected 1 to 64 letters, digits"),
             (good.replace("paper2013", "paper2014"), "preset is 'paper2014'; expected paper2013, machado2018"),
             (good.replace("https://example.org/agent", "javascript:alert(1)"), "expected https://... or http://..."),
-            (good.replace("4000000", "true"), "training_frames is 'True'; expected a whole number from 0"),
-            (good.replace("4000000", str(10**15)), f"training_frames is '{10**15}'; expected a whole number from 0"),
+            (good.replace("4000000", "true"), "training_frames is true; expected a whole number from 0"),
+            (good.replace("4000000", str(10**15)), f"training_frames is {10**15}; expected a whole number from 0"),
             (good.replace("Ours <b>& theirs</b>", "x" * 4001), "words has 4001 letters; expected at most 4000"),
-            (good.replace("4000000", "-1"), "training_frames is '-1'; expected a whole number from 0"),
+            (good.replace("4000000", "-1"), "training_frames is -1; expected a whole number from 0"),
             (good.replace("org/agent", "org/agent\\n"), "link is 'https://example.org/agent\\n'; expected"),
             (good + 'role = "teacher"\n', "role is 'teacher'; expected learner, planner, baseline"),
             (good.replace("Ours", "Ours" * 2000), "words has "),
@@ -360,6 +360,19 @@ class TestBadInput(Folder):
         ):
             path.write_text(text)
             self.check_refusal(sentence)
+
+    def test_agent_toml_in_the_words_of_verify(self):
+        path = self.folder / "agent.toml"
+        good = path.read_text().splitlines()
+        lines = (package.SOURCE / "tests/evaluation/agent_files.tsv").read_text().splitlines()
+        cases = [line.split("\t") for line in lines if not line.startswith("#")]
+        assert len(cases) > 25
+        for key, line, sentence in cases:
+            rest = [each for each in good if not each.startswith(f"{key} =")]
+            path.write_text("\n".join([line, *rest, ""]))
+            with pytest.raises(errors.BadInput) as raised:
+                read_submission(self.folder)
+            assert str(raised.value) == f"{path}{sentence}"
 
     def test_agent_toml_at_its_limits(self):
         path = self.folder / "agent.toml"

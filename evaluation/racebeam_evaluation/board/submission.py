@@ -4,23 +4,18 @@ import dataclasses
 import hashlib
 import pathlib
 import re
-from typing import Any
 
 import pandas as pd
 
 from ..csv_file import Kind, read
 from ..errors import BadInput
-from ..plan import PRESETS, preset_of, read_toml
-from ..results import DIVERGED, ROLES, Results, read_folder, together
+from ..plan import preset_of
+from ..results import DIVERGED, Results, read_folder, together
+from .agent_file import About, read_about
 from .episode_log import EpisodeLog, read_log
 
-_MOST_BYTES = 2**16  # of agent.toml
-_MOST_LETTERS = 4000  # of a text in it
-_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,99}")
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,99}")  # of a unit, GAME-AGENT-TRIAL, and of an episode
 _NAME_SAYS = "1 to 100 letters, digits, '-', '_' and '.', a letter or a digit first"
-_PRESETS = (*PRESETS, "other")
-_TEXTS = ("agent", "version", "preset", "words", "link", "role", "phrase")
-_REQUIRED = ("agent", "version", "preset", "training_frames")
 # The columns of results.csv that the logs confirm.
 _ROW = {
     name: Kind.TEXT
@@ -29,25 +24,6 @@ _ROW = {
         *("frames", "decisions", "end", "lives", "state_hash", "log_digest", "version"),
     )
 }
-
-
-@dataclasses.dataclass(frozen=True)
-class About:
-    """agent.toml."""
-
-    agent: str
-    version: str
-    preset: str
-    training_frames: int
-    words: str = ""  # the authors'
-    link: str = ""
-    role: str = "learner"
-    phrase: str = ""  # the seeds follow from it
-
-    @property
-    def name(self) -> str:
-        """The name of the agent with its version."""
-        return f"{self.agent} {self.version}"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -70,7 +46,7 @@ class Submission:
 
 def read_submission(folder: pathlib.Path) -> Submission:
     """Reads the folder. Raises BadInput with a sentence if something in it is not as it must be."""
-    about = _about(folder / "agent.toml")
+    about = read_about(folder / "agent.toml")
     results = read_folder(folder)
     rows = read(folder / "results.csv", _ROW)[0].astype("str")
     strangers = sorted(set(rows["agent"]) - {about.agent})
@@ -83,38 +59,6 @@ def read_submission(folder: pathlib.Path) -> Submission:
     if not episodes:
         raise BadInput(f"{folder / 'results.csv'}: every trial diverged; expected a score of one trial or more")
     return Submission(about, _named(results, about), episodes)
-
-
-def _about(path: pathlib.Path) -> About:
-    found = read_toml(path, _MOST_BYTES)
-    names = [field.name for field in dataclasses.fields(About)]
-    for key in found:
-        if key not in names:
-            raise BadInput(f"{path}: unknown key '{key}'; accepted: {', '.join(names)}")
-    for key in _REQUIRED:
-        if key not in found:
-            raise BadInput(f"{path} lacks the key '{key}'; expected {', '.join(_REQUIRED)}")
-    for key in _TEXTS:
-        _check_text(path, key, found.get(key, ""))
-    _check(path, found, "agent", _NAME.fullmatch(found["agent"]), _NAME_SAYS)
-    _check(path, found, "preset", found["preset"] in _PRESETS, ", ".join(_PRESETS))
-    _check(path, found, "role", found.get("role", "learner") in ROLES, ", ".join(ROLES))
-    _check(path, found, "link", re.fullmatch(r"(https?://\S+)?", found.get("link", "")), "https://... or http://...")
-    frames = found["training_frames"]
-    _check(path, found, "training_frames", type(frames) is int and 0 <= frames < 10**15, "a whole number from 0")
-    return About(**found)
-
-
-def _check_text(path: pathlib.Path, key: str, value: object) -> None:
-    if not isinstance(value, str):
-        raise BadInput(f"{path}: {key} is {value}; expected a text")
-    if len(value) > _MOST_LETTERS:
-        raise BadInput(f"{path}: {key} has {len(value)} letters; expected at most {_MOST_LETTERS}")
-
-
-def _check(path: pathlib.Path, found: dict[str, Any], key: str, right: object, expected: str) -> None:
-    if not right:
-        raise BadInput(f"{path}: {key} is {str(found[key])!r}; expected {expected}")
 
 
 def _episode(folder: pathlib.Path, line: int, row: dict[str, str], about: About) -> Episode:

@@ -21,10 +21,8 @@ namespace racebeam {
 namespace {
 
 constexpr std::string_view kInMemory = "inline";
-constexpr std::size_t kMostName = 64, kMostLink = 1000;
+constexpr std::size_t kMostLink = 1000;
 constexpr std::int64_t kMostTrial = 1'000'000;
-constexpr std::int64_t kMostTraining = 999'999'999'999'999;  // frames; the board accepts as many
-constexpr std::array<std::string_view, 3> kRoles = {"learner", "planner", "baseline"};
 
 // The words of `log` after the name.
 struct LogWords {
@@ -33,15 +31,10 @@ struct LogWords {
   AboutAgent about;
 };
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
-
-// A part of the name of a folder.
 std::string checked_text(std::string_view text, std::string_view what) {
-  const auto is_good = [](char c) { return is_letter(c) || c == '-' || c == '_' || c == '.'; };
-  if (text.empty() || text.size() > kMostName || !is_letter(text[0]) || !std::ranges::all_of(text, is_good))
-    throw InvalidInput(std::string(what) + " is " + quote(text) + "; it takes 1 to " +
-                       std::to_string(kMostName) +
-                       " letters, digits, '-', '_' and '.', a letter or a digit first");
+  if (!is_plain_name(text, kMostAgentName))
+    throw InvalidInput(std::string(what) + " is " + quote(text) + "; it takes " +
+                       plain_name_rule(kMostAgentName));
   return std::string(text);
 }
 
@@ -83,11 +76,13 @@ constexpr std::array<LogOption, 9> kOptions = {{
                  std::string_view value) { words.origin.trial = count_of(value, "trial", kMostTrial); }},
     {"training_frames",
      [](LogWords& words, std::string_view value) {
-       words.about.training_frames = number_within(value, "training_frames", 0, kMostTraining);
+       words.about.training_frames = number_within(value, "training_frames", 0, kMostTrainingFrames);
      }},
     {"phrase", [](LogWords& words, std::string_view value) { words.about.phrase = checked_phrase(value); }},
-    {"role", [](LogWords& words,
-                std::string_view value) { words.about.role = kRoles[choice_of(value, "role", kRoles)]; }},
+    {"role",
+     [](LogWords& words, std::string_view value) {
+       words.about.role = kAgentRoles[choice_of(value, "role", kAgentRoles)];
+     }},
     {"link", [](LogWords& words, std::string_view value) { words.about.link = checked_link(value); }},
     {"machine", nullptr},
 }};

@@ -1,5 +1,7 @@
 #include "agents/experiment/verify_submission.hpp"
 
+#include <sstream>
+
 #include <catch2/catch.hpp>
 
 #include "recording/phrase_seed.hpp"
@@ -21,8 +23,25 @@ PlaySettings sticky_episodes(int frames = 3000) {
   return play;
 }
 
-constexpr auto kAgent = "agent = \"mine\"\n";
-constexpr auto kPhrase = "agent = \"mine\"\nphrase = \"the first headline of Sunday\"\n";
+constexpr auto kAgent = "agent = \"mine\"\nversion = \"1\"\npreset = \"other\"\ntraining_frames = 0\n";
+const std::string kPhrase = std::string(kAgent) + "phrase = \"the first headline of Sunday\"\n";
+
+// agent.toml with another line of a key; "": without it.
+std::string agent_with(const std::string& key, const std::string& line) {
+  std::string text = line + (line.empty() ? "" : "\n");
+  std::istringstream lines(kAgent);
+  for (std::string each; std::getline(lines, each);)
+    if (!each.starts_with(key + " =")) text += each + "\n";
+  return text;
+}
+
+// The cells of a line of tests/evaluation/agent_files.tsv.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream text(line);
+  for (std::string cell; std::getline(text, cell, '\t');) cells.push_back(cell);
+  return cells;
+}
 
 // Three episodes of random play, without a plan. seed_of: by the number of the episode.
 void make_submission(
@@ -97,11 +116,11 @@ TEST_CASE("A submission's rows are confirmed without a plan, and every alteratio
   }
   SECTION("another preset, and another agent") {
     const std::string about = folder.root() + "/agent.toml";
-    write(about, std::string(kAgent) + "preset = \"machado2018\"\n");
+    write(about, agent_with("preset", "preset = \"machado2018\""));
     refused("agent.toml: preset is 'machado2018'; the settings of the logs are those of 'other'");
-    write(about, std::string(kAgent) + "preset = \"other\"\n");
+    write(about, kAgent);
     CHECK(of_submission(folder).verdict.wrong == 0);
-    write(about, "agent = \"yours\"\n");
+    write(about, agent_with("agent", "agent = \"yours\""));
     refused("not confirmed: agent is 'mine'; agent.toml has 'yours'");
     CHECK_THAT(of_submission(folder).findings, !Catch::Contains("no row of results.csv has this log"));
   }
@@ -143,6 +162,40 @@ TEST_CASE("A submission's rows are confirmed without a plan, and every alteratio
     write(folder.plan(), kPlan);
     CHECK_FALSE(is_submission(folder));
   }
+}
+
+TEST_CASE("verify refuses an agent.toml in the words of the board") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("mine"));
+  make_submission(folder);
+  const std::string path = folder.root() + "/agent.toml";
+  std::istringstream cases(contents(RACEBEAM_SOURCE_DIR "/tests/evaluation/agent_files.tsv"));
+  int count = 0;
+  for (std::string line; std::getline(cases, line);) {
+    if (line.starts_with("#")) continue;
+    const std::vector<std::string> cells = cells_of(line);
+    REQUIRE(cells.size() == 3);
+    INFO(line);
+    write(path, agent_with(cells[0], cells[1]));
+    CHECK_THROWS_WITH(of_submission(folder), path + cells[2]);
+    ++count;
+  }
+  CHECK(count > 25);
+}
+
+TEST_CASE("verify accepts an agent.toml whose values are at their limits") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("mine"));
+  const std::string words(4000, 'x'), path = folder.root() + "/agent.toml";
+  const std::string rest = "link = \"\"\nrole = \"planner\"\nwords = \"" + words;
+  make_submission(folder, agent_with("training_frames", "training_frames = 999999999999999") + rest + "\"\n");
+  CHECK(of_submission(folder).verdict.confirmed == 3);
+  write(path, kAgent + rest + "x\"\n");
+  CHECK_THROWS_WITH(of_submission(folder), path + ": words has 4001 letters; expected at most 4000");
+  std::string version;
+  for (int letter = 0; letter < 64; ++letter) version += "ö";
+  write(path, agent_with("version", "version = \"" + version + "\""));
+  CHECK(of_submission(folder).verdict.confirmed == 3);
 }
 
 TEST_CASE("The seed of a phrase is the SHA-256 of phrase, game, trial and episode") {
@@ -189,7 +242,7 @@ TEST_CASE("With a phrase, a submission's seeds follow from it, and no episode is
     refused("(mine-1, episode 2): not confirmed: environment_seed is '");
   }
   SECTION("another phrase") {
-    write(folder.root() + "/agent.toml", "phrase = \"another\"\n");
+    write(folder.root() + "/agent.toml", agent_with("phrase", "phrase = \"another\""));
     CHECK(of_submission(folder).verdict.confirmed == 0);
   }
   SECTION("an episode that was left out") {
@@ -214,8 +267,8 @@ TEST_CASE("With a phrase, a submission's seeds follow from it, and no episode is
     refused("trial is '01' and episode is '2'; with a phrase, both count from 1");
   }
   SECTION("a phrase that cannot be one") {
-    write(folder.root() + "/agent.toml", "\nphrase = \"\"\n");
+    write(folder.root() + "/agent.toml", agent_with("phrase", "phrase = \"\""));
     CHECK_THROWS_WITH(of_submission(folder),
-                      Catch::Contains("agent.toml:2: phrase: a phrase has 1 to 1000 bytes"));
+                      Catch::Contains("agent.toml: phrase is ''; expected 1 to 1000 bytes, without "));
   }
 }

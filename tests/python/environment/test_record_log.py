@@ -149,7 +149,9 @@ class TestSubmissions:
         unit = self.folder / "logs" / row["unit"]
         unit.mkdir(parents=True)
         (unit / "1.episode").write_bytes(log)
-        (self.folder / "agent.toml").write_text('agent = "liar"\n')
+        (self.folder / "agent.toml").write_text(
+            'agent = "liar"\nversion = "1"\npreset = "other"\ntraining_frames = 0\n'
+        )
         self.write_rows([{column: row[column] for column in COLUMNS.split(",")}])
         status, output = self.verify()
         assert status == 1, output
@@ -272,6 +274,11 @@ class TestSubmissions:
         for key, word in (("words", 3), ("role", "boss"), ("link", "example.org")):
             with pytest.raises((InvalidInput, TypeError, ValueError), match=f"{key} is {word!r}; it takes"):
                 RecordLog(racebeam.AtariEnv("beamfall"), self.folder, about={key: word})
+        for version in ("", "x" * 65):
+            with pytest.raises(InvalidInput, match=f"version has {len(version)} letters; it takes 1 to 64"):
+                RecordLog(racebeam.AtariEnv("beamfall"), self.folder, version=version)
+        with pytest.raises(InvalidInput, match="words has 4001 letters; it takes at most 4000"):
+            RecordLog(racebeam.AtariEnv("beamfall"), self.folder, about={"words": "x" * 4001})
         with pytest.raises(TypeError, match="folder is 3; it takes a path"):
             RecordLog(racebeam.AtariEnv("beamfall"), 3)
         for arguments in (

@@ -16,7 +16,10 @@ KEYS = ("words", "link", "role")  # of `about`
 ROLES = ("learner", "planner", "baseline")
 MOST_FRAMES = 10**15 - 1  # the board accepts as many
 PHRASE = re.compile(r'[^\x00-\x1f\x7f"\\]+')
+LINK = re.compile(r"(https?://\S+)?", re.ASCII)
 MOST_BYTES = 1000  # of a phrase
+MOST_VERSION = 64  # letters
+MOST_LETTERS = 4000  # of another text
 
 
 def agent_file(
@@ -26,20 +29,20 @@ def agent_file(
 
     Args:
         agent: Name of the agent: letters, digits, "_", "." and "-".
-        version: Version of the agent.
+        version: Version of the agent: 1 to 64 letters.
         preset: Preset of the settings.
         training_frames: Frames that the agent was trained on.
         phrase: The phrase that the seeds of the episodes follow from, or None.
         about: Other keys: "words", "link" and "role".
 
     Raises:
-        InvalidInput: If the agent, the phrase or the link is wrong.
+        InvalidInput: If the agent, the phrase or the link is wrong, or a text is too long.
         WrongType: If an argument has a wrong type, or `about` has another key.
         WrongValue: If the number or the role is out of range.
     """
     words: dict[str, object] = {
         "agent": check_agent(agent),
-        "version": _text("version", version),
+        "version": _text("version", version, 1, MOST_VERSION),
         "preset": preset,
         "training_frames": integer("training_frames", training_frames, 0, MOST_FRAMES),
         **({} if phrase is None else {"phrase": _phrase(phrase)}),
@@ -54,14 +57,16 @@ def _checked(about: Any) -> dict[str, str]:
     words = {key: _text(key, word) for key, word in about.items()}
     if "role" in words:
         check_choice("role", words["role"], ROLES)
-    if "link" in words and not re.fullmatch(r"(https?://\S+)?", words["link"]):
+    if "link" in words and not LINK.fullmatch(words["link"]):
         raise InvalidInput(f"link is {words['link']!r}; it takes https://... or http://...")
     return words
 
 
-def _text(name: str, value: Any) -> str:
+def _text(name: str, value: Any, least: int = 0, most: int = MOST_LETTERS) -> str:
     if not isinstance(value, str):
         raise WrongType(f"{name} is {value!r}; it takes a text")
+    if not least <= len(value) <= most:
+        raise InvalidInput(f"{name} has {len(value)} letters; it takes {f'{least} to' if least else 'at most'} {most}")
     return value
 
 
