@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <functional>
+#include <system_error>
 
 #include "games/gzip.hpp"
 #include "games/md5.hpp"
@@ -12,6 +14,8 @@
 
 namespace racebeam {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::string_view kBuiltIn = "builtin:";
 
@@ -115,6 +119,27 @@ std::shared_ptr<const Image> unpacked(std::string_view file, const std::string& 
   return image_of(std::move(bytes), stem_of(where));
 }
 
+std::string reason_for(const fs::path& folder, const std::error_code& error) {
+  std::error_code none;
+  if (error != std::errc::no_such_file_or_directory || !fs::is_symlink(folder, none)) return error.message();
+  return "it is a link to '" + fs::read_symlink(folder, none).string() + "', which is not there";
+}
+
+// The entries of a folder that are named like images, sorted.
+std::vector<std::string> entries_like_images(const std::string& folder,
+                                             const std::function<bool(const fs::directory_entry&)>& is_one) {
+  std::error_code error;
+  std::vector<std::string> files;
+  for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
+    const fs::path path = entry->path();
+    if (is_one(*entry) && (looks_like_image(path) || looks_like_archive(path)))
+      files.push_back(path.string());
+  }
+  if (error) throw InvalidInput("cannot list the folder '" + folder + "': " + reason_for(folder, error));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 }  // namespace
 
 std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const std::string& stem) {
@@ -125,18 +150,17 @@ std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const s
 }
 
 std::vector<std::string> image_files(const std::string& folder) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  std::vector<std::string> files;
-  for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
+  return entries_like_images(folder, [](const fs::directory_entry& entry) {
     std::error_code unknown;  // a link to itself, or into a folder without permission
-    const fs::path path = entry->path();
-    if (entry->is_regular_file(unknown) && (looks_like_image(path) || looks_like_archive(path)))
-      files.push_back(entry->path().string());
-  }
-  if (error) throw InvalidInput("cannot list the folder '" + folder + "': " + error.message());
-  std::sort(files.begin(), files.end());
-  return files;
+    return entry.is_regular_file(unknown);
+  });
+}
+
+std::vector<std::string> broken_image_links(const std::string& folder) {
+  return entries_like_images(folder, [](const fs::directory_entry& entry) {
+    std::error_code unknown;
+    return entry.is_symlink(unknown) && entry.status(unknown).type() == fs::file_type::not_found;
+  });
 }
 
 std::shared_ptr<const Image> image_in_file(std::string_view file, const std::string& name) {

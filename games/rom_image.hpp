@@ -41,6 +41,9 @@ std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const s
 // archives: .zip or .7z. Throws InvalidInput if the folder cannot be listed.
 std::vector<std::string> image_files(const std::string& folder);
 
+// The links of a folder that look like images, and lead to no file, sorted. Throws like image_files().
+std::vector<std::string> broken_image_links(const std::string& folder);
+
 // An image that is part of the program.
 struct BuiltInImage {
   std::string_view name;

@@ -13,9 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& what, const std::string& path) {
+// How an error names a file. A client of a server may read it, and does not learn the server's folders.
+enum class Naming { kName, kPath };
+
+[[noreturn]] void fail(const std::string& what, const std::string& path, Naming naming = Naming::kName) {
   const std::string reason = std::generic_category().message(errno);
-  throw std::runtime_error("cannot " + what + " " + fs::path(path).filename().string() + ": " + reason);
+  const std::string name = naming == Naming::kPath ? path : fs::path(path).filename().string();
+  throw std::runtime_error("cannot " + what + " " + name + ": " + reason);
 }
 
 // The temporary name is hidden, and in the same folder, so that the file can be renamed.
@@ -26,8 +30,9 @@ std::string temporary_name(const std::string& path) {
   return (whole.parent_path() / name).string();
 }
 
-void write_all(int descriptor, std::size_t place, std::string_view bytes, const std::string& path) {
-  if (!write_at(descriptor, place, bytes)) fail("write", path);
+void write_all(int descriptor, std::size_t place, std::string_view bytes, const std::string& path,
+               Naming naming = Naming::kName) {
+  if (!write_at(descriptor, place, bytes)) fail("write", path, naming);
 }
 
 void create(const std::string& temporary, const std::string& path) {
@@ -56,7 +61,7 @@ class Aside {
       descriptor_ = make_marked_file(name_);
       if (descriptor_ < 0 && errno != EEXIST) break;
     }
-    if (descriptor_ < 0) fail("make", path);
+    if (descriptor_ < 0) fail("make", path, Naming::kPath);
   }
   ~Aside() {
     close_file(descriptor_);
@@ -68,7 +73,7 @@ class Aside {
   int descriptor() const { return descriptor_; }
 
   void rename_to(const std::string& path) {
-    if (!rename_over(name_, path)) fail("replace", path);
+    if (!rename_over(name_, path)) fail("replace", path, Naming::kPath);
     name_.clear();
     unmark(descriptor_);
   }
@@ -153,8 +158,8 @@ void AtomicFile::commit() {
 void replace_file(const std::string& path, std::string_view bytes, Durable durable) {
   const std::string target = target_of(path);
   Aside aside(target);
-  write_all(aside.descriptor(), 0, bytes, path);
-  if (durable == Durable::kNow && !sync_disk_of(aside.descriptor())) fail("sync", path);
+  write_all(aside.descriptor(), 0, bytes, path, Naming::kPath);
+  if (durable == Durable::kNow && !sync_disk_of(aside.descriptor())) fail("sync", path, Naming::kPath);
   aside.rename_to(target);
 }
 

@@ -73,7 +73,7 @@ enum class Durable {
 
 // Writes a whole file aside, under the name .NAME.part if no other program has a file of that name. Renames
 // it over the file at `path`, or over the file that `path` links to. Only one thread may call it at a time.
-// Throws std::runtime_error; the file is then unchanged.
+// Throws std::runtime_error with the path; the file is then unchanged.
 void replace_file(const std::string& path, std::string_view bytes, Durable durable);
 
 class AtomicFolder {

@@ -3,7 +3,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
 
 #include "system/input_file.hpp"
@@ -133,7 +132,7 @@ std::string unseal(const SealedKind& kind, const std::string& name, std::string_
 
 std::string read_sealed(const SealedKind& kind, const std::string& path) {
   const std::string bytes = read_input_file(std::string(kind.what), path, kind.most + kHeadSize);
-  return unseal(kind, std::filesystem::path(path).filename().string(), bytes);
+  return unseal(kind, path, bytes);
 }
 
 }  // namespace racebeam

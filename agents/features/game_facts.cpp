@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <vector>
 
 #include "recording/atomic_file.hpp"
 #include "recording/sealed_file.hpp"
@@ -50,11 +51,36 @@ std::string source_of(const Cartridge& cartridge, const SampleSettings& settings
       .append(sha256_of(colours), 0, 16);
 }
 
+// The value of a word KEY=VALUE; empty if no word has the key.
+std::string_view value_in(const std::vector<std::string_view>& words, std::string_view key) {
+  for (const std::string_view word : words)
+    if (word.starts_with(key) && word.substr(key.size()).starts_with('=')) return word.substr(key.size() + 1);
+  return {};
+}
+
+// What the first line of a file has instead of `source`: the first word that differs, a background's source
+// before all others.
+std::string first_difference(std::string_view found, std::string_view source) {
+  std::vector<std::string_view> words, expected;
+  split(found, words);
+  split(source, expected);
+  std::vector<std::string_view> keys = {"csv"};
+  for (const auto* const list : {&expected, &words})
+    for (const std::string_view word : *list) keys.push_back(word.substr(0, word.find('=')));
+  for (const std::string_view key : keys) {
+    const std::string_view value = value_in(words, key), accepted = value_in(expected, key);
+    if (value != accepted)
+      return std::string(key) + " is " + (value.empty() ? "missing" : quote(value)) + "; expected " +
+             (accepted.empty() ? "none" : quote(accepted));
+  }
+  return "its first line is " + quote(found) + "; expected " + quote(source);
+}
+
 // The contents behind the first line, which must be `source`.
 std::string_view behind(std::string_view contents, const std::string& source, const std::string& path) {
   const std::string_view found = contents.substr(0, contents.find('\n'));
   if (found != source || found.size() == contents.size())
-    throw InvalidInput(path + " is of '" + std::string(found) + "'; wanted is '" + source + "'");
+    throw InvalidInput(path + ": " + first_difference(found, source));
   return contents.substr(found.size() + 1);
 }
 

@@ -59,11 +59,7 @@ void write_picture_file(const std::string& path, std::span<const std::uint8_t> p
     if (std::ofstream(path, std::ios::binary) << bytes << std::flush) return;
     throw std::runtime_error("cannot write '" + path + "'");
   }
-  try {
-    replace_file(path, bytes, Durable::kLater);
-  } catch (const std::exception& error) {
-    throw std::runtime_error("cannot write '" + path + "': " + error.what());
-  }
+  replace_file(path, bytes, Durable::kLater);
 }
 
 }  // namespace racebeam

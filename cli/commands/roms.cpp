@@ -1,5 +1,6 @@
 #include "cli/commands/roms.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -27,7 +28,7 @@ Each file is one of:
   known     its MD5 is in the catalogue: it plays as this game
   by-name   another image, but the file is named like a game: it plays as that game, with a warning
   unknown   it plays without a score; --game NAME or --game-file FILE selects a rule
-  unusable  it cannot be read, or no cartridge scheme fits it
+  unusable  it cannot be read, it is a link to what is not there, or no cartridge scheme fits it
 The last line counts the images, and the games of the catalogue that the folder has no image of.
 
 Example:
@@ -86,6 +87,20 @@ RomFinding examine(const fs::path& path) {
   return finding;
 }
 
+RomFinding broken_link(const fs::path& path) {
+  std::error_code none;
+  const std::string target = fs::read_symlink(path, none).string();
+  return {path.filename().string(), "unusable", "", "", "", "a link to '" + target + "', which is not there"};
+}
+
+std::vector<RomFinding> findings_in(const std::string& folder) {
+  std::vector<RomFinding> findings;
+  for (const fs::path path : image_files(folder)) findings.push_back(examine(path));
+  for (const fs::path path : broken_image_links(folder)) findings.push_back(broken_link(path));
+  std::ranges::sort(findings, {}, &RomFinding::file);
+  return findings;
+}
+
 std::vector<std::string> games_without(const std::vector<RomFinding>& findings) {
   std::set<std::string> found;
   for (const RomFinding& finding : findings) found.insert(finding.game);
@@ -137,8 +152,7 @@ struct Options {
 };
 
 void run(const Options& options) {
-  std::vector<RomFinding> findings;
-  for (const fs::path path : image_files(options.folder)) findings.push_back(examine(path));
+  const std::vector<RomFinding> findings = findings_in(options.folder);
   const auto missing = games_without(findings);
   options.json ? print_json(findings, missing) : print_text(findings, missing, options.names_missing);
 }

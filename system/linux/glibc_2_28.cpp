@@ -52,6 +52,9 @@ int pthread_setaffinity_np(pthread_t thread, std::size_t size, const cpu_set_t* 
 int stat(const char* path, struct stat* to) noexcept {
   return static_cast<int>(syscall(SYS_newfstatat, AT_FDCWD, path, to, 0));
 }
+int lstat(const char* path, struct stat* to) noexcept {
+  return static_cast<int>(syscall(SYS_newfstatat, AT_FDCWD, path, to, AT_SYMLINK_NOFOLLOW));
+}
 int fstat(int file, struct stat* to) noexcept { return static_cast<int>(syscall(SYS_fstat, file, to)); }
 int fstat64(int file, struct stat64* to) noexcept { return static_cast<int>(syscall(SYS_fstat, file, to)); }
 

@@ -200,6 +200,27 @@ class TestRoms:
         assert re.search(rf"^unknown +- +[0-9a-f]{{32}}  2K +mystery\.bin: {hint}$", image)
         assert re.search(r"^1 image; \d+ games without one \(--missing lists them\)$", counts)
 
+    def test_a_link_to_what_is_not_there_is_unusable(self):
+        self.put("real.bin", b"\xea" * 4096)
+        for name, target in (("pong.bin", "/nowhere/pong.bin"), ("b.zip", "gone.zip"), ("a.rom", "real.bin")):
+            os.symlink(target, os.path.join(self.folder, name))
+        os.symlink("gone", os.path.join(self.folder, "notes.txt"))
+        found, missing = self.findings()
+        assert {name: image["verdict"] for name, image in found.items()} == {
+            "a.rom": "unknown",
+            "b.zip": "unusable",
+            "pong.bin": "unusable",
+            "real.bin": "unknown",
+        }
+        assert found["pong.bin"]["note"] == "a link to '/nowhere/pong.bin', which is not there"
+        assert "pong" in missing
+        assert "pong.bin: a link to '/nowhere/pong.bin', which is not there\n" in answer("roms", self.folder)
+
+    def test_a_folder_that_is_a_link_to_what_is_not_there(self):
+        link = os.path.join(self.folder, "link")
+        os.symlink("gone", link)
+        self.check_refusal(link, f"cannot list the folder '{link}': it is a link to 'gone', which is not there")
+
     def test_the_games_without_an_image_are_listed_on_request(self):
         self.put("mystery.bin", b"\xea" * 4096)
         lines = answer("roms", self.folder, "--missing").splitlines()

@@ -139,10 +139,11 @@ TEST_CASE("A file that cannot be written stays as it was") {
   const std::string path = folder.path("table.csv");
   std::filesystem::create_directory(path);
   CHECK_THROWS_WITH(replace_file(path, "new", Durable::kLater),
-                    Catch::StartsWith("cannot replace table.csv: "));
+                    Catch::StartsWith("cannot replace " + path + ": "));
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path("")), {}) == 1);
-  CHECK_THROWS_WITH(replace_file(folder.path("none/table.csv"), "new", Durable::kLater),
-                    Catch::StartsWith("cannot make table.csv: "));
+  const std::string nowhere = folder.path("none/table.csv");
+  CHECK_THROWS_WITH(replace_file(nowhere, "new", Durable::kLater),
+                    Catch::StartsWith("cannot make " + nowhere + ": "));
 }
 
 TEST_CASE("A part of another owner is not taken for one that a kill left behind") {
@@ -166,7 +167,7 @@ TEST_CASE("A hundred names are tried for a part, and then no part is made") {
   CHECK(files_in(folder) == 100);
   folder.write(".table.csv.part99", "precious");
   CHECK_THROWS_WITH(replace_file(folder.path("table.csv"), "newer", Durable::kLater),
-                    Catch::StartsWith("cannot make table.csv: "));
+                    Catch::StartsWith("cannot make " + folder.path("table.csv") + ": "));
   CHECK(contents(folder.path("table.csv")) == "new");
 }
 
@@ -176,7 +177,8 @@ TEST_CASE("A file that does not fit leaves what was there before") {
   replace_file(path, "old", Durable::kLater);
   for (const Durable durable : {Durable::kLater, Durable::kNow}) {
     const FullDisk disk(10);
-    CHECK_THROWS_WITH(replace_file(path, "eleven byte", durable), "cannot write table.csv: File too large");
+    CHECK_THROWS_WITH(replace_file(path, "eleven byte", durable),
+                      "cannot write " + path + ": File too large");
     CHECK(contents(path) == "old");
     CHECK(files_in(folder) == 1);
     replace_file(path, "ten bytes.", durable);

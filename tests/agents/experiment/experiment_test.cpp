@@ -149,11 +149,13 @@ TEST_CASE("A damaged checkpoint, and a background of another game, are refused")
   const Plan plan = bound_plan(kPlan);
   fs::create_directories(folder.work());
   write(folder.checkpoint("beamfall-random-1"), "RBCHECKP");
-  CHECK_THROWS_WITH(run(plan, folder), Catch::StartsWith("checkpoint beamfall-random-1.checkpoint: "));
+  CHECK_THROWS_WITH(run(plan, folder),
+                    Catch::StartsWith("checkpoint " + folder.checkpoint("beamfall-random-1") + ": "));
   fs::remove(folder.checkpoint("beamfall-random-1"));
   const Cartridge other{load_image("builtin:updraft"), find_game("updraft")};
   write(folder.facts() + "/beamfall.background", bytes_of(Background{}, other, {1, 300, 300, plan.play}));
-  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("is of 'game=updraft"));
+  CHECK_THROWS_WITH(run(plan, folder),
+                    Catch::EndsWith("beamfall.background: game is 'updraft'; expected 'beamfall'"));
 }
 
 TEST_CASE("Files of games that do not fit the plan are refused before anything is written") {
@@ -163,12 +165,14 @@ TEST_CASE("Files of games that do not fit the plan are refused before anything i
   fs::create_directories(folder.facts());
   const SampleSettings csv{plan.seed, 300, 300, plan.play, std::string(64, 'a')};
   write(folder.facts() + "/beamfall.background", bytes_of(Background{}, beamfall(), csv));
-  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("csv=aaaa") && Catch::Contains("wanted is"));
+  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("beamfall.background: csv is 'aaaa") &&
+                                           Catch::EndsWith("aaaa...'; expected none"));
   CHECK(files_of(folder).size() == 1);
   CHECK(!fs::exists(folder.units()));
 
   plan.games[0].background_csv = std::string(64, 'b');
-  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("wanted is") && Catch::Contains("csv=bbbb"));
+  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("beamfall.background: csv is 'aaaa") &&
+                                           Catch::Contains("...'; expected 'bbbb"));
   fs::remove(folder.facts() + "/beamfall.background");
   CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("beamfall.background: no such file; racebeam "
                                                        "background beamfall --csv FILE --into "));
@@ -186,7 +190,8 @@ TEST_CASE("What is finished is in the tables, even if a unit fails") {
   const ResultsFolder folder(place.path("results"));
   fs::create_directories(folder.work());
   write(folder.checkpoint("beamfall-basic-1"), "RBCHECKP");
-  CHECK_THROWS_WITH(run(bound_plan(kPlan), folder), Catch::StartsWith("checkpoint beamfall-basic-1"));
+  CHECK_THROWS_WITH(run(bound_plan(kPlan), folder),
+                    Catch::StartsWith("checkpoint " + folder.checkpoint("beamfall-basic-1")));
   CHECK(rows_of(contents(folder.results())).size() == 38);
 }
 

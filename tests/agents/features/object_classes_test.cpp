@@ -164,13 +164,19 @@ TEST_CASE("Classes are the same again, as text and as a file") {
   const std::string path = folder.path("beamfall.classes");
   CHECK(classes_of(path, background, beamfall(), settings) == classes);
   CHECK(GameFacts(beamfall(), settings, "").classes() == classes);
-  CHECK_THROWS_WITH(classes_of(path, Background{}, beamfall(), settings), Catch::Contains("; wanted is"));
+  CHECK_THROWS_WITH(classes_of(path, Background{}, beamfall(), settings),
+                    Catch::StartsWith(path + ": background is '") && Catch::Contains("'; expected '"));
+  SampleSettings later = settings;
+  later.version = "9.9";
+  CHECK_THROWS_WITH(classes_of(path, background, beamfall(), later),
+                    Catch::StartsWith(path + ": version is ") && Catch::EndsWith("; expected '9.9'"));
   SampleSettings interpreted = settings;
   interpreted.play.machine.cpu = CpuKind::kInterpreter;
   CHECK(discover_classes(beamfall(), interpreted, background) == classes);
   SampleSettings other = settings;
   other.class_screens = 2;
-  CHECK_THROWS_WITH(classes_of(path, background, beamfall(), other), Catch::Contains("screens=1500 "));
+  CHECK_THROWS_WITH(classes_of(path, background, beamfall(), other),
+                    path + ": screens is '1500'; expected '2'");
 }
 
 TEST_CASE("An invalid list of classes is refused with its line") {
