@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostTableBytes = std::size_t{1} << 32;
+constexpr std::chrono::seconds kBetweenCounts{10};  // a look at each unit may take long on a network's disk
 
 std::string first_difference(std::string_view ours, std::string_view theirs) {
   while (!ours.empty() || !theirs.empty()) {
@@ -191,6 +192,7 @@ class Run {
     const Unit* unit;
     double seconds;               // that it is expected to take
     double before = 0, done = 0;  // shares of it: what this process did not do, and what is done by now
+    bool is_running = false;      // in this process
     bool is_over = false;
   };
 
@@ -248,13 +250,27 @@ class Run {
   // Another process has finished it.
   void leave(Own& own) {
     const std::lock_guard lock(mutex_);
+    count_other(own);
+  }
+
+  // Under the mutex.
+  void count_other(Own& own) {
+    if (own.is_over) return;
     ++finished_;
     own.is_over = true;
     own.before = own.done = 1;
   }
 
+  // Counts the units that other processes have finished. Under the mutex.
+  void count_others() {
+    last_count_ = Clock::now();
+    for (Own& own : mine_)
+      if (!own.is_over && !own.is_running && is_finished(folder_, *own.unit)) count_other(own);
+  }
+
   void begin(Own& own, const Trial& trial) {
     const std::lock_guard lock(mutex_);
+    own.is_running = true;
     own.before = own.done = trial.place().done;
   }
 
@@ -267,6 +283,7 @@ class Run {
       const Trial::Place place = trial.place();
       const std::lock_guard lock(mutex_);
       own.done = place.done;
+      if (last - last_count_ >= kBetweenCounts) count_others();
       Progress at = progress(own);
       at.episodes = place.episodes;
       at.decisions = place.decisions;
@@ -279,6 +296,7 @@ class Run {
     ++finished_;
     own.is_over = true;
     own.done = 1;
+    count_others();
     Progress at = progress(own);
     at.unit_finished = true;
     at.episodes = own.unit->agent->length.evaluation_episodes;
@@ -309,6 +327,7 @@ class Run {
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;
   std::size_t finished_ = 0;
+  Clock::time_point last_count_ = start_;  // of the units of other processes
   std::exception_ptr failure_;
 };
 

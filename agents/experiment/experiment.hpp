@@ -23,7 +23,8 @@ struct ExperimentSettings {
 
 // How far an experiment has come.
 struct Progress {
-  std::size_t finished = 0, all = 0;  // units of this process
+  // Units that were not finished when this process began. Other processes finish some of them.
+  std::size_t finished = 0, all = 0;
   std::string unit;
   bool unit_finished = false;
   int episodes = 0;            // of the unit: of evaluation if it is finished, else all that are over

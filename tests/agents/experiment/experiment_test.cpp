@@ -113,6 +113,21 @@ TEST_CASE("The role of each agent is reported once") {
   CHECK(contents(folder.agents()) == "agent,role\nuct,planner\nrandom,baseline\nbasic,learner\n");
 }
 
+TEST_CASE("Progress counts the units that another process finishes") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan = bound_plan(
+      "games = [\"beamfall\"]\nagents = [\"random\"]\nenvironment = \"max_episode_frames=50\"\n"
+      "[agent.random]\ntrials = 6\nevaluation_episodes = 1\n");
+  std::vector<std::size_t> counts;
+  run_experiment(plan, Images(), folder, {}, [&](const Progress& at) {
+    counts.push_back(at.finished);
+    if (counts.size() == 1) run(plan, folder, {.shard = 2, .shards = 2});  // units 2, 4 and 6
+    CHECK(at.all == 6);
+  });
+  CHECK(counts == std::vector<std::size_t>{1, 5, 6});
+}
+
 TEST_CASE("A unit that another process runs is named, and the rest is done") {
   const Scratch place;
   const ResultsFolder folder(place.path("results"));
