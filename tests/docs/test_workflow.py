@@ -38,7 +38,7 @@ LEFT_OUT = {
 
 # Scripts that load packages without their exact version, and why. None of them makes a package.
 UNPINNED = {
-    "platforms/setup": "its environment for tests",
+    "platforms/installers/aarch64.bash": "its environment for tests",
     "packages/conan/check": "it tests with any Conan 2",
     "scripts/check/gymnasiums": "dm-env; the versions of Gymnasium are its arguments",
     "scripts/check/learners": "it tests with the libraries that users get",
@@ -106,6 +106,7 @@ class TestWorkflow:
             "scripts/check",
             ".ci",
             "platforms",
+            "platforms/installers",
             "packages/conan",
             "packages/docker",
             "packages/vcpkg",
@@ -263,3 +264,22 @@ class TestChanged:
 
     def test_alternatives_are_those_of_nested_groups(self):
         assert alternatives("^a/(b|c(d|e))/|^f") == ["^a/b/", "^f", "^a/cd/", "^f", "^a/b/", "^f", "^a/ce/", "^f"]
+
+
+class TestPlatforms:
+    def test_setup_sources_each_installer_and_calls_each_function(self):
+        setup, parts = read("platforms/setup"), sorted((ROOT / "platforms/installers").iterdir())
+        sourced = re.search(r"^for part in (.*); do$", setup, re.MULTILINE)[1].split()
+        assert sorted(sourced) == [path.stem for path in parts]
+        texts = [setup, *(path.read_text() for path in parts)]
+        functions = [name for text in texts for name in re.findall(r"^(\w+)\(\) \{", text, re.MULTILINE)]
+        assert len(functions) > 10
+        for name in functions:
+            assert any(re.search(rf"(?<![\w/.-]){name}( [\w$\";]|$)", text, re.MULTILINE) for text in texts), name
+
+    def test_setup_refuses_an_unknown_platform_before_it_installs(self):
+        done = subprocess.run([ROOT / "platforms/setup", "musl", "commodore"], capture_output=True, text=True)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert done.stderr == (
+            "platforms/setup: unknown platform 'commodore'; accepted: aarch64, windows, macos, musl, wasm\n"
+        )
