@@ -338,6 +338,20 @@ def check_source(game: Any, rom: images.Rom | None, game_file: str | None, serve
         raise WrongValue("game is None; it takes a name, or None with rom=, or with rom= and game_file=")
 
 
+def check_token(server: object, token: object) -> None:
+    """Checks that a token is given with a server only.
+
+    Args:
+        server: Address of the server, addresses of several, or None.
+        token: Token, or None.
+
+    Raises:
+        WrongValue: If it is given without a server.
+    """
+    if server is None and token is not None:
+        raise WrongValue("token is given without server; give the address of the server, too")
+
+
 def console_of(**settings: Any) -> dict[str, str]:
     """Returns the settings of the console that are not None, as texts."""
     return {key: str(value) for key, value in settings.items() if value is not None}

@@ -14,6 +14,7 @@ from .arguments import (
     action_space,
     check_choice,
     check_source,
+    check_token,
     console_of,
     flag,
     image,
@@ -195,6 +196,7 @@ class AtariEnv(EnvWithView):
             raise WrongValue("two_player and continuous are both True; a game for two takes only indices of actions")
         self._game, self._rom, self._game_file = game, image(rom), path_of(game_file)
         check_source(game, self._rom, self._game_file, server)
+        check_token(server, token)
         self._game_mode, self._game_difficulty = (
             optional_integer("mode", mode),
             optional_integer("difficulty", difficulty),

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import images, xla
-from .arguments import WrongType, WrongValue, check_source, image, path_of, seconds, value_or, warn
+from .arguments import WrongType, WrongValue, check_source, check_token, image, path_of, seconds, value_or, warn
 from .errors import InvalidInput
 from .vector.autoreset import check_supported
 from .vector.logs import VectorLogs
@@ -184,6 +184,7 @@ class AtariVectorEnv(PlayedVector):
         check_supported("AtariVectorEnv")
         rom, own_file = image(rom), path_of(game_file)
         check_source(game, rom, own_file, server)
+        check_token(server, token)
         if isinstance(options, VectorOptions) and (game is None or isinstance(game, str)):
             num_envs = value_or(num_envs, options.num_envs)
         names, game_of_env = parse_games(game, num_envs, self._check_game, server is None)
