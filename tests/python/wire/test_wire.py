@@ -35,6 +35,7 @@ SETTINGS = (
     {"obs_type": "grayscale", "repeat_action_probability": 0.5, "difficulty": 1},
     {"sound_obs": True, "frameskip": 3},
     {"preset": "dqn2015"},
+    {"life_loss": "restart", "max_num_frames_per_episode": 600},
     {"full_action_space": "console"},
     {"full_action_space": "console", "left": "keyboard"},
     {"sound_obs": "all", "frameskip": 3},
@@ -327,6 +328,39 @@ class TestSessions:
             racebeam.AtariVectorEnv("beamfall", 2, server=address).save(0)
             process.terminate()
         assert "old word" not in (tmp_path / "log").read_text()
+
+    def test_no_effect_of_a_lost_life_uses_an_old_word(self, tmp_path):
+        program, address = racebeam.program.path(), f"unix:{tmp_path}/s"
+        with (
+            open(tmp_path / "log", "w") as log,
+            subprocess.Popen(
+                [program, "serve", "--listen", address, "--ready-file", tmp_path / "ready", "--log-level", "warning"],
+                stderr=log,
+            ) as process,
+        ):
+            while not (tmp_path / "ready").exists():
+                time.sleep(0.01)
+            for word in ("ignored", "reported", "end", "restart"):
+                racebeam.AtariEnv("beamfall", life_loss=word, server=address).reset()
+                racebeam.AtariVectorEnv("beamfall", 2, life_loss=word, server=address).reset()
+            process.terminate()
+        assert "old word" not in (tmp_path / "log").read_text()
+
+    def test_a_lost_life_truncates_the_interface_as_in_this_process(self):
+        with server() as (addresses, _):
+            ends = []
+            for where in (None, addresses[0]):
+                env = racebeam.AtariEnv("beamfall", life_loss="restart", server=where)
+                env.reset(seed=3)
+                lives = env.ale.lives()
+                while not env.ale.game_over():
+                    env.ale.act(0)
+                assert 0 < env.ale.lives() < lives
+                ends.append(
+                    (env.ale.game_over(with_truncation=False), env.ale.game_truncated(), env.ale.getFrameNumber())
+                )
+            assert ends[0] == ends[1]
+            assert ends[0][:2] == (False, True)
 
     def test_bytes_to_write_are_bytes_or_numbers(self, subtests):
         with racebeam.launch() as session:

@@ -133,7 +133,7 @@ class RemoteGame:
             "frame_skip": max(keys.getInt("frame_skip"), 1),
             "sticky": keys.getFloat("repeat_action_probability"),
             "max_episode_frames": keys.getInt("max_num_frames_per_episode"),
-            **({"life_loss_ends": 1} if keys.getBool("truncate_on_loss_of_life") else {}),  # truncates, as ALE does
+            **({"life_loss": "restart"} if keys.getBool("truncate_on_loss_of_life") else {}),
             "rules": keys.getString("rules"),
             **({"action_set": self.action_set} if self.action_set != "full" else {}),
             "color_averaging": int(keys.getBool("color_averaging")),
@@ -181,6 +181,24 @@ class RemoteGame:
         self._loaded = rom, game, settings
         self._colours = np.array(self.session.palette(), np.uint8)
         self._greys = np.append(self._colours[1:, 2], np.uint8(0))  # the blue of the entry after it
+
+    def _fields_of_ends(self) -> tuple[str, ...]:
+        """Returns the fields of a reply from which `_ends` tells how the episode ends."""
+        return ("terminated", "truncated", *(["game_over"] if self._restarts() else []))
+
+    def _ends(self, fields: dict[str, Any]) -> tuple[bool, bool]:
+        """Returns whether the episode is terminated and truncated. A lost life truncates it, as in ALE.
+
+        Args:
+            fields: The fields of a reply. With life_loss=restart, a lost life terminates.
+        """
+        terminated, truncated = bool(fields["terminated"]), bool(fields["truncated"])
+        if not self._restarts() or fields["game_over"]:
+            return terminated, truncated
+        return False, terminated or truncated
+
+    def _restarts(self) -> bool:
+        return self._loaded is not None and self._loaded[2].get("life_loss") == "restart"
 
     def _image_to_send(self, game: str | None) -> str | None:
         """Returns the path of an image, or None if the server has one."""

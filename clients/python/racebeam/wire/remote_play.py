@@ -16,7 +16,7 @@ from .remote_game import RemoteGame, check_types, exclusive
 Pixels = npt.NDArray[np.uint8]
 
 MOST_AHEAD = 64  # requests whose replies fit into what a connection buffers
-ALWAYS = ("reward", "reward_b", "terminated", "truncated", "lives", "episode_frame", "frame", "acts")
+ALWAYS = ("reward", "reward_b", "lives", "episode_frame", "frame", "acts")
 FIELDS = {
     View.RGB: ("screen:delta",),
     View.GRAYSCALE: ("screen:delta",),
@@ -32,7 +32,7 @@ class RemotePlay(RemoteGame):
     def _observe(self, view: View) -> None:
         if view is not self._view:
             sound = ("audio_all",) if self._keys.getBool("all_audio") else ()
-            self.ask(self.session.observe, *ALWAYS, *FIELDS[view], *sound)
+            self.ask(self.session.observe, *ALWAYS, *self._fields_of_ends(), *FIELDS[view], *sound)
             self._view = view
 
     @exclusive
@@ -70,8 +70,7 @@ class RemotePlay(RemoteGame):
             self._decode(result, view),
             float(result["reward"]),
             float(result["reward_b"]),
-            bool(result["terminated"]),
-            bool(result["truncated"]),
+            *self._ends(result),
             result["lives"],
             result["episode_frame"],
             result["frame"],
@@ -125,13 +124,13 @@ class RemotePlay(RemoteGame):
         Args:
             with_truncation: Whether the limit of frames counts as an end.
         """
-        ends = self._look("terminated", "truncated")
-        return bool(ends["terminated"] or (with_truncation and ends["truncated"]))
+        terminated, truncated = self._ends(self._look(*self._fields_of_ends()))
+        return terminated or (with_truncation and truncated)
 
     @exclusive
     def game_truncated(self) -> bool:
-        """Returns whether the episode has reached its limit of frames."""
-        return bool(self._look("truncated")["truncated"])
+        """Returns whether the episode has reached its limit of frames, or has ended at a lost life."""
+        return self._ends(self._look(*self._fields_of_ends()))[1]
 
     @exclusive
     def lives(self) -> int:
