@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <condition_variable>
 #include <mutex>
 #include <numeric>
@@ -27,10 +28,8 @@ std::string count_of(std::size_t count, const std::string& what) {
   return std::to_string(count) + ' ' + what;
 }
 
-void check_count(std::size_t count, const std::string& what, std::size_t machines) {
-  refuse_unless(count == machines, [&] {
-    return "there are " + count_of(count, what) + " for " + count_of(machines, "machines");
-  });
+std::string machines_of(std::size_t count, std::string_view noun) {
+  return count_of(count, std::string(noun) + "s");
 }
 
 void check_act(const Act& act, const Slot& slot) {
@@ -55,26 +54,28 @@ unsigned useful_threads(unsigned requested, std::size_t machines) {
 
 // Returns the batch size.
 std::size_t checked_size(std::size_t machines, const BatchSettings& settings) {
-  refuse_unless(machines > 0, [&] { return "there are 0 machines; there must be 1 or more"; });
+  refuse_unless(machines > 0, [&] {
+    return "there are " + machines_of(machines, settings.noun) + "; there must be 1 or more";
+  });
   refuse_unless(settings.batch_size <= machines, [&] {
     return "batch_size is " + std::to_string(settings.batch_size) + "; it takes 1 to " +
-           std::to_string(machines) + ", or 0 for all machines";
+           std::to_string(machines) + ", or 0 for all";
   });
   const StackSettings& stack = settings.stack;
   refuse_unless(stack.depth >= 0, [&] {
     return "the stack has " + std::to_string(stack.depth) + " screens; it must have 0 or more";
   });
-  check_memory(machines);
+  check_memory(machines, settings.noun);
   return settings.batch_size == 0 ? machines : settings.batch_size;
 }
 
 }  // namespace
 
 // Before anything is allocated, since a system that overcommits memory kills the process only later.
-void check_memory(std::size_t machines) {
+void check_memory(std::size_t machines, std::string_view noun) {
   const std::uint64_t bytes = machines * kMachine, all = usable_memory().amount;
   refuse_unless(bytes <= all, [&] {
-    return count_of(machines, "machines") + " take about " +
+    return machines_of(machines, noun) + " take about " +
            count_of(bytes >> 20, "MiB; this process may use ") + count_of(all >> 20, "MiB");
   });
 }
@@ -121,6 +122,10 @@ struct Batch::Impl final : VectorHost {
   }
 
   std::span<const Act> acts_of(std::span<const int> actions, auto machine_of);
+  void check_count(std::size_t count, const std::string& what, std::size_t machines) const;
+  std::string name_of(std::integral auto machine) const {
+    return std::string(settings.noun) + ' ' + std::to_string(machine);
+  }
   void check_free() const;
   void check_free(std::size_t machine) const;
   void check_machines(std::span<const std::int32_t> machines) const;
@@ -173,21 +178,27 @@ std::span<const Act> Batch::Impl::acts_of(std::span<const int> actions, auto mac
     const std::size_t machine = machine_of(i);
     const std::vector<int>& all = vector.slot(machine).actions();
     refuse_unless(actions[i] >= 0 && static_cast<std::size_t>(actions[i]) < all.size(), [&] {
-      return "machine " + std::to_string(machine) + " has no action " + std::to_string(actions[i]) +
-             "; it takes 0 to " + std::to_string(all.size() - 1);
+      return name_of(machine) + " has no action " + std::to_string(actions[i]) + "; it takes 0 to " +
+             std::to_string(all.size() - 1);
     });
     acts.push_back({.a = all[static_cast<std::size_t>(actions[i])]});
   }
   return acts;
 }
 
+void Batch::Impl::check_count(std::size_t count, const std::string& what, std::size_t machines) const {
+  refuse_unless(count == machines, [&] {
+    return "there are " + count_of(count, what) + " for " + machines_of(machines, settings.noun);
+  });
+}
+
 void Batch::Impl::check_free() const {
-  refuse_unless(busy() == 0, [&] { return count_of(busy(), "machines play; receive them first"); });
+  refuse_unless(busy() == 0,
+                [&] { return machines_of(busy(), settings.noun) + " play; receive them first"; });
 }
 
 void Batch::Impl::check_free(std::size_t machine) const {
-  refuse_unless(playing[machine] == 0,
-                [&] { return "machine " + std::to_string(machine) + " plays; receive it first"; });
+  refuse_unless(playing[machine] == 0, [&] { return name_of(machine) + " plays; receive it first"; });
 }
 
 void Batch::Impl::check_machines(std::span<const std::int32_t> machines) const {
@@ -195,11 +206,11 @@ void Batch::Impl::check_machines(std::span<const std::int32_t> machines) const {
   for (const std::int32_t machine : machines) {
     const bool is_there = machine >= 0 && static_cast<std::size_t>(machine) < taken_machines.size();
     refuse_unless(is_there, [&] {
-      return "machine " + std::to_string(machine) + " is out of range; accepted: 0 to " +
+      return name_of(machine) + " is out of range; accepted: 0 to " +
              std::to_string(taken_machines.size() - 1);
     });
     refuse_unless(std::exchange(taken_machines[static_cast<std::size_t>(machine)], std::uint8_t{1}) == 0,
-                  [&] { return "machine " + std::to_string(machine) + " plays already; receive it first"; });
+                  [&] { return name_of(machine) + " plays already; receive it first"; });
   }
 }
 
@@ -235,7 +246,7 @@ void Batch::Impl::play(std::size_t number) {
 // machines, too.
 std::span<const std::size_t> Batch::Impl::await(std::size_t count) {
   refuse_unless(busy() >= count, [&] {
-    return count_of(busy(), "machines play, and a receive takes ") + std::to_string(count) +
+    return machines_of(busy(), settings.noun) + " play, and a receive takes " + std::to_string(count) +
            "; send some first";
   });
   const auto enough = [&] { return done.size() >= count; };
@@ -302,7 +313,7 @@ void Batch::set_watch(Watch watch) { impl_->watch = watch; }
 BatchResults Batch::make_results() const { return impl_->layout.make_results(batch_size()); }
 
 void Batch::step(std::span<const Act> acts, const BatchArrays& out) {
-  check_count(acts.size(), "actions", size());
+  impl_->check_count(acts.size(), "actions", size());
   for (std::size_t i = 0; i < acts.size(); ++i) check_act(acts[i], impl_->vector.slot(i));
   impl_->check_free();
   const Impl::Output output(*impl_, out);
@@ -310,14 +321,14 @@ void Batch::step(std::span<const Act> acts, const BatchArrays& out) {
 }
 
 void Batch::step(std::span<const int> actions, const BatchArrays& out) {
-  check_count(actions.size(), "actions", size());
+  impl_->check_count(actions.size(), "actions", size());
   step(impl_->acts_of(actions, [](std::size_t i) { return i; }), out);
 }
 
 void Batch::reset(const BatchArrays& out, std::span<const std::uint8_t> mask,
                   std::span<const std::int64_t> seeds) {
-  if (!mask.empty()) check_count(mask.size(), "choices", size());
-  if (!seeds.empty()) check_count(seeds.size(), "seeds", size());
+  if (!mask.empty()) impl_->check_count(mask.size(), "choices", size());
+  if (!seeds.empty()) impl_->check_count(seeds.size(), "seeds", size());
   impl_->check_free();
   const Impl::Output output(*impl_, out);
   impl_->vector.reset(mask, seeds);
@@ -330,7 +341,7 @@ void Batch::show(const BatchArrays& out) const {
 }
 
 void Batch::end_episodes(std::span<const std::int32_t> machines, std::span<const std::int64_t> seeds) {
-  if (!seeds.empty()) check_count(seeds.size(), "seeds", machines.size());
+  if (!seeds.empty()) impl_->check_count(seeds.size(), "seeds", machines.size());
   impl_->check_machines(machines);
   for (std::size_t i = 0; i < machines.size(); ++i) {
     Slot& slot = impl_->vector.slot(static_cast<std::size_t>(machines[i]));
@@ -339,7 +350,7 @@ void Batch::end_episodes(std::span<const std::int32_t> machines, std::span<const
 }
 
 void Batch::send(std::span<const Act> acts, std::span<const std::int32_t> machines) {
-  check_count(acts.size(), "actions", machines.size());
+  impl_->check_count(acts.size(), "actions", machines.size());
   impl_->check_machines(machines);
   for (std::size_t i = 0; i < acts.size(); ++i)
     check_act(acts[i], impl_->vector.slot(static_cast<std::size_t>(machines[i])));
@@ -349,14 +360,14 @@ void Batch::send(std::span<const Act> acts, std::span<const std::int32_t> machin
 }
 
 void Batch::send(std::span<const int> actions, std::span<const std::int32_t> machines) {
-  check_count(actions.size(), "actions", machines.size());
+  impl_->check_count(actions.size(), "actions", machines.size());
   impl_->check_machines(machines);
   send(impl_->acts_of(actions, [&](std::size_t i) { return static_cast<std::size_t>(machines[i]); }),
        machines);
 }
 
 void Batch::send_resets(std::span<const std::int64_t> seeds) {
-  if (!seeds.empty()) check_count(seeds.size(), "seeds", size());
+  if (!seeds.empty()) impl_->check_count(seeds.size(), "seeds", size());
   impl_->check_free();
   std::vector<std::int32_t> all(size());
   std::iota(all.begin(), all.end(), 0);

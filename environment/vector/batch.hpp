@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "environment/vector/batch_results.hpp"
@@ -28,10 +29,12 @@ struct BatchSettings {
   unsigned threads = 0;
   int first_processor = -1;  // see ThreadPool
   std::chrono::microseconds busy_poll{50};
+  std::string_view noun = "machine";  // what errors call a machine
 };
 
-// Throws InvalidInput if so many machines take more memory than the process may use.
-void check_memory(std::size_t machines);
+// Throws InvalidInput if so many machines take more memory than the process may use. noun: as in
+// BatchSettings.
+void check_memory(std::size_t machines, std::string_view noun = "machine");
 
 class Batch {
  public:

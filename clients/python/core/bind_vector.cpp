@@ -234,10 +234,10 @@ Cartridge cartridge_of(const GivenImage& source, const std::optional<std::string
 }
 
 void make(VectorMachines* self, const std::vector<GivenImage>& images, const Given<std::int32_t>& of_machines,
-          const BatchSettings& settings, const std::optional<std::string>& game_file,
-          const Console& console) {
+          BatchSettings settings, const std::optional<std::string>& game_file, const Console& console) {
   const WithoutGil other_threads_run;
-  check_memory(of_machines.size());
+  settings.noun = "environment";
+  check_memory(of_machines.size(), settings.noun);
   std::vector<Cartridge> games;
   for (const GivenImage& image : images) games.push_back(cartridge_of(image, game_file, console));
   std::vector<Cartridge> cartridges;

@@ -360,6 +360,10 @@ def console_of(**settings: Any) -> dict[str, str]:
 # Names and warnings
 
 
+# Options of others, and what is meant by them here.
+OTHER_NAMES = {"max_episode_steps": "max_num_frames_per_episode takes the frames of an episode"}
+
+
 def check_names(names: Iterable[str], known: Sequence[str], where: str) -> None:
     """Checks the names of options.
 
@@ -375,6 +379,7 @@ def check_names(names: Iterable[str], known: Sequence[str], where: str) -> None:
         if name not in known:
             near = difflib.get_close_matches(name, known, n=3)
             hint = f"did you mean {' or '.join(near)}?" if near else f"{where} lists the options"
+            hint = OTHER_NAMES.get(name, hint)
             raise WrongType(f"unknown option {name!r}; {hint}")
 
 

@@ -302,7 +302,7 @@ TEST_CASE("A batch says what it can't do, and goes on") {
   };
   refuses([](auto& s) { s.slot.machine.frame_skip = 0; }, "a step has 0 frames; it must have 1 or more");
   refuses([](auto& s) { s.slot.mode = 2; }, "no mode 2; it offers 0, 1, 3");
-  refuses([](auto& s) { s.batch_size = 4; }, "batch_size is 4; it takes 1 to 3, or 0 for all machines");
+  refuses([](auto& s) { s.batch_size = 4; }, "batch_size is 4; it takes 1 to 3, or 0 for all");
   refuses([](auto& s) { s.stack.depth = -1; }, "the stack has -1 screens");
   refuses([](auto& s) { s.stack.width = 321; }, "the width of an observation is 321; it takes 1 to 320");
   CHECK_THROWS_WITH(Batch({}, short_episodes()), "there are 0 machines; there must be 1 or more");

@@ -76,9 +76,9 @@ class TestCompiled:
         with pytest.raises(TypeError):
             send(handle, np.ones(3))
         for function, arguments, words in (
-            (recv, (), "0 machines play, and a receive takes 3"),
+            (recv, (), "0 environments play, and a receive takes 3"),
             (step, (np.full(3, 99),), "out of range"),
-            (step, (np.ones(1, np.int32), np.array([7])), "machine 7 is out of range"),
+            (step, (np.ones(1, np.int32), np.array([7])), "environment 7 is out of range"),
         ):
             with pytest.raises(jax.errors.JaxRuntimeError, match=words):
                 jax.block_until_ready(function(handle, *arguments))

@@ -144,9 +144,9 @@ class TestOthers:
         with pytest.raises(InvalidInput, match="each environment is named once"):
             envs.step(np.zeros(2, int), env_id=np.array([1, 1]))
         envs.send(np.zeros(1, int), np.array([1]))
-        with pytest.raises(InvalidInput, match="machine 1 plays already; receive it first"):
+        with pytest.raises(InvalidInput, match="environment 1 plays already; receive it first"):
             envs.send(np.zeros(1, int), np.array([1]))
-        with pytest.raises(InvalidInput, match="1 machines play; receive them first"):
+        with pytest.raises(InvalidInput, match="1 environments play; receive them first"):
             envs.step(np.zeros(3, int))
         assert envs.recv()[0].shape[0] == 1
         with warnings.catch_warnings():

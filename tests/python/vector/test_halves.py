@@ -49,7 +49,7 @@ class TestHalves:
             with pytest.raises(InvalidInput, match="play"):
                 call()
         envs.recv()
-        with pytest.raises(InvalidInput, match="0 machines play"):
+        with pytest.raises(InvalidInput, match="0 environments play"):
             envs.recv()
         with pytest.raises(InvalidInput, match="reset_mask"):
             envs.reset(options={"reset_mask": np.ones(4, bool)})

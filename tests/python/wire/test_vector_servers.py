@@ -114,7 +114,7 @@ class TestHalves(Servers):
         for step in range(20):
             for envs in (here, there):
                 envs.send([step % 3] * COUNT)
-            with pytest.raises(InvalidInput, match=f"{COUNT} machines play; receive them first"):
+            with pytest.raises(InvalidInput, match=f"{COUNT} environments play; receive them first"):
                 there.step([0] * COUNT)
             self.check(there.recv(), here.recv())
         for envs in (here, there):

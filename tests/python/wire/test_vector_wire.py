@@ -180,7 +180,7 @@ class TestHalves(Compared):
                     with pytest.raises(InvalidInput, match="receive"):
                         call()
                 assert envs.recv()[4]["frame_number"].shape == (2,)
-                with pytest.raises(InvalidInput, match="0 machines play, and a receive takes 2; send some first"):
+                with pytest.raises(InvalidInput, match="0 environments play, and a receive takes 2; send some first"):
                     envs.recv()
                 for actions in ([0, 99], [0]):
                     with pytest.raises((IndexError, InvalidInput)):

@@ -47,9 +47,9 @@ class Halves:
 
     def _check_half(self, is_second: bool) -> None:
         if is_second and self._pending is None:
-            raise InvalidInput(f"0 machines play, and a receive takes {self._count}; send some first")
+            raise InvalidInput(f"0 environments play, and a receive takes {self._count}; send some first")
         if not is_second and self._pending is not None:
-            raise InvalidInput(f"{self._count} machines play; receive them first")
+            raise InvalidInput(f"{self._count} environments play; receive them first")
 
     def _take_pending(self) -> Callable[[Results], None]:
         pending, self._pending = self._pending, None
