@@ -143,7 +143,8 @@ class Conditions(Part):
                     more with a fifth of the step ([paper-notes.md](paper-notes.md#the-end-of-training)). DISCO in
                     Freeway scores more than in the paper; no experiment has told why.""",
                     """Exploration: in Ms. Pac-Man, UCT scores far less than in the paper with the printed constant, and
-                    more with a larger one ([paper-notes.md](paper-notes.md#ucts-kept-visits)).""",
+                    more with a larger one and with new simulations for each decision
+                    ([paper-notes.md](paper-notes.md#ucts-kept-visits)).""",
                     """Choices: the paper leaves much open ([paper-notes.md](paper-notes.md)).""",
                 )
             )
