@@ -141,7 +141,8 @@ class Conditions(Part):
                     ([paper-notes.md](paper-notes.md#the-end-of-training)). The paper has the mean of 30 trials.""",
                     """Steps: Basic in Freeway and Beam Rider, and BASS in Seaquest, score less than in the paper, and
                     more with a fifth of the step ([paper-notes.md](paper-notes.md#the-end-of-training)). DISCO in
-                    Freeway scores more than in the paper; no experiment has told why.""",
+                    Beam Rider and Freeway, and LSH in Freeway, score more than in the paper. No experiment has told
+                    why.""",
                     """Exploration: in Ms. Pac-Man, UCT scores far less than in the paper with the printed constant, and
                     more with a larger one and with new simulations for each decision
                     ([paper-notes.md](paper-notes.md#ucts-kept-visits)).""",
