@@ -45,7 +45,7 @@ struct LineEffect {
   std::int8_t
       first_late_cycle;  // from this cycle on, it affects only the next line, as if it were written there
   std::uint8_t control;  // see LineDependencies; for RESPx only if a write follows at once
-  std::uint16_t seen;    // kMoves, kClears, kMayBeCosmic or 0
+  std::uint16_t seen;    // kMoves, kClears, kMayBeCosmic, kRecolors or 0
 };
 extern const std::array<LineEffect, 64> kLineEffects;
 

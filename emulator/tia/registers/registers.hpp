@@ -38,7 +38,7 @@ inline constexpr auto kRegisters = [] {  // by address bits 5-0
   return table;
 }();
 
-// The bits of a written value that matter, which are all that is logged.
+// The bits of a written value that the register keeps. Only they are logged.
 constexpr std::uint8_t logged_bits(unsigned reg) { return kRegisters[reg].bits; }
 
 constexpr bool is_sound(unsigned reg) { return kRegisters[reg].use == RegisterUse::kSound; }
