@@ -313,38 +313,31 @@ class TestSessions:
             with pytest.raises(ConnectionError, match="speaks version 2"):
                 racebeam.connect(address)
 
-    def test_saving_a_state_uses_no_old_word(self, tmp_path):
-        program, address = racebeam.program.path(), f"unix:{tmp_path}/s"
-        with (
-            open(tmp_path / "log", "w") as log,
-            subprocess.Popen(
-                [program, "serve", "--listen", address, "--ready-file", tmp_path / "ready", "--log-level", "warning"],
-                stderr=log,
-            ) as process,
-        ):
-            while not (tmp_path / "ready").exists():
+    @staticmethod
+    @contextlib.contextmanager
+    def server_without_old_words(folder):
+        """A server at the address that this yields. In the end, its log must not name an old word."""
+        program, address, ready = racebeam.program.path(), f"unix:{folder}/s", folder / "ready"
+        command = [program, "serve", "--listen", address, "--ready-file", ready, "--log-level", "warning"]
+        with open(folder / "log", "w") as log, subprocess.Popen(command, stderr=log) as process:
+            while not ready.exists() and process.poll() is None:
                 time.sleep(0.01)
+            try:
+                yield address
+            finally:
+                process.terminate()
+        assert "old word" not in (folder / "log").read_text()
+
+    def test_saving_a_state_uses_no_old_word(self, tmp_path):
+        with self.server_without_old_words(tmp_path) as address:
             racebeam.AtariEnv("beamfall", server=address).clone_state(include_rng=True)
             racebeam.AtariVectorEnv("beamfall", 2, server=address).save(0)
-            process.terminate()
-        assert "old word" not in (tmp_path / "log").read_text()
 
     def test_no_effect_of_a_lost_life_uses_an_old_word(self, tmp_path):
-        program, address = racebeam.program.path(), f"unix:{tmp_path}/s"
-        with (
-            open(tmp_path / "log", "w") as log,
-            subprocess.Popen(
-                [program, "serve", "--listen", address, "--ready-file", tmp_path / "ready", "--log-level", "warning"],
-                stderr=log,
-            ) as process,
-        ):
-            while not (tmp_path / "ready").exists():
-                time.sleep(0.01)
+        with self.server_without_old_words(tmp_path) as address:
             for word in ("ignored", "reported", "end", "restart"):
                 racebeam.AtariEnv("beamfall", life_loss=word, server=address).reset()
                 racebeam.AtariVectorEnv("beamfall", 2, life_loss=word, server=address).reset()
-            process.terminate()
-        assert "old word" not in (tmp_path / "log").read_text()
 
     def test_a_lost_life_truncates_the_interface_as_in_this_process(self):
         with server() as (addresses, _):
