@@ -11,8 +11,11 @@ TREE_PATH = re.compile(r"`([a-z.][\w.-]*/[\w./-]*\w\.(?:cpp|hpp|inc|md|py|txt|to
 
 
 def link_faults(root, path, text):
-    """Links to missing files, out of the tree, or to missing headings."""
+    """Links to missing files, out of the tree, or to missing headings, and links with a blank or a line break."""
     for number, target in markdown.links(text):
+        if re.search(r"\s", target):
+            yield number, f"{' '.join(target.split())!r} has a blank or a line break"
+            continue
         if re.match(r"[a-z]+:", target):  # an address; nothing is fetched
             continue
         name, _, anchor = target.partition("#")

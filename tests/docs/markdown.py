@@ -62,5 +62,5 @@ def links(text):
     """(line number, target) of each link and picture. The text of a link may continue in the next line."""
     lines = {number: re.sub(r"`[^`]*`", "", line) for number, line in prose(text)}
     whole = "\n".join(lines.get(number, "") for number in range(1, max(lines, default=0) + 1))
-    for link in re.finditer(r"\[[^\]]*\]\(([^)\s]+)\)", whole):
+    for link in re.finditer(r"\[[^\]]*\]\(([^)]+)\)", whole):
         yield whole.count("\n", 0, link.end()) + 1, link[1]

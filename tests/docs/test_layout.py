@@ -40,6 +40,7 @@ class TestTheCheck:
         self.refuses("# One\n\n[a](#two)\n", "one.md has no heading #two")
         self.refuses("[a text over\ntwo lines](another.md)\n", "another.md does not exist")
         self.refuses("[a](../../elsewhere.md)\n", "leads out of the tree")
+        self.refuses("[a](oth-\n  er.md)\n", "docs/one.md:2: 'oth- er.md' has a blank or a line break")
 
     def test_it_refuses_paths_of_the_tree_that_are_not_there(self):
         self.refuses("See `docs/three.md` and `docs/other.md`.\n", "docs/one.md:1: docs/three.md does not exist")

@@ -1,8 +1,6 @@
 """The sections of docs/results.md about how the plans were run."""
 
-import textwrap
-
-from .parts import AGAIN, PARTIAL, PLANS, WIDTH, Part, episodes, number, rows_of
+from .parts import AGAIN, PARTIAL, PLANS, Part, episodes, item_of_list, number, rows_of
 
 # Agents that have changed: the plan and the agent; whether settings are those of the agent as it is now; what it did.
 CHANGED = (
@@ -127,7 +125,7 @@ class Conditions(Part):
         self.add("## Why figures differ from the published ones")
         self.add(
             "\n".join(
-                textwrap.fill("- " + " ".join(text.split()), WIDTH, subsequent_indent="  ")
+                item_of_list(text)
                 for text in (
                     """The emulator: the paper used ALE of 2012. racebeam is bit-exact with ALE 0.12, whose
                     emulator and games' rules have changed since.""",

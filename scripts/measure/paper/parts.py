@@ -71,7 +71,16 @@ def rows_of(header, *rows):
 
 
 def prose(text):
-    return textwrap.fill(" ".join(text.split()), WIDTH, break_long_words=False, break_on_hyphens=False)
+    return wrapped(text)
+
+
+def item_of_list(text):
+    return wrapped(f"- {text}", subsequent_indent="  ")
+
+
+def wrapped(text, **indents):
+    """The text as lines. A name with a hyphen is not divided, since a link with a line break leads nowhere."""
+    return textwrap.fill(" ".join(text.split()), WIDTH, break_long_words=False, break_on_hyphens=False, **indents)
 
 
 def episodes(found):
