@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace racebeam {
@@ -55,12 +56,13 @@ struct MemoryMap {
   }
 
   // Maps `memory`, `size` bytes of it, from cartridge address `from` (0-$FFF) on, for all values of bits 13,
-  // 14 and 15.
+  // 14 and 15. Some games switch banks dozens of times a frame; GCC makes no vectors of pointers.
   void show(unsigned from, const std::uint8_t* memory, unsigned size) {
-    for (unsigned offset = 0; offset < size; offset += kPageSize) {
-      page[(0x1000 + from + offset) >> 6] = memory + offset;
-      page[(0x3000 + from + offset) >> 6] = memory + offset;
-    }
+    const std::uint8_t** const low = &page[(0x1000 + from) / kPageSize];
+    const std::uint8_t** const high = &page[(0x3000 + from) / kPageSize];
+    const std::size_t count = (size + kPageSize - 1) / kPageSize;
+#pragma GCC unroll 8
+    for (std::size_t i = 0; i < count; ++i) low[i] = high[i] = memory + i * kPageSize;
   }
 
   // Hides pages whose addresses have an effect when they are accessed. In the last page, the first `quiet`
