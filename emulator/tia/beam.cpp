@@ -71,7 +71,7 @@ void Beam::aim(FrameBuffer& picture, const FrameBuffer* other, RenderMode mode, 
   }
   forgotten_ = draws_pixels() ? 0 : std::numeric_limits<std::int32_t>::max();
   unsought_ = draws_pixels() ? Collisions{0} : static_cast<Collisions>(~sought);
-  sought_objects_ = objects_of(static_cast<Collisions>(~unsought_));
+  sought_objects_ = draws_pixels() ? kAllObjects : objects_of(sought);
   cleared_ = false;
   collided_ = tia_.cursor;
   look_afresh();
