@@ -64,7 +64,7 @@ struct Console::Impl {
   // frame_runner.cpp
   void step(bool observed, bool follow);
   void run_frame(bool draw);
-  bool step_over(FrameStart& start, bool draw);
+  bool step_over(bool draw);
   bool run_step(FrameBuffer& picture, const FrameStart& start, RenderMode mode);
   FrameStart frame_start() const { return {board.state, board.cartridge_ram, board.sound}; }
   bool reads_unknown_latches(FrameStart& start, bool drew);

@@ -37,11 +37,10 @@ void Console::Impl::run_frame(bool draw) {
     frame.greyed = 0;
     frame.open = 1;
   }
-  FrameStart start = frame_start();
   const bool keeps_old_pixels = draw && !pictures.current->is_undrawn && is_own(pictures.current);
-  if (!opens || keeps_old_pixels || !step_over(start, draw)) {
+  if (!opens || keeps_old_pixels || !step_over(draw)) {
     settle_latches(*pictures.previous);
-    start = frame_start();
+    FrameStart start = frame_start();
     draw_now(pictures.current);
     run_step(canvas(), start, RenderMode::kDrawn);
     latches.sought |= board.tia.latches_read();
@@ -60,7 +59,8 @@ void Console::Impl::run_frame(bool draw) {
 // Runs a frame on a buffer whose pixels will all be overwritten. Returns false, with the machine back at its
 // start, if the frame does not fill the whole window, does not close, or should be drawn later and has too
 // long a log.
-bool Console::Impl::step_over(FrameStart& start, bool draw) {
+bool Console::Impl::step_over(bool draw) {
+  FrameStart start = frame_start();
   std::shared_ptr<FrameBuffer>& current = pictures.current;
   if (!spare.current) std::swap(spare.current, spare.previous);
   std::shared_ptr<FrameBuffer>& place = is_own(current) ? current : spare.current;
