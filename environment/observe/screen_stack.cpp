@@ -64,20 +64,20 @@ void ScreenStack::clear() {
 
 void ScreenStack::all_changed() { std::ranges::fill(changed_, std::uint8_t{1}); }
 
-ScreenStack::Source ScreenStack::source(std::uint64_t line, std::uint64_t other) {
-  if (line == kAnyLine || other == kAnyLine) return {};
-  return {std::min(line, other), std::max(line, other)};
-}
-
+// Without branches: which rows are stale cannot be foreseen.
 void ScreenStack::find_stale(const Environment& environment, bool pooled) {
   const auto lines = environment.screen_lines();
   const auto others = pooled ? environment.previous_screen_lines() : lines;
   const bool has_both = !lines.empty() && !others.empty();
-  for (std::size_t row = 0; row < sources_.size(); ++row) {
-    const Source now = has_both ? source(lines[row], others[row]) : Source{};
-    stale_[row] = now == Source{} || now != sources_[row] ? 1 : 0;
-    changed_[row] |= stale_[row];
-    sources_[row] = now;
+  const std::span stale(stale_), changed(changed_);
+  for (std::size_t row = 0; Source & source : sources_) {
+    Source now;
+    if (has_both) now = {std::min(lines[row], others[row]), std::max(lines[row], others[row])};
+    const bool unknown = now.one <= kAnyLine;
+    stale[row] = static_cast<std::uint8_t>(unknown | (now.one != source.one) | (now.other != source.other));
+    changed[row] |= stale[row];
+    source = now;
+    ++row;
   }
 }
 

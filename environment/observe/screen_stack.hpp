@@ -66,10 +66,8 @@ class ScreenStack {
   }
   // The lines that a row of the planes was made from, in order: the brighter of two does not depend on it.
   struct Source {
-    std::uint64_t one = 0, other = 0;  // 0: the pixels are of unknown lines
-    bool operator==(const Source&) const = default;
+    std::uint64_t one = 0, other = 0;  // 0 or kAnyLine: the pixels are of unknown lines
   };
-  static Source source(std::uint64_t line, std::uint64_t other);
 
   void find_stale(const Environment& environment, bool pooled);
   void find_wanted();
