@@ -42,8 +42,8 @@ class Console {
   const Sound& sound() const;
   const State& state() const;  // the whole machine, one trivially copyable value
 
-  // Cartridge RAM that does not fit into `state` (E7, 3E, CV, AR, MC); empty for other schemes. It belongs to
-  // a saved state.
+  // The cartridge's RAM if it has more than 256 bytes, which do not fit into `state`; otherwise empty. It
+  // belongs to a saved state.
   std::span<const std::uint8_t> cartridge_ram() const;
 
   // Restores the machine, but no pictures: undrawn rows keep their pixels. Throws InvalidInput, and changes
