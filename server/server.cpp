@@ -271,10 +271,6 @@ int Server::status() const {
   return 0;
 }
 
-}  // namespace
-
-namespace {
-
 int run(const ServerSettings& settings, const Services& services) {
   try {
     return Server(settings, services).run();

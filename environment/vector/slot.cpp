@@ -174,8 +174,8 @@ void Slot::run_frames(const Act& act) {
 }
 
 // Shows the last frame, pooled with the one before if both are the step's last two. A pooled step that ends
-// before those shows what the step before it showed. left: frames of the step that remain, counting the one
-// just run.
+// before those shows what the step before it showed. remaining: frames of the step that remain, counting the
+// one that has just run.
 void Slot::look_at_end_of_step(int remaining) {
   if (progress_.finished && settings_.reset_order == ResetOrder::kFireNoops)
     return look_as_reference(remaining);

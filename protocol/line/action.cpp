@@ -11,7 +11,7 @@
 namespace racebeam {
 namespace {
 
-constexpr int kMostTimes = 1'000'000'000;  // Session::check_frames() limits what is asked for in all
+constexpr int kMostTimes = 1'000'000'000;  // Context::check_frames() limits the acts of a request
 
 enum class Player : bool { kA, kB };
 

@@ -14,10 +14,10 @@ struct Action {
   int times = 1;
 };
 
-// The actions that a client may ask for, for sentences: the numbers with bits set in `allowed`.
+// The actions that a client may ask for. `game` is named in errors.
 struct AllowedActions {
   std::string_view game;
-  std::bitset<kActionNumbers> allowed, allowed_b;  // bit n: action n of player A's; of player B's, from 0 on
+  std::bitset<kActionNumbers> allowed, allowed_b;  // bit n: action n of player A; of player B, counted from 0
 };
 
 // Throws RequestError.
