@@ -13,6 +13,16 @@ namespace racebeam::v0 {
 static_assert(kScreenWidth == racebeam::kScreenWidth && kRamSize == racebeam::kRamSize &&
               kAudioSize == racebeam::kAudioSize);
 
+namespace {
+
+// The number of an action, and its name if it has one: "1 (FIRE)".
+std::string described(int action) {
+  const std::string_view name = name_of(static_cast<Action>(action));
+  return std::to_string(action) + (name.empty() ? "" : " (" + std::string(name) + ')');
+}
+
+}  // namespace
+
 struct Environment::Impl {
   Impl(const racebeam::Cartridge& loaded, const Settings& settings)
       : cartridge(loaded),
@@ -76,12 +86,18 @@ int Environment::step(Action a, Action b) { return step(Controls{.a = a, .b = b}
 int Environment::step(const Controls& controls) {
   const int a = static_cast<int>(controls.a), b = static_cast<int>(controls.b);
   racebeam::Environment& machine = impl_->machine;
-  require(machine.takes({.a = a}),
-          "player A has no such action; it must be one of a joystick, of the console, or of A's controller");
-  require(machine.takes({.b = kActions + b}),
-          "player B has no such action; it must be one of a joystick, or of B's controller");
-  require(std::isfinite(controls.strength_a) && std::isfinite(controls.strength_b),
-          "the strength of a paddle is not a finite number");
+  require(machine.takes({.a = a}), [a] {
+    return "player A has no action " + described(a) +
+           "; it must be one of a joystick, of the console, or of A's controller";
+  });
+  require(machine.takes({.b = kActions + b}), [b] {
+    return "player B has no action " + described(b) + "; it must be one of a joystick, or of B's controller";
+  });
+  for (const float strength : {controls.strength_a, controls.strength_b}) {
+    require(std::isfinite(strength), [strength] {
+      return "the strength of a paddle is " + std::to_string(strength) + "; it must be a finite number";
+    });
+  }
   if (controls.frames <= 0) return machine.act(a, kActions + b, controls.strength_a, controls.strength_b);
   return machine.act_for(controls.frames, a, kActions + b, controls.strength_a, controls.strength_b);
 }
@@ -129,7 +145,9 @@ std::span<const std::uint8_t, kRamSize> Environment::ram() const { return impl_-
 std::span<const std::uint8_t, kAudioSize> Environment::audio() const { return impl_->machine.audio(); }
 
 void Environment::set_ram(int index, std::uint8_t value) {
-  require(index >= 0 && index < kRamSize, "the index of a byte of RAM must be 0 to 127");
+  require(index >= 0 && index < kRamSize, [index] {
+    return "the index of a byte of RAM is " + std::to_string(index) + "; it must be 0 to 127";
+  });
   impl_->machine.set_ram(index, value);
 }
 

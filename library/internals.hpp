@@ -78,8 +78,10 @@ decltype(auto) guarded(Error::Cause cause, Work&& work) {
   }
 }
 
-inline void require(bool good, const char* sentence) {
-  if (!good) throw Error(Error::Cause::kArgument, sentence);
+// `sentence` is a function, so that a call without an error makes no text.
+template <class Sentence>
+void require(bool good, const Sentence& sentence) {
+  if (!good) throw Error(Error::Cause::kArgument, sentence());
 }
 
 }  // namespace racebeam::v0

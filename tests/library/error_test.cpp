@@ -65,20 +65,20 @@ TEST_CASE("A snapshot of something else is an error of the snapshot, and changes
   CHECK(environment.state_hash() == before);
 }
 
-TEST_CASE("Arguments that are out of range are errors of the argument") {
+TEST_CASE("Arguments that are out of range are errors of the argument, which have the value") {
   auto environment = beamfall::environment();
   std::vector<std::uint8_t> small(5);
   const float infinite = std::numeric_limits<float>::infinity();
-  for (const auto& [cause, sentence] : {
-           error_of([&] { environment.step(static_cast<racebeam::Action>(26)); }),
-           error_of([&] { environment.step({.strength_a = infinite}); }),
-           error_of([&] { environment.observe(racebeam::Pixels::kGrey, small); }),
-           error_of([&] { environment.set_ram(128, 0); }),
-           error_of([&] { environment.set_ram(-1, 0); }),
-           error_of([&] { environment.set_mode(77); }),
-           error_of([&] { environment.set_difficulty(77); }),
+  for (const auto& [error, value] : {
+           std::pair{error_of([&] { environment.step(static_cast<racebeam::Action>(26)); }), "26"},
+           std::pair{error_of([&] { environment.step({.strength_a = infinite}); }), "is inf"},
+           std::pair{error_of([&] { environment.observe(racebeam::Pixels::kGrey, small); }), "5 bytes"},
+           std::pair{error_of([&] { environment.set_ram(128, 0); }), "128"},
+           std::pair{error_of([&] { environment.set_ram(-1, 0); }), "-1"},
+           std::pair{error_of([&] { environment.set_mode(77); }), "77"},
+           std::pair{error_of([&] { environment.set_difficulty(77); }), "77"},
        }) {
-    INFO(sentence);
-    CHECK(cause == Cause::kArgument);
+    CHECK(error.first == Cause::kArgument);
+    CHECK_THAT(error.second, Catch::Contains(value));
   }
 }
