@@ -1,7 +1,6 @@
 #include "games/catalogue.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <functional>
 #include <iterator>
@@ -12,6 +11,7 @@
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 #include "system/similar.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
@@ -96,10 +96,7 @@ Recognition unknown(const Image& image) {
 }
 
 std::string stem_of(const std::string& path) {
-  std::string stem = std::filesystem::path(path).stem().string();
-  std::ranges::transform(stem, stem.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return stem;
+  return lower_case(std::filesystem::path(path).stem().string());
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "games/rom_image.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <functional>
 #include <system_error>
@@ -11,6 +10,7 @@
 #include "games/zip_archive.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
@@ -23,16 +23,10 @@ constexpr std::string_view kBuiltIn = "builtin:";
   throw InvalidInput("image " + where + ": " + why);
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 // The stem of pong.bin, PONG.a26 and pong.bin.gz is "pong".
 std::string stem_of(std::filesystem::path path) {
   if (path.extension() == ".gz") path = path.stem();
-  return lower(path.stem().string());
+  return lower_case(path.stem().string());
 }
 
 // A cartridge of less than 2K shows its bytes several times in 2K. The last time ends where the 2K end, since
@@ -67,13 +61,13 @@ std::shared_ptr<const Image> built_in(std::string_view name) {
 }
 
 bool looks_like_image(const std::filesystem::path& path) {
-  const std::string ending = lower(path.extension().string());
+  const std::string ending = lower_case(path.extension().string());
   if (ending == ".gz") return looks_like_image(path.stem());
   return ending == ".bin" || ending == ".a26" || ending == ".rom";
 }
 
 bool looks_like_archive(const std::filesystem::path& path) {
-  const std::string ending = lower(path.extension().string());
+  const std::string ending = lower_case(path.extension().string());
   return ending == ".zip" || ending == ".7z";
 }
 

@@ -1,22 +1,16 @@
 #include "system/similar.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <numeric>
 #include <utility>
+
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
 
 constexpr std::size_t kSuggestions = 3;
 constexpr std::size_t kLongest = 64;  // letters; a longer name is not similar to any
-
-std::string in_small_letters(std::string_view text) {
-  std::string small(text);
-  std::ranges::transform(small, small.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return small;
-}
 
 // The Levenshtein distance: how many letters to insert, delete or replace.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -38,11 +32,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::vector<std::string_view> similar_names(std::string_view name,
                                             std::span<const std::string_view> candidates) {
   if (name.empty() || name.size() > kLongest) return {};
-  const std::string small = in_small_letters(name);
+  const std::string small = lower_case(name);
   const std::size_t farthest = std::min(std::max<std::size_t>(2, name.size() / 3), name.size() - 1);
   std::vector<std::pair<std::size_t, std::string_view>> near;
   for (const std::string_view one : candidates) {
-    const std::string other = in_small_letters(one);
+    const std::string other = lower_case(one);
     const bool begins_alike = small.size() > 2 && other != small && other.starts_with(small);
     const std::size_t distance = begins_alike ? 1 : edit_distance(small, other);
     if (distance <= farthest) near.emplace_back(distance, one);

@@ -132,6 +132,20 @@ void append_pair(std::string& out, std::string_view key, std::string_view text) 
   (((out += ' ') += key) += '=') += text;
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+std::string upper_case(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return upper;
+}
+
 std::string quote(std::string_view text) {
   constexpr std::size_t kShown = 40;
   std::string sentence = "'";

@@ -104,4 +104,22 @@ void append_pair(std::string& out, std::string_view key, std::string_view text);
 // For messages: the user's text, shortened if it is long.
 std::string quote(std::string_view text);
 
+// ASCII letters in lower and in upper case; other bytes stay.
+std::string lower_case(std::string_view text);
+std::string upper_case(std::string_view text);
+
+// One text of all words, with `between` after each but the last two, which have `last` between them.
+template <typename Texts>
+std::string join(const Texts& words, std::string_view between, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    (text += i == 0 ? "" : i + 1 == words.size() ? last : between) += words[i];
+  return text;
+}
+
+template <typename Texts>
+std::string join(const Texts& words, std::string_view between) {
+  return join(words, between, between);
+}
+
 }  // namespace racebeam

@@ -24,12 +24,6 @@ constexpr std::array<std::string_view, 8> kKeys = {"agent", "version", "preset",
                                                    "words", "link",    "role",   "phrase"};
 constexpr std::size_t kRequired = 4;  // keys, the first ones
 
-std::string joined(const std::vector<std::string_view>& words) {
-  std::string list;
-  for (const std::string_view word : words) (list += list.empty() ? "" : ", ") += word;
-  return list;
-}
-
 std::vector<std::string_view> presets() {
   std::vector<std::string_view> names;
   for (const description::EvaluationPreset& preset : description::kEvaluationPresets)
@@ -72,12 +66,11 @@ class AgentTable {
   void check_keys() const {
     for (const auto& [key, value] : table_)
       if (std::ranges::find(kKeys, key.str()) == kKeys.end())
-        throw InvalidInput(path_ + ": unknown key " + quote(key.str()) +
-                           "; accepted: " + joined({kKeys.begin(), kKeys.end()}));
+        throw InvalidInput(path_ + ": unknown key " + quote(key.str()) + "; accepted: " + join(kKeys, ", "));
     const std::vector<std::string_view> required(kKeys.begin(), kKeys.begin() + kRequired);
     for (const std::string_view key : required)
       if (table_.get(key) == nullptr)
-        throw InvalidInput(path_ + " lacks the key " + quote(key) + "; expected " + joined(required));
+        throw InvalidInput(path_ + " lacks the key " + quote(key) + "; expected " + join(required, ", "));
   }
 
   // The text of a key; nothing: the file lacks it.
@@ -104,7 +97,7 @@ class AgentTable {
 
   std::optional<std::string> choice(std::string_view key, const std::vector<std::string_view>& words) const {
     const auto is_word = [&](std::string_view text) { return std::ranges::find(words, text) != words.end(); };
-    return text(key, is_word, joined(words));
+    return text(key, is_word, join(words, ", "));
   }
 
   void check_number(std::string_view key, std::int64_t most) const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <stdexcept>
 
 #include "agents/features/blob_features.hpp"
@@ -420,10 +419,7 @@ const AgentKind* find_agent_kind(std::string_view name) {
 
 std::string agent_name(const AgentKind& kind, int action) {
   std::string name(kind.name);
-  if (!kind.each_action) return name;
-  name += '_';
-  for (const char letter : action_name(action))
-    name += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  if (kind.each_action) (name += '_') += lower_case(action_name(action));
   return name;
 }
 

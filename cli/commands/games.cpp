@@ -14,6 +14,7 @@
 #include "games/catalogue.hpp"
 #include "system/folded.hpp"
 #include "system/similar.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
@@ -159,12 +160,6 @@ void print_fact(std::string_view name, const std::string& fact) {
   std::cout << line << '\n';
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) (text += text.empty() ? "" : " ") += word;
-  return text;
-}
-
 std::string console_of(const Game& game) {
   const Properties properties = game.properties_for(recognised_md5(game));
   const std::string scheme(properties.scheme), format(name_of(properties.format));
@@ -191,8 +186,8 @@ void print_game(const CatalogueEntry& entry) {
   print_fact("console", console_of(*game));
   print_fact("modes", modes_of(*game));
   print_fact("difficulties", ranges(game->difficulties) + " (default 0)");
-  print_fact("minimal", joined(names(game->minimal_actions)));
-  print_fact("legal", joined(names(game->legal_actions)));
+  print_fact("minimal", join(names(game->minimal_actions), " "));
+  print_fact("legal", join(names(game->legal_actions), " "));
   print_fact("rule", rule_of(*game));
   if (game->fixed) print_fact("rules fixed", correction(*game));
 }

@@ -3,18 +3,12 @@
 #include <algorithm>
 
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
 
 int line_of(const toml::source_region& region) { return static_cast<int>(region.begin.line); }
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string list;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    list += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-  return list;
-}
 
 }  // namespace
 
@@ -43,7 +37,7 @@ void Section::allow(std::span<const std::string_view> keys) const {
   for (const auto& [key, node] : table_)
     if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
       source_.refuse(line_of(key.source()), field(key.str()),
-                     "unknown key; accepted: " + joined({keys.begin(), keys.end()}));
+                     "unknown key; accepted: " + join(keys, ", ", " and "));
 }
 
 std::string Section::field(std::string_view key) const {
@@ -99,7 +93,8 @@ std::optional<int> Section::choice(std::string_view key, const std::vector<std::
   if (!word) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *word);
   if (found == words.end())
-    refuse(*node(key), key, "unknown value " + racebeam::quoted(*word) + "; accepted: " + joined(words));
+    refuse(*node(key), key,
+           "unknown value " + racebeam::quoted(*word) + "; accepted: " + join(words, ", ", " and "));
   return static_cast<int>(found - words.begin());
 }
 

@@ -1,11 +1,11 @@
 #include "games/game/given_properties.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 
 #include "emulator/cartridge/cartridge.hpp"
 #include "system/invalid_input.hpp"
+#include "system/words.hpp"
 
 namespace racebeam {
 namespace {
@@ -18,16 +18,9 @@ constexpr std::string_view kDetected = "auto";
                      accepted);
 }
 
-std::string lower(std::string_view text) {
-  std::string small(text);
-  std::ranges::transform(small, small.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return small;
-}
-
 template <typename Rows>
 auto choice(std::string_view key, std::string_view value, const Rows& rows) {
-  const std::string name = lower(value);
+  const std::string name = lower_case(value);
   std::string accepted;
   for (const auto& row : rows) {
     if (row.name == name) return row.value;

@@ -32,13 +32,6 @@ bool is_allowed(int action, const AllowedActions& actions, Player player) {
                                                 ' ' + std::string(actions.game) + " takes" + list);
 }
 
-std::string upper_case(std::string_view word) {
-  std::string upper(word);
-  for (char& c : upper)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return upper;
-}
-
 std::string_view why_not(int action) {
   if (is_of_console(action)) return " needs a game that was loaded with action_set=console";
   if (is_key(action)) return " needs a game with a keyboard, loaded with action_set=console";

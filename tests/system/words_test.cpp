@@ -98,6 +98,18 @@ TEST_CASE("A quote is shortened after 40 bytes") {
   CHECK(quote(std::string(41, 'x')) == "'" + std::string(40, 'x') + "...'");
 }
 
+TEST_CASE("The case of ASCII letters changes, and other bytes stay") {
+  CHECK(lower_case("aZ[`{\xC4") == "az[`{\xC4");
+  CHECK(upper_case("aZ[`{\xE4") == "AZ[`{\xE4");
+}
+
+TEST_CASE("Words are joined, with another text before the last one") {
+  CHECK(join(kFruit, ", ") == "apple, pear, plum");
+  CHECK(join(kFruit, ", ", " and ") == "apple, pear and plum");
+  CHECK(join(std::vector<std::string>{"apple"}, ", ", " and ") == "apple");
+  CHECK(join(std::vector<std::string>{}, ", ").empty());
+}
+
 TEST_CASE("Text after a mark is cut off") {
   std::string_view text = "a,b,c";
   CHECK(cut_behind(text, ',') == "b,c");
