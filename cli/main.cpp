@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/arguments/help_format.hpp"
 #include "cli/arguments/options.hpp"
 #include "cli/bench/bench.hpp"
 #include "cli/commands/background.hpp"
@@ -38,15 +39,20 @@ constexpr auto kAbout =
     "A headless Atari 2600 as a server: agents in any language play its games over a pipe or a socket.";
 
 constexpr auto kFooter = R"(Try first:
-  racebeam games                                          list the games
-  racebeam serve --stdio                                  play by hand: type load beamfall, act FIRE, help
-  racebeam serve --classic --stdio --rom builtin:NAME     as ALE 0.4 to 0.6: type 0,0,0,1, then 3,18
-  racebeam trace --rom builtin:NAME --actions FILE        print what a list of actions leads to, act by act
+  racebeam games                 list the games
+  racebeam play                  play in a browser
+  racebeam serve --stdio         play by hand: type load beamfall, act FIRE, help
+  racebeam serve --classic --stdio --rom builtin:beamfall
+                                 as ALE 0.4 to 0.6: type 0,0,0,1, then 3,18
 
 Each subcommand has a help text, such as racebeam serve --help.
 
-Exit status: 0 success; 1 failure, with one line on standard error that gives the reason; 2 usage error;
-3 to 5 the start of a server failed (see racebeam serve --help); 255 a classic client requested an action that does not exist.)";
+Exit status:
+  0       success
+  1       failure, with one line on standard error that gives the reason
+  2       usage error; in racebeam verify, also rows that could not be checked
+  3 to 5  the start of a server failed (see racebeam serve --help)
+  255     a classic client requested an action that does not exist)";
 
 std::vector<std::string> subcommand_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -126,16 +132,17 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
 
 // In the order of the help text.
 constexpr void (*kSubcommands[])(racebeam::Subcommand& program) = {
-    racebeam::add_serve,      racebeam::add_with,   racebeam::add_config, racebeam::add_classic,
-    racebeam::add_connect,    racebeam::add_play,   racebeam::add_watch,  racebeam::add_trace,
-    racebeam::add_bench,      racebeam::add_games,  racebeam::add_roms,   racebeam::add_png,
-    racebeam::add_experiment, racebeam::add_verify, racebeam::add_render, racebeam::add_background,
-    racebeam::add_classes,
+    racebeam::add_serve,  racebeam::add_connect, racebeam::add_play,       racebeam::add_watch,
+    racebeam::add_with,   racebeam::add_config,  racebeam::add_classic,    racebeam::add_trace,
+    racebeam::add_bench,  racebeam::add_games,   racebeam::add_roms,       racebeam::add_experiment,
+    racebeam::add_verify, racebeam::add_render,  racebeam::add_background, racebeam::add_classes,
+    racebeam::add_png,
 };
 
 void set_up(CLI::App& app) {
   app.set_version_flag("--version", "racebeam " RACEBEAM_VERSION);
   app.footer(kFooter);
+  racebeam::set_help_format(app);
   app.require_subcommand(1);
   app.allow_windows_style_options(false);  // a word that begins with / is a path
   racebeam::Subcommand program(app);

@@ -14,7 +14,7 @@ import sys
 OPTION = re.compile(r"^  (?:-\w,)?(--[\w-]+)(.*)$", re.MULTILINE)
 SUBCOMMAND = re.compile(r"^  (\w+) {2,}(.+)$", re.MULTILINE)
 PROTOCOL = "racebeam-protocol"  # a page of section 7, from the description of the protocol
-MACHINE = re.compile(r"(--threads INT|--max-memory UINT\S* \[[^\]]*\])=\d+")  # defaults that depend on the machine
+MACHINE = re.compile(r"(--threads INT|--max-memory UINT)=\d+")  # defaults that depend on the machine
 GAMES = "racebeam games 2>/dev/null | awk 'NR > 1 { print $1 }'"
 FILES = {
     "--rom",

@@ -15,11 +15,14 @@ void add_image_options(Subcommand& command, ImageOptions& options) {
   command
       .option("--roms", options.folders,
               "A folder with cartridge images; may be repeated. Without it, the games that are built in")
+      .value_name("DIR")
       .one_a_time()
       .variable("RACEBEAM_ROMS");
-  command.option("--game-file", options.game_file,
-                 "A game file, or a folder of them, with the rules of images that it lists, in these folders "
-                 "or built in");
+  command
+      .option(
+          "--game-file", options.game_file,
+          "A game file, or a folder of them, with the rules of images of --roms or built in that they list")
+      .value_name("FILE");
   command.option("--threads", options.threads, "Threads that play; 0: one for each processor")
       .check(whole_number(0, kMostThreads))
       .shows_default();

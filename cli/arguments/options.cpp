@@ -32,7 +32,7 @@ struct ConsoleOption {
 constexpr ConsoleOption kConsoleOptions[] = {
     {"scheme", "NAME", "Cartridge scheme of the image, such as F8; auto: detected"},
     {"left", "CONTROLLER", "Controller in the left port: joystick, paddles, keyboard, ..."},
-    {"right", "CONTROLLER", "Controller in the right port, the same"},
+    {"right", "CONTROLLER", "Controller in the right port, as for --left"},
     {"format", "FORMAT", "Television standard: auto, ntsc, pal, pal60 or secam"},
     {"ystart", "LINE", "First line of the picture, 0 to 50"},
     {"height", "LINES", "Lines of the picture, 100 to 256"},
@@ -70,18 +70,23 @@ void add_cpu_option(Subcommand& command, CpuKind& cpu) {
        {"translator", CpuKind::kTranslator}},
       "auto",
       "How instructions are executed; auto: translated where that saves time and the system permits it; "
-      "translator: all code is translated at once, at any cost; interpreter: no code is");
+      "translator: all are translated, at any cost; interpreter: none are translated");
 }
 
 void add_machine_options(Subcommand& command, MachineOptions& options) {
   Settings& settings = options.settings;
-  command.option("--rom", options.rom, "The cartridge image: a file, or builtin:NAME").required();
-  const Option game =
+  command.option("--rom", options.rom, "The cartridge image: a file, or builtin:NAME")
+      .value_name("FILE")
+      .required();
+  Option game =
       command.option("--game", options.game, "Use the rule of this game of the catalogue (racebeam games)");
+  game.value_name("NAME");
   command
-      .option("--game-file", options.game_file,
-              "Use the rule of this game file for the image, and for those of --roms and those that are "
-              "built in that it lists; in a folder, the file that is for an image")
+      .option(
+          "--game-file", options.game_file,
+          "Use the rule of this game file for the image of --rom, and for the images of --roms or built "
+          "in that it lists. FILE may be a folder: each image then has the rule of the file that is for it")
+      .value_name("FILE")
       .excludes(game);
   add_console_options(command, options.console);
   const auto add_seed = [&command](const std::string& name, std::uint32_t& seed, const std::string& help) {
@@ -89,7 +94,7 @@ void add_machine_options(Subcommand& command, MachineOptions& options) {
   };
   add_seed("--seed", settings.random_seed, "Seed of the sticky actions; 0: from the clock");
   add_seed("--system-seed", settings.system_seed, "Seed of the memory's contents at power-on");
-  add_count(command, "--frame-skip", settings.frame_skip, 1, "Frames of an action");
+  add_count(command, "--frame-skip", settings.frame_skip, 1, "Frames that an action lasts");
   command.option("--sticky", settings.sticky, "Probability that a frame repeats the previous action")
       .check(number(0, 1, "0..1"))
       .shows_default();

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string_view>
 
@@ -15,21 +14,12 @@ constexpr std::uint64_t kMostBytes = 1ULL << 60;
 
 CLI::Validator validator(const Check& check) { return CLI::Validator(check.refusal, check.accepted); }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t at = 0; at < words.size(); ++at)
-    text.append(at == 0 ? "" : at + 1 == words.size() ? " and " : ", ").append(words[at]);
-  return text;
-}
-
 // A number of bytes, of KiB (512K, 512KB or 512KiB), and so on.
 std::optional<std::uint64_t> size_of(std::string_view text) {
   static constexpr std::string_view kUnits = "kmgtpe";
-  std::string unit;
   const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
-  for (const char c : text.substr(digits)) {
-    if (c != ' ' || !unit.empty()) unit += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  std::string unit = lower_case(text.substr(digits));
+  unit.erase(0, unit.find_first_not_of(' '));
   const auto number = parse_number<std::uint64_t>(text.substr(0, digits));
   const std::size_t place = unit.empty() ? std::string_view::npos : kUnits.find(unit.front());
   const std::string_view rest = std::string_view(unit).substr(place == std::string_view::npos ? 0 : 1);
@@ -68,7 +58,7 @@ Check number(double least, double most, const std::string& accepted) {
 Check one_of(const std::vector<std::string>& words) {
   const auto refusal = [words](const std::string& text) {
     const bool is_known = std::ranges::find(words, text) != words.end();
-    return is_known ? std::string{} : "unknown value '" + text + "'; accepted: " + joined(words);
+    return is_known ? std::string{} : "unknown value '" + text + "'; accepted: " + join(words, ", ", " and ");
   };
   return {refusal, ""};
 }
@@ -105,7 +95,9 @@ Subcommand Subcommand::add_subcommand(const std::string& name, const std::string
 
 template <typename Value>
 Option Subcommand::option(const std::string& name, Value& value, const std::string& help) {
-  return Option(*app_->add_option(name, value, help));
+  Option option(*app_->add_option(name, value, help));
+  if (!name.starts_with("--")) option.value_name("");  // the name says enough
+  return option;
 }
 
 template Option Subcommand::option(const std::string&, std::string&, const std::string&);

@@ -1,5 +1,5 @@
 // A subcommand and its options. CLI11 parses them. It is headers only, and takes longer to compile than what
-// uses it; so only subcommand.cpp, settings_sources.cpp and main.cpp include it.
+// uses it. So only main.cpp, and files beside this one, include it.
 #pragma once
 
 #include <cstdint>

@@ -23,8 +23,8 @@ namespace racebeam {
 namespace {
 
 constexpr auto kBenchFooter =
-    R"(Processor seconds of this process are counted, only those of acts; resets are counted apart. Without
---actions the game's legal actions are drawn at random from a fixed seed, so that two runs do the same.
+    R"(Measures the processor time of acts; that of resets is apart. Without --actions, the game's legal actions
+are drawn at random from a fixed seed, so that two runs do the same.
 
   --screen every   every frame's screen is produced, also those in the middle of a frame skip
   --screen last    the screen after each act
@@ -33,20 +33,22 @@ constexpr auto kBenchFooter =
 The checksums of the last screen and of RAM show that different settings did the same work. Compare
 ratios measured in one run (scripts/bench), not times from different days.
 
---save-restore times, in nanoseconds: only the machine's state, copied out and back; its hash, and its
-comparison with another, as planners need them; a client's snapshot, which has the pictures too; and, as the next frame has to draw beside a saved picture, save + one frame +
-restore beside a frame.
+--save-restore prints these times, in nanoseconds:
+  the machine's state, copied out and back
+  its hash, and its comparison with another, as planners need them
+  a client's snapshot, which has the pictures, too
+  a save, a frame and a restore, beside a frame: the frame must not draw on the saved picture
 
---commands reads from standard input what to do, a line each, and answers with a line of JSON; so another
-program can let two machines play the same acts in turns:
+--commands reads requests from standard input, one a line, and answers each with a line of JSON. Another program
+can thus let two machines play the same acts in turns:
   play A A ...    plays these actions, one act each, timed; a game that is over is reset
   check A A ...   the same, not timed, with a checksum of what each act led to
   reset N         times N resets
   save N          times N snapshots, each taken and restored at once
 
---batch N steps N machines together and makes 84 x 84 grey screens, stacks of four, the brighter of the last
-two frames; --actions are then indices into the minimal actions, one a machine and step. Its frames a second
-are of the clock on the wall.
+--batch N steps N machines together. Their observations are stacks of four grey screens of 84 x 84, each the
+brighter of the last two frames. --actions are then indices into the minimal actions, one for each machine and
+step. Frames a second are then measured in wall time.
 
 Examples:
   racebeam bench --rom pong.bin --batch 64 --threads 2 --frame-skip 4 --frames 500000
@@ -250,8 +252,10 @@ void add_bench(Subcommand& program) {
   Subcommand command = program.add_subcommand("bench", "Measure how fast a game runs", kBenchFooter);
   add_machine_options(command, options->machine);
   command.find("--seed").help("Seed of the actions and of the sticky actions");
-  command.option("--actions", options->actions,
-                 "Repeat the actions of this file (in the format of racebeam trace)");
+  command
+      .option("--actions", options->actions,
+              "Repeat the actions of this file (in the format of racebeam trace)")
+      .value_name("FILE");
   add_count(command, "--frames", options->frames, 1, "Frames to play");
   command.option("--screen", options->screen, "Which screens to produce: every, last or none")
       .check(one_of({"every", "last", "none"}))

@@ -13,9 +13,10 @@ namespace {
 
 constexpr auto kBackgroundFooter =
     R"(Plays random actions, and finds the most frequent colour of each pixel. Basic and BASS leave it out of the screen.
-Writes to FOLDER:
-  GAME.background      for experiments: they take it from RESULTS/games if seed and number of screens are theirs.
-                       One from --csv is taken if the plan's [backgrounds] has the SHA-256 of that file
+Writes to DIR:
+  GAME.background      for experiments: they take it from RESULTS/games if seed and number of
+                       screens are theirs. One from --csv is taken if the plan's [backgrounds]
+                       has the SHA-256 of that file
   GAME.csv             the same: 210 lines of 160 colours from 0 to 127
   GAME-background.png  the same as a picture
   GAME-secam.png       a screen in SECAM's eight colours

@@ -15,9 +15,10 @@ constexpr auto kClassesFooter =
     R"(Plays random actions, and finds objects: what is not the background. Objects of similar shapes are a class,
 which is left out if it is rare, or stays within a small region. DISCO learns from where the objects of at most
 ten classes are, and how they move.
-Writes to FOLDER:
+Writes to DIR:
   GAME.background   the background, as racebeam background finds it
-  GAME.classes      for experiments: they take both from RESULTS/games if seed and numbers of screens are theirs
+  GAME.classes      for experiments: they take both from RESULTS/games if seed and numbers of
+                    screens are theirs
   GAME-classes.png  the most frequent shapes of each class: a line, and a colour, for each
   GAME-objects.png  a screen with its objects in the colours of their classes
 

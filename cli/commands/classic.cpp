@@ -21,25 +21,28 @@ namespace {
 
 constexpr auto kAbout = "Serve with the command line of ALE 0.4 to 0.6, for old launchers";
 
-constexpr auto kUsage = R"(racebeam classic -game_controller fifo|fifo_named|rlglue [-key value]... IMAGE
+constexpr auto kUsage = R"(
+Usage: racebeam classic -game_controller fifo|fifo_named|rlglue [-key value]... IMAGE
 
-  -game_controller NAME                  fifo: standard streams; fifo_named: ale_fifo_out and ale_fifo_in;
-                                         rlglue: an RL-Glue core at 127.0.0.1, port RLGLUE_PORT (4096)
-  -random_seed N                         0 or time: from the clock
-  -run_length_encoding true|false        whether screens are written in run lengths (true)
-  -frame_skip N                          frames of an action (1)
-  -repeat_action_probability P           probability that a frame repeats the previous action (0.25)
-  -max_num_frames N                      frames after which the session ends (0: no limit)
-  -max_num_frames_per_episode N          frames after which an episode ends (0: no limit)
-  -color_averaging true|false            blend each picture with the previous one (false)
-  -record_screen_dir FOLDER              write the screen before each frame to 000000.png and so on
-  -restricted_action_set true|false      with rlglue: only the actions that the game uses (false)
-  -send_rgb true|false                   with rlglue: observations have colours, not their indices (false)
-  -config FILE                           lines of key = value, which override the command line
+Options:
+  -game_controller NAME              fifo: standard streams;
+                                     fifo_named: the pipes ale_fifo_out and ale_fifo_in;
+                                     rlglue: an RL-Glue core at 127.0.0.1, port RLGLUE_PORT (4096)
+  -random_seed N                     0 or time: from the clock
+  -run_length_encoding true|false    whether screens are written in run lengths (true)
+  -frame_skip N                      frames of an action (1)
+  -repeat_action_probability P       probability that a frame repeats the previous action (0.25)
+  -max_num_frames N                  frames after which the session ends (0: no limit)
+  -max_num_frames_per_episode N      frames after which an episode ends (0: no limit)
+  -color_averaging true|false        blend each picture with the previous one (false)
+  -record_screen_dir FOLDER          write the screen before each frame to 000000.png and so on
+  -restricted_action_set true|false  with rlglue: only the actions that the game uses (false)
+  -send_rgb true|false               with rlglue: observations have colours, not indices (false)
+  -config FILE                       lines of key = value, which override the command line
 
-Other keys are ignored. ale.cfg in the working directory is read first. The image's file name selects the game,
-such as pong.bin; an image with another name is recognised by its MD5. A program that is called as ale or
-racebeam-ale behaves as racebeam classic.)";
+Other keys are ignored. ale.cfg in the working directory is read first. The image's file name
+selects the game, such as pong.bin; an image with another name is recognised by its MD5. A program
+that is called as ale or racebeam-ale behaves as racebeam classic.)";
 
 // Keys that need a window or a sound card.
 constexpr const char* kIgnored[] = {"display_screen", "sound", "record_sound_filename"};
@@ -156,11 +159,11 @@ int serve_lines(const ClassicSettings& settings, const MachineOptions& machine, 
 
 int run(const std::vector<std::string>& words) {
   if (ClassicSettings::asks_for("--help", words)) {
-    std::cout << kUsage << "\n";
+    std::cout << kAbout << kUsage << "\n";
     return 0;
   }
   if (ClassicSettings::asks_for("-help", words)) {  // as the classic server does
-    std::cerr << kUsage << "\n";
+    std::cerr << kAbout << kUsage << "\n";
     return kExitFailure;
   }
   const ClassicSettings settings(words);

@@ -26,8 +26,11 @@ DiscoveryOptions::DiscoveryOptions() {
 
 void add_discovery_options(Subcommand& command, DiscoveryOptions& options) {
   command.option("GAME", options.game, "The game, by its name").required();
-  command.option("--into", options.into, "The folder of the files that are written").required();
-  command.option("--csv", options.csv, "Take the background from this file: 210 lines of 160 colours");
+  command.option("--into", options.into, "The folder of the files that are written")
+      .value_name("DIR")
+      .required();
+  command.option("--csv", options.csv, "Take the background from this file: 210 lines of 160 colours")
+      .value_name("FILE");
   command.option("--seed", options.samples.seed, "Seed of the random play")
       .check(whole_number(0, std::numeric_limits<std::uint32_t>::max()))
       .shows_default();

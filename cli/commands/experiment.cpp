@@ -196,7 +196,8 @@ void add_experiment(Subcommand& program) {
   const auto options = std::make_shared<ExperimentOptions>();
   Subcommand command = program.add_subcommand("experiment", "Run agents on games, as a plan says", footer());
   command.option("PLAN", options->plan, "A plan's name, or a TOML file").required();
-  command.option("--into", options->into, "The folder of the results; it may hold a part of them");
+  command.option("--into", options->into, "The folder of the results; it may hold a part of them")
+      .value_name("DIR");
   command.flag("--dry-run", options->dry_run,
                "Only list the units, their cost, and the images that are missing; measures for some seconds");
   command.flag("--unmeasured", options->unmeasured,

@@ -34,22 +34,6 @@ and the client answers with four flags, such as 1,1,0,1 for screen, RAM and rewa
 actions, such as 3,18, and gets a line for each. All clients play the game of the command line, with its
 settings.
 
-Examples:
-  racebeam serve --stdio
-      one session on standard input and output; try printf 'load beamfall\nact FIRE\n' | racebeam serve ...
-  racebeam serve --stdio --strict <requests >replies
-      for scripts: ends with status 1 after the first error, which is the last reply
-  racebeam serve --listen tcp://127.0.0.1:0 --listen unix:racebeam.sock --roms ~/atari
-      a session for each client, until the server is stopped (SIGTERM)
-  racebeam serve --classic --stdio --rom tetris.bin --seed 1
-      one session; try printf '0,0,0,1\n3,18\n' | racebeam serve ...
-  racebeam serve --classic --pipes /run/user/1000/tetris --rom tetris.bin
-      one session over the named pipes tetris_out and tetris_in; open tetris_out first, for reading
-  racebeam serve --listen tcp://127.0.0.1:0 --listen classic+unix:tetris.sock --rom tetris.bin
-      both protocols at once; each client has its own machine
-  racebeam serve --listen tls://0.0.0.0:7800 --token-file tokens --tls-cert cert.pem --tls-key key.pem
-      for clients on other machines; server/README.md is the manual for operators
-
 Each option --some-name is also the environment variable RACEBEAM_SOME_NAME, and the key some_name of the TOML
 file of --config, in this order of precedence. racebeam config shows the settings in effect.
 
@@ -60,11 +44,31 @@ Only the protocol is written to standard output. SIGTERM and SIGINT stop the ser
 connections, finishes requests, and gives sessions on sockets --grace seconds to end. A second signal ends it
 at once. SIGHUP makes it read tokens and certificate again. A server without sockets ends with its sessions.
 
-Exit status: 0 the sessions ended, or SIGTERM, SIGINT or --until-idle stopped the server; 1 the start failed for
-another reason than those below, or the client of --stdio or --pipes stopped reading, caused an error with
---strict, or sent an invalid line with --classic; 2 usage error in the command line or the configuration; 3 the
-server cannot listen on an address: it is in use, or the host is unknown; 4 the folder of --roms or --record-dir
-is missing; 5 the memory is not enough; 255 a classic client requested an action that does not exist.)";
+Exit status:
+  0    the sessions ended, or SIGTERM, SIGINT or --until-idle stopped the server
+  1    the start failed for another reason than those below; or the client of --stdio or --pipes
+       stopped reading, caused an error with --strict, or sent an invalid line with --classic
+  2    usage error in the command line or the configuration
+  3    the server cannot listen on an address: it is in use, or the host is unknown
+  4    the folder of --roms or --record-dir is missing
+  5    the memory is not enough
+  255  a classic client requested an action that does not exist
+
+Examples:
+  racebeam serve --stdio
+      one session on standard streams; try printf 'load beamfall\nact FIRE\n' | racebeam serve ...
+  racebeam serve --stdio --strict <requests >replies
+      for scripts: ends with status 1 after the first error, which is the last reply
+  racebeam serve --listen tcp://127.0.0.1:0 --listen unix:racebeam.sock --roms ~/atari
+      a session for each client, until the server is stopped (SIGTERM)
+  racebeam serve --classic --stdio --rom tetris.bin --seed 1
+      one session; try printf '0,0,0,1\n3,18\n' | racebeam serve ...
+  racebeam serve --classic --pipes /run/user/1000/tetris --rom tetris.bin
+      one session over the named pipes tetris_out and tetris_in; open tetris_out first, for reading
+  racebeam serve --listen tcp://127.0.0.1:0 --listen classic+unix:tetris.sock --rom tetris.bin
+      both protocols at once; each client has its own machine
+  racebeam serve --listen tls://0.0.0.0:7800 --token-file tokens --tls-cert c.pem --tls-key k.pem
+      for clients on other machines; server/README.md is the manual for operators)";
 
 // Failures of the start, each with its own exit status, for schedulers.
 constexpr int kExitAddress = 3, kExitFolder = 4, kExitMemory = 5;

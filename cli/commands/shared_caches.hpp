@@ -14,7 +14,7 @@ struct SharedCaches {
   std::size_t code;           // of all images, but for those that clients send
 };
 
-// The sizes for a server that may use so much memory: a sixteenth of it, and no more than is useful.
+// The sizes for a server that may use this much memory: a sixteenth of it, and no more than is useful.
 // 0: no limit.
 SharedCaches shared_caches_for(std::uint64_t memory);
 

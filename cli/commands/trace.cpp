@@ -27,12 +27,11 @@ EPISODEFRAME (--counters), RGB GREY (--colors; - - in the lines between), RAMHEX
 RAM, SCREEN, AUDIO, RGB and GREY are CRC-32 checksums (as in zlib): of the 128 bytes of RAM, of the palette
 indices of the screen, of the 512 samples, and of the screen in colours and in grey. With --mode or
 --difficulty, the game is reset once more before the first line. The output is valid input of --actions.
+At an invalid action, the program ends with status 1 and one line that names it.
 
 Examples:
   echo 1 3 3 3 4 | racebeam trace --rom pong.bin --actions -
-  racebeam trace --rom pong.bin --actions pong.trace.gz --audio --ram | grep -c '^A'
-
-At an invalid action, the program ends with status 1 and one line that names it.)";
+  racebeam trace --rom pong.bin --actions pong.trace.gz --audio --ram | grep -c '^A')";
 
 struct TraceOptions {
   MachineOptions machine;
@@ -196,6 +195,7 @@ void add_trace(Subcommand& program) {
   command
       .option("--actions", options->actions,
               "A file with a trace, or with numbers of actions; plain or gzip; -: standard input")
+      .value_name("FILE")
       .required();
   add_count(command, "--max-frames", settings.max_episode_frames, 0,
             "Frames after which an episode is over; 0: no limit");

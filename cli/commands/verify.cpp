@@ -36,8 +36,11 @@ With --rerun N, N units of the plan are played again, training and all. Results 
 prove that the plan's agent made them. A seed chooses the units, and is printed; --rerun-seed repeats the choice. This
 takes as long as `racebeam experiment` took for these units.
 
-Exit status: 0 all rows are confirmed; 1 rows, logs, tables or units are wrong, missing or too many; 2 nothing is wrong,
-but some rows could not be checked, such as those of a game without an image, or of a unit that is not finished.
+Exit status:
+  0  all rows are confirmed
+  1  rows, logs, tables or units are wrong, missing or too many
+  2  nothing is wrong, but some rows could not be checked, such as those of a game without an image,
+     or of a unit that is not finished; also a usage error
 
 Examples:
   racebeam verify results --roms ~/atari
@@ -194,6 +197,7 @@ void add_verify(Subcommand& program) {
   command.option("RESULTS", options->results, "The folder of results or of a submission, or one log")
       .required();
   command.option("--table", options->tables, "A table or report that was made from them; may be repeated")
+      .value_name("FILE")
       .one_a_time();
   add_count(command, "--rerun", options->rerun, 0,
             "Run this many units of the plan again, with their agents");

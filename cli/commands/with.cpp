@@ -18,9 +18,6 @@ constexpr auto kWithFooter =
 all clients of clients/ and of the Python package read. When COMMAND ends, the server stops. Nothing is left
 behind: the server's socket and its announce file lie in their own folder, below TMPDIR or /tmp.
 
-  racebeam with -- python3 agent.py
-  racebeam with --roms ~/atari --threads 2 -- ./play pong
-
 The options before -- are those of racebeam serve, except for --stdio, --pipes, --ready-file and --announce.
 Without an address, the server listens on a Unix socket and on a port of 127.0.0.1. Over TCP, clients need the
 token of the announce file. The log has warnings and errors, unless --log-level says otherwise.
@@ -28,8 +25,15 @@ token of the announce file. The log has warnings and errors, unless --log-level 
 Signals: SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2 and SIGINT are passed on to COMMAND. If racebeam with is killed,
 COMMAND and the server get SIGTERM.
 
-Exit status: that of COMMAND; 128 and the number of the signal that has ended it; 127 if COMMAND is not found, 126 if
-it cannot be executed. If the server does not start: its own, see racebeam serve --help.)";
+Exit status: that of COMMAND, or one of these:
+  126          COMMAND cannot be executed
+  127          COMMAND is not found
+  128 + N      signal N has ended COMMAND
+  1 to 5       usage error, or the server does not start (see racebeam serve --help)
+
+Examples:
+  racebeam with -- python3 agent.py
+  racebeam with --roms ~/atari --threads 2 -- ./play pong)";
 
 void refuse(const std::string& option, const std::string& why) { throw UsageError(option + ": " + why); }
 

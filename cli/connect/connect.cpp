@@ -34,7 +34,7 @@ this program:
 Address: tcp://HOST:PORT, or HOST:PORT for short, tls://HOST:PORT, unix:PATH, pipes:PREFIX, or file:PATH, a server's
 --ready-file or --announce file. Without one, the variable RACEBEAM_ADDRESS is used.
 
-Exit status: 0; 1 if the server is not there or goes; with --strict also at the first error.
+Exit status: 0; 1 if the server is not there or goes, and with --strict also at the first error; 2 usage error.
 
 Examples:
   racebeam connect localhost:7800
@@ -176,7 +176,7 @@ void add_connect(Subcommand& program) {
   auto options = std::make_shared<ConnectOptions>();
   Subcommand command =
       program.add_subcommand("connect", "Talk to a server, by hand or from a script", kConnectFooter);
-  command.option("address", options->address, "Where the server is").variable("RACEBEAM_ADDRESS");
+  command.option("ADDRESS", options->address, "Where the server is").variable("RACEBEAM_ADDRESS");
   command.option("--token-file", options->token_file, "Send the first token of this file").value_name("FILE");
   command
       .option("--authorities", options->client.authorities, "With tls://: trust these certificates, in PEM")

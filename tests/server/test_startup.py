@@ -230,8 +230,8 @@ class TestCommandLine(Refusals):
         self.check(["serve", "--classic", "--stdio"], 2, "--rom is required")
 
     def test_an_unknown_subcommand_is_answered_by_those_there_are(self):
-        self.check(["emulate"], 2, "unknown subcommand 'emulate'", "serve, with, config, classic, connect, play, watch")
-        self.check([], 2, "serve, with, config, classic, connect")
+        self.check(["emulate"], 2, "unknown subcommand 'emulate'", "serve, connect, play, watch, with, config, classic")
+        self.check([], 2, "serve, connect, play, watch, with")
 
 
 class TestFolders:
