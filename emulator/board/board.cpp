@@ -33,10 +33,10 @@ Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
       tia(state.tia, state.frame, video),
       slot{*rom, scheme_of(*rom, properties.scheme), state, {}, map},
       cartridge_ram(ram_beside_state(slot.scheme)),
-      ram_bits(slot.scheme.watches_mirrors ? kRamBits | kMirrorBit : kRamBits),
+      ram_bits(slot.scheme.watches(Scheme::Watch::kMirrors) ? kRamBits | kMirrorBit : kRamBits),
       rom_(std::move(rom)),
       ports_(properties),
-      unwatched_(slot.scheme.watches_riot ? 0 : kRiot) {
+      unwatched_(slot.scheme.watches(Scheme::Watch::kRiot) ? 0 : kRiot) {
   slot.ram = cartridge_ram.empty() ? std::span(state.cartridge.ram).first(slot.scheme.ram)
                                    : std::span(cartridge_ram);
   if (slot.scheme.power_on != nullptr) slot.scheme.power_on(slot);
@@ -74,7 +74,7 @@ void Board::set_format_limits() {
 }
 
 std::uint64_t Board::plain_registers() const {
-  return slot.scheme.watches_tia ? 0 : kPictureRegisters & ~kSpecialRegisters;
+  return slot.scheme.watches(Scheme::Watch::kTia) ? 0 : kPictureRegisters & ~kSpecialRegisters;
 }
 
 void Board::open_frame() {
@@ -245,7 +245,7 @@ void Board::observe(const Access& access) {
 std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
   if (address & 0x1000) return read_cartridge(address, cycle);
   if (address & unwatched_) return read_riot(address, cycle);
-  if (slot.scheme.watches_tia) [[unlikely]] {
+  if (slot.scheme.watches(Scheme::Watch::kTia)) [[unlikely]] {
     read_cartridge(address, cycle);
     if (address & kRiot) return read_watched(address, cycle);
   }
@@ -255,7 +255,7 @@ std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::
 // WSYNC comes first, because most lines have one.
 std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle,
                                  bool after_read) {
-  const bool plain = address == WSYNC && cycle < overlong_cycle_ && !slot.scheme.watches_tia;
+  const bool plain = address == WSYNC && cycle < overlong_cycle_ && !slot.scheme.watches(Scheme::Watch::kTia);
   return plain ? write_wsync(cycle, after_read) : write_anywhere(address, value, cycle, after_read);
 }
 
@@ -266,7 +266,7 @@ std::int32_t Board::write_anywhere(std::uint16_t address, std::uint8_t value, st
     write_riot(address, value, cycle);
     return cycle;
   }
-  if (to_cartridge || slot.scheme.watches_tia) {
+  if (to_cartridge || slot.scheme.watches(Scheme::Watch::kTia)) {
     if (write_cartridge(address, value) == Delivery::kTaken) return cycle;
     if (!to_cartridge && (address & kRiot) != 0) {
       write_watched(address, value, cycle);

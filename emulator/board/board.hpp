@@ -40,9 +40,8 @@ class Board {
   CodeWindow code;    // where the CPU fetches; empty after the map has changed or the frame has closed
   bool stop = false;  // the CPU stops after this instruction: the frame has closed, or must be run again
 
-  // Accesses of the CPU outside of plain memory. `latch` is the data bus before the access.
-  std::uint8_t read(std::uint16_t address, std::uint8_t latch,
-                    std::int32_t cycle);  // plain memory or a device
+  // A read of the CPU, and one outside of plain memory. `latch` is the data bus before the access.
+  std::uint8_t read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
   std::uint8_t read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
 
   // Whether INPT0-5 depend neither on the beam nor on the cartridge.
@@ -108,7 +107,8 @@ class Board {
 
   // Whether translated code cannot handle some accesses: a pin that follows the beam, or watched RAM.
   bool must_be_interpreted() const {
-    return ports_.has_light_gun() || slot.scheme.watches_mirrors || slot.scheme.observe != nullptr;
+    return ports_.has_light_gun() || slot.scheme.watches(Scheme::Watch::kMirrors) ||
+           slot.scheme.observe != nullptr;
   }
 
   // For a cartridge that sees all accesses to operands.
@@ -163,7 +163,7 @@ class Board {
   std::array<KnownWindow, 64> known_windows_{};
   Ports ports_;
   const bool has_gun_ = ports_.has_light_gun();
-  const bool has_plain_pins_ = !has_gun_ && !slot.scheme.watches_tia;
+  const bool has_plain_pins_ = !has_gun_ && !slot.scheme.watches(Scheme::Watch::kTia);
   const std::uint32_t unwatched_;  // the bit of addresses that only the RIOT sees; 0 if the cartridge watches
   // From which cycle on each of INPT0-5 reads high, and the two addresses after them, which never do.
   std::array<std::uint32_t, 8> pin_high_from_{};
@@ -171,8 +171,8 @@ class Board {
   // The first cycle, at a line's start, from which a TIA write closes the frame.
   std::int32_t overlong_cycle_ = 0;
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
-  std::int32_t last_access_ =
-      0;  // cycle of the last TIA access that was not a plain write: the picture is drawn so far
+  // Cycle of the last TIA access that was not a plain write. The picture is drawn so far.
+  std::int32_t last_access_ = 0;
   bool exact_mode_ = false;       // each access is played on its own
   bool picture_is_exact_ = true;  // of the last step, even if it ran in another mode
   bool fetched_latches_ = false;  // an opcode was to be read from a collision register, and the step ended

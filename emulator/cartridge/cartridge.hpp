@@ -65,21 +65,26 @@ struct MapperOps {
 };
 
 struct Scheme : MapperOps {
+  // The accesses that a cartridge sees beside those to its own addresses. Each includes those before it.
+  enum class Watch : std::uint8_t {
+    kNothing,
+    kTia,
+    kRiot,    // its ports and its timer
+    kMirrors  // RAM at addresses with bit 11 set. Such a cartridge is interpreted. Other RAM is never watched
+  };
+
   std::string_view name;
   unsigned image;    // the least bytes of an image
   unsigned hotspot;  // Atari's schemes: offset in 4K of the first hot spot, number of banks, initial bank
   std::uint8_t banks, initial;
-  unsigned ram;      // bytes on the cartridge, or of its registers
-  bool random_ram;   // filled with random bytes at every reset
-  bool watches_tia;  // takes part in accesses to the TIA's addresses
-  // Sees accesses to the RIOT's ports and timer, too; then watches_tia must be set.
-  bool watches_riot = false;
-  unsigned registers = 0;   // bytes of the state in use where the RAM is beside it
-  unsigned most_image = 0;  // the most bytes of an image; 0: any number, of which the first are used
-  // Sees accesses to RAM at addresses with bit 11 set; then watches_riot must be set. Such a cartridge is
-  // interpreted. RAM at other addresses is never watched.
-  bool watches_mirrors = false;
+  unsigned ram;     // bytes on the cartridge, or of its registers
+  bool random_ram;  // filled with random bytes at every reset
+  Watch watch = Watch::kNothing;
+  unsigned registers = 0;    // bytes of the state in use where the RAM is beside it
+  unsigned most_image = 0;   // the most bytes of an image; 0: any number, of which the first are used
   std::uint8_t version = 0;  // of schemes that share their functions
+
+  bool watches(Watch accesses) const { return watch >= accesses; }
 };
 
 // RAM up to this size is part of the state. Larger RAM has a block of its own, which keeps the state of most

@@ -39,6 +39,8 @@ std::uint8_t no_hidden_page(CartridgeSlot&, std::uint16_t, std::int32_t) { retur
 
 bool no_banks(const CartridgeSlot&, const CartridgeState& state) { return banks_unused(state, 0); }
 
+using Watch = Scheme::Watch;
+
 // clang-format off
 constexpr Delivery (*kIgnore)(CartridgeSlot&, std::uint16_t, std::uint8_t) = atari::ignore_write;
 
@@ -80,70 +82,70 @@ constexpr MapperOps kMb       = {atari::reset,           atari::map,          dy
 constexpr MapperOps kMc       = {megacart::reset,        megacart::map,       megacart::read, megacart::write,       megacart::admits};
 
 constexpr Scheme many(std::string_view name, std::uint8_t games) {
-  return {kMany, name, games * atari::kLeastGame, 0, games, 0, 0, false, false, false, 0, games * atari::kMostGame};
+  return {kMany, name, games * atari::kLeastGame, 0, games, 0, 0, false, Watch::kNothing, 0, games * atari::kMostGame};
 }
 
 constexpr unsigned kChip = sizeof(dpc::Chip), kDpcPlusChip = sizeof(dpcplus::Chip);
 constexpr unsigned kCdfChip = sizeof(cdf::Chip);
 
 constexpr Scheme cdf_of(std::string_view name, cdf::Version version) {
-  return {kCdf, name, cdf::kImage, cdf::kFirstHotSpot, cdf::kBanks, cdf::kFirstBank, cdf::kRam, false, false, false, kCdfChip, cdf::kImage, false, version};
+  return {kCdf, name, cdf::kImage, cdf::kFirstHotSpot, cdf::kBanks, cdf::kFirstBank, cdf::kRam, false, Watch::kNothing, kCdfChip, cdf::kImage, version};
 }
 constexpr unsigned kDpcPlusLeast = dpcplus::kLeastImage, kDpcPlusMost = dpcplus::kMostImage;
 
 constexpr Scheme kSchemes[] = {
-    // ops      name          image  hotspot banks init  ram  random  TIA
-    {kPlain,    "2K",           2048, 0,        1, 0,     0, false, false},
-    {kPlain,    "4K",           4096, 0,        1, 0,     0, false, false},
-    {kPlainSc,  "4KSC",         4096, 0,        1, 0,   128, true,  false},
-    {kAtari,    "F8",           8192, 0xFF8,    2, 1,     0, false, false},
-    {kAtari,    "F8 swapped",   8192, 0xFF8,    2, 0,     0, false, false},
-    {kAtari,    "F8SC",         8192, 0xFF8,    2, 1,   128, true,  false},
-    {kAtari,    "F6",          16384, 0xFF6,    4, 0,     0, false, false},
-    {kAtari,    "F6SC",        16384, 0xFF6,    4, 0,   128, true,  false},
-    {kAtari,    "F4",          32768, 0xFF4,    8, 0,     0, false, false},
-    {kF4sc,     "F4SC",        32768, 0xFF4,    8, 0,   128, true,  false},
-    {kAtari,    "FASC",        12288, 0xFF8,    3, 2,   256, true,  false},
-    {kFa2,      "FA2",         24576, 0xFF5,    7, 0,   256, true,  false},
-    {kJane,     "JANE",        16384, 0xFF0,    4, 0,     0, false, false},
-    {kWf8,      "WF8",          8192, 0xFF8,    2, 0,     0, false, false},
-    {kFc,       "FC",           8192, 0,        0, 0,     0, false, false},
-    {kE0,       "E0",           8192, 0,        0, 0,     0, false, false},
-    {kE7,       "E7",           8192, 0,        0, 0,  2048, true,  false},
-    {kFe,       "FE",           8192, 0,        0, 0,     0, false, false},
-    {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false, false},
-    {kDpcPlus,  "DPC+", kDpcPlusLeast, 0xFF6,   6, 5, dpcplus::kRam, false, false, false, kDpcPlusChip, kDpcPlusMost},
+    // ops      name          image  hotspot banks init  ram  random  watch
+    {kPlain,    "2K",           2048, 0,        1, 0,     0, false},
+    {kPlain,    "4K",           4096, 0,        1, 0,     0, false},
+    {kPlainSc,  "4KSC",         4096, 0,        1, 0,   128, true},
+    {kAtari,    "F8",           8192, 0xFF8,    2, 1,     0, false},
+    {kAtari,    "F8 swapped",   8192, 0xFF8,    2, 0,     0, false},
+    {kAtari,    "F8SC",         8192, 0xFF8,    2, 1,   128, true},
+    {kAtari,    "F6",          16384, 0xFF6,    4, 0,     0, false},
+    {kAtari,    "F6SC",        16384, 0xFF6,    4, 0,   128, true},
+    {kAtari,    "F4",          32768, 0xFF4,    8, 0,     0, false},
+    {kF4sc,     "F4SC",        32768, 0xFF4,    8, 0,   128, true},
+    {kAtari,    "FASC",        12288, 0xFF8,    3, 2,   256, true},
+    {kFa2,      "FA2",         24576, 0xFF5,    7, 0,   256, true},
+    {kJane,     "JANE",        16384, 0xFF0,    4, 0,     0, false},
+    {kWf8,      "WF8",          8192, 0xFF8,    2, 0,     0, false},
+    {kFc,       "FC",           8192, 0,        0, 0,     0, false},
+    {kE0,       "E0",           8192, 0,        0, 0,     0, false},
+    {kE7,       "E7",           8192, 0,        0, 0,  2048, true},
+    {kFe,       "FE",           8192, 0,        0, 0,     0, false},
+    {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false},
+    {kDpcPlus,  "DPC+", kDpcPlusLeast, 0xFF6,   6, 5, dpcplus::kRam, false, Watch::kNothing, kDpcPlusChip, kDpcPlusMost},
     cdf_of("CDF0", cdf::kCdf0), cdf_of("CDF", cdf::kCdf1), cdf_of("CDFJ", cdf::kCdfj),
-    {kCdf,      "CDFJ+", cdf::kImage, cdf::kFirstHotSpotPlus, cdf::kBanks, cdf::kFirstBankPlus, cdf::kMostRamPlus, false, false, false, kCdfChip, cdf::kMostImagePlus, false, cdf::kCdfjPlus},
-    {k3f,       "3F",           2048, 0,        0, 0,     0, false, true},
-    {k3e,       "3E",           2048, 0,        0, 0, 32768, true,  true},
-    {k3e,       "3EX",          2048, 0,        0, 0, 262144, false, true},
-    {k3ePlus,   "3E+",          2048, 0,        0, 0, 32768, true,  true},
-    {kUa,       "UA",           8192, 0,        2, 0,     0, false, true},
-    {kUaClone,  "UA clone",     8192, 0,        2, 0,     0, false, true, true},
-    {kUasw,     "UASW",         8192, 0,        2, 0,     0, false, true, true},
-    {k0fa0,     "0FA0",         8192, 0,        2, 0,     0, false, true, true},
-    {k0840,     "0840",         8192, 0,        2, 0,     0, false, true},
-    {k03e0,     "03E0",         8192, 0,        0, 0,     0, false, true, true},
-    {kWd,       "WD",           8192, 0,        0, 0,    64, true,  true},
-    {kWd,       "WDSW",         8195, 0,        0, 0,    64, true,  true, false, 0, 8195, false, wickstead::kSwapped},
-    {kCv,       "CV",           2048, 0,        0, 0,  1024, true,  false},
-    {kCvFilled, "CV 4K",        4096, 0,        0, 0,  1024, false, false},
-    {kAr,       "AR",           8448, 0,        0, 0,  6144, true,  false},
-    {kAtari,    "EF",          65536, 0xFE0,   16, 1,     0, false, false},
-    {kEff,      "EFF",         65536, 0xFE0,   16, 1, savecircuit::kBytes, false, false, false, sizeof(savecircuit::Eeprom)},
-    {kAtari,    "EFSC",        65536, 0xFE0,   16, 15,  128, true,  false},
-    {kAtari,    "DF",         131072, 0xFC0,   32, 1,     0, false, false},
-    {kAtari,    "DFSC",       131072, 0xFC0,   32, 15,  128, true,  false},
-    {kAtari,    "BF",         262144, 0xF80,   64, 1,     0, false, false},
-    {kAtari,    "BFSC",       262144, 0xF80,   64, 15,  128, true,  false},
-    {kSb,       "SB",         131072, 0,        0, 0,     0, false, true},
-    {kMdm,      "MDM",          8192, 0,        0, 0,     0, false, true, true, 0, 0, true},
-    {k4a50,     "4A50", payson::kImage, 0,      0, 0, payson::kRam, true, false, false, 0, payson::kImage},
-    {kX07,      "X07",         65536, 0,       16, 0,     0, false, true, true, 0, 0, true},
+    {kCdf,      "CDFJ+", cdf::kImage, cdf::kFirstHotSpotPlus, cdf::kBanks, cdf::kFirstBankPlus, cdf::kMostRamPlus, false, Watch::kNothing, kCdfChip, cdf::kMostImagePlus, cdf::kCdfjPlus},
+    {k3f,       "3F",           2048, 0,        0, 0,     0, false, Watch::kTia},
+    {k3e,       "3E",           2048, 0,        0, 0, 32768, true,  Watch::kTia},
+    {k3e,       "3EX",          2048, 0,        0, 0, 262144, false, Watch::kTia},
+    {k3ePlus,   "3E+",          2048, 0,        0, 0, 32768, true,  Watch::kTia},
+    {kUa,       "UA",           8192, 0,        2, 0,     0, false, Watch::kTia},
+    {kUaClone,  "UA clone",     8192, 0,        2, 0,     0, false, Watch::kRiot},
+    {kUasw,     "UASW",         8192, 0,        2, 0,     0, false, Watch::kRiot},
+    {k0fa0,     "0FA0",         8192, 0,        2, 0,     0, false, Watch::kRiot},
+    {k0840,     "0840",         8192, 0,        2, 0,     0, false, Watch::kTia},
+    {k03e0,     "03E0",         8192, 0,        0, 0,     0, false, Watch::kRiot},
+    {kWd,       "WD",           8192, 0,        0, 0,    64, true,  Watch::kTia},
+    {kWd,       "WDSW",         8195, 0,        0, 0,    64, true,  Watch::kTia, 0, 8195, wickstead::kSwapped},
+    {kCv,       "CV",           2048, 0,        0, 0,  1024, true},
+    {kCvFilled, "CV 4K",        4096, 0,        0, 0,  1024, false},
+    {kAr,       "AR",           8448, 0,        0, 0,  6144, true},
+    {kAtari,    "EF",          65536, 0xFE0,   16, 1,     0, false},
+    {kEff,      "EFF",         65536, 0xFE0,   16, 1, savecircuit::kBytes, false, Watch::kNothing, sizeof(savecircuit::Eeprom)},
+    {kAtari,    "EFSC",        65536, 0xFE0,   16, 15,  128, true},
+    {kAtari,    "DF",         131072, 0xFC0,   32, 1,     0, false},
+    {kAtari,    "DFSC",       131072, 0xFC0,   32, 15,  128, true},
+    {kAtari,    "BF",         262144, 0xF80,   64, 1,     0, false},
+    {kAtari,    "BFSC",       262144, 0xF80,   64, 15,  128, true},
+    {kSb,       "SB",         131072, 0,        0, 0,     0, false, Watch::kTia},
+    {kMdm,      "MDM",          8192, 0,        0, 0,     0, false, Watch::kMirrors},
+    {k4a50,     "4A50", payson::kImage, 0,      0, 0, payson::kRam, true, Watch::kNothing, 0, payson::kImage},
+    {kX07,      "X07",         65536, 0,       16, 0,     0, false, Watch::kMirrors},
     many("2IN1", 2), many("4IN1", 4), many("8IN1", 8), many("16IN1", 16), many("32IN1", 32), many("64IN1", 64), many("128IN1", 128),
-    {kMb,       "MB",          65536, 0xFF0,   16, 1,     0, false, false},
-    {kMc,       "MC",         131072, 0,        0, 0, 32768, true,  true},
+    {kMb,       "MB",          65536, 0xFF0,   16, 1,     0, false},
+    {kMc,       "MC",         131072, 0,        0, 0, 32768, true,  Watch::kTia},
 };
 // clang-format on
 
