@@ -31,8 +31,10 @@ LegalActions::LegalActions(const std::vector<int>& legal, Controller a, Controll
 }
 
 void LegalActions::check(const Presses& presses) const {
-  if (!std::isfinite(presses.a.strength) || !std::isfinite(presses.b.strength)) {
-    throw std::invalid_argument("a paddle's strength must be a finite number");
+  for (const float strength : {presses.a.strength, presses.b.strength}) {
+    if (std::isfinite(strength)) continue;
+    throw std::invalid_argument("a paddle's strength is " + std::to_string(strength) +
+                                "; it must be a finite number");
   }
   const auto refuse = [](int action, const char* player, const char* accepted, bool has_more) {
     throw std::invalid_argument("action " + std::to_string(action) + " of player " + player +

@@ -39,8 +39,11 @@ void check_act(const Act& act, const Slot& slot) {
   refuse_unless(slot.environment().takes({.b = act.b}), [&] {
     return "action " + std::to_string(act.b) + " of player B is out of range; accepted: 18 to 35";
   });
-  refuse_unless(std::isfinite(act.strength_a) && std::isfinite(act.strength_b),
-                [&] { return "the strength of a paddle is not a finite number"; });
+  for (const float strength : {act.strength_a, act.strength_b}) {
+    refuse_unless(std::isfinite(strength), [&] {
+      return "the strength of a paddle is " + std::to_string(strength) + "; it must be a finite number";
+    });
+  }
 }
 
 // Bytes of a machine that has played, without its stack and results; measured (docs/performance.md).

@@ -15,7 +15,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using test::copies, test::part, test::short_episodes;
 
-// What the machines show after so many steps of random actions.
+// What the machines show after this many steps of random actions.
 BatchResults play(Batch& batch, int steps) {
   std::mt19937 random(3);
   std::vector<int> actions(batch.size());
@@ -288,8 +288,9 @@ TEST_CASE("A batch says what it can't do, and goes on") {
   CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.b = 3}}, results.arrays()),
                     "action 3 of player B is out of range; accepted: 18 to 35");
   for (const float strength : {NAN, INFINITY})
-    CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.strength_a = strength}}, results.arrays()),
-                      "the strength of a paddle is not a finite number");
+    CHECK_THROWS_WITH(
+        batch.step(std::vector<Act>{{}, {.strength_a = strength}}, results.arrays()),
+        "the strength of a paddle is " + std::to_string(strength) + "; it must be a finite number");
   CHECK_THROWS_WITH(batch.reset(results.arrays(), Bytes(3)), "there are 3 choices for 2 machines");
   CHECK_THROWS_WITH(batch.reset(results.arrays(), {}, std::vector<std::int64_t>(1)),
                     "there are 1 seeds for 2 machines");
