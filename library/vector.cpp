@@ -21,8 +21,8 @@ racebeam::Autoreset internal(Autoreset autoreset) {
 racebeam::LifeLoss internal(LifeLoss life_loss) {
   switch (life_loss) {
     case LifeLoss::kReported: return racebeam::LifeLoss::kReported;
-    case LifeLoss::kEnd: return racebeam::LifeLoss::kEnds;
-    case LifeLoss::kRestart: return racebeam::LifeLoss::kResets;
+    case LifeLoss::kEnd: return racebeam::LifeLoss::kEnd;
+    case LifeLoss::kRestart: return racebeam::LifeLoss::kRestart;
     default: return racebeam::LifeLoss::kIgnored;
   }
 }
@@ -78,7 +78,7 @@ struct VectorEnvironment::Impl {
   Impl(std::vector<racebeam::Cartridge> loaded, const VectorSettings& settings)
       : cartridges(std::move(loaded)), batch(cartridges, internal(settings)) {}
 
-  // Whether each array has room for so many machines, or is left out.
+  // Whether each array has room for this many machines, or is left out.
   void check_sizes(const VectorArrays& arrays, std::size_t machines) const {
     check_size("observations", arrays.observations, machines * batch.observation_size());
     check_size("final_observations", arrays.final_observations, machines * batch.observation_size());

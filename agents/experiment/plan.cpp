@@ -165,7 +165,7 @@ PlaySettings training_settings(const Plan& plan, const PlanAgent& agent) {
   return play;
 }
 
-bool lives_end(const Plan& plan) { return plan.training.life_loss == LifeLoss::kEnds; }
+bool lives_end(const Plan& plan) { return plan.training.life_loss == LifeLoss::kEnd; }
 
 std::uint32_t agent_seed(const Plan& plan, const Unit& unit) { return seed_from(plan, unit, "agent", 0); }
 

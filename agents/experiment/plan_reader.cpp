@@ -141,7 +141,7 @@ class PlanReader {
     top_.guard(node, key, [&] {
       read_words(text, settings);
       PlaySettings played = settings;
-      if (&settings == &plan_.training && played.life_loss == LifeLoss::kEnds)
+      if (&settings == &plan_.training && played.life_loss == LifeLoss::kEnd)
         set_life_loss(played, LifeLoss::kIgnored);
       check_episode_settings(played);
       if (settings.action_set == ActionSet::kConsole)

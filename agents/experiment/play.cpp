@@ -42,7 +42,7 @@ void check_episode_settings(const PlaySettings& settings) {
   if (settings.autoreset != Autoreset::kDisabled)
     throw InvalidInput("autoreset is " + std::string(name_of(settings.autoreset)) +
                        "; an episode that is played ends, so that autoreset=disabled is accepted");
-  if (settings.life_loss != LifeLoss::kIgnored && settings.life_loss != LifeLoss::kResets)
+  if (settings.life_loss != LifeLoss::kIgnored && settings.life_loss != LifeLoss::kRestart)
     throw InvalidInput("an episode is played with life_loss=ignored or life_loss=restart");
   if (!settings.console.empty())
     throw InvalidInput(

@@ -31,8 +31,8 @@ constexpr std::array<WordFor<Autoreset>, 3> kShownAutoresets = {
     {{"1", Autoreset::kNextStep}, {"same-step", Autoreset::kSameStep}, {"0", Autoreset::kDisabled}}};
 constexpr std::array<WordFor<LifeLoss>, 4> kLifeLosses = {{{"ignored", LifeLoss::kIgnored},
                                                            {"reported", LifeLoss::kReported},
-                                                           {"end", LifeLoss::kEnds},
-                                                           {"restart", LifeLoss::kResets}}};
+                                                           {"end", LifeLoss::kEnd},
+                                                           {"restart", LifeLoss::kRestart}}};
 constexpr std::array<WordFor<Rules>, 2> kRules = {{{"ale-0.12", Rules::kAle012}, {"fixed", Rules::kFixed}}};
 
 std::uint32_t fresh_seed() { return random_number() | 1U; }  // not 0
@@ -155,7 +155,7 @@ constexpr std::array kSettings = {
               out += word_for(kLifeLosses, s.life_loss);
             }),
     setting("life_loss_ends", set_life_loss_ends,
-            ECHO(std::int64_t{truncates_on_life_loss(s) || s.life_loss >= LifeLoss::kEnds})),
+            ECHO(std::int64_t{truncates_on_life_loss(s) || s.life_loss >= LifeLoss::kEnd})),
     setting("noop_max", READ(s.noop_max = whole(value, "noop_max", 0, kMostNoops)),
             ECHO(std::int64_t{s.noop_max})),
     setting("autoreset", READ(s.autoreset = autoreset_of(value)), append_autoreset),
@@ -264,11 +264,11 @@ std::uint32_t parse_seed(std::string_view text) {
 void set_life_loss(PlaySettings& settings, LifeLoss life_loss) {
   const bool stays = life_loss == LifeLoss::kIgnored && truncates_on_life_loss(settings);
   settings.life_loss = life_loss;
-  settings.machine.truncate_on_life_loss = stays || life_loss == LifeLoss::kResets;
+  settings.machine.truncate_on_life_loss = stays || life_loss == LifeLoss::kRestart;
 }
 
 bool truncates_on_life_loss(const PlaySettings& settings) {
-  return settings.machine.truncate_on_life_loss && settings.life_loss != LifeLoss::kResets;
+  return settings.machine.truncate_on_life_loss && settings.life_loss != LifeLoss::kRestart;
 }
 
 Autoreset autoreset_of(std::string_view name) {

@@ -25,7 +25,7 @@ struct PlaySettings {
   GivenProperties console;
   ActionSet action_set = ActionSet::kFull;
   Autoreset autoreset = Autoreset::kDisabled;
-  LifeLoss life_loss = LifeLoss::kIgnored;  // kResets also sets machine.truncate_on_life_loss
+  LifeLoss life_loss = LifeLoss::kIgnored;  // kRestart also sets machine.truncate_on_life_loss
   int noop_max = 0;                         // an episode begins with 0 to noop_max - 1 frames of NOOP
   std::string_view preset = "none";
 };

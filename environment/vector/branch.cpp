@@ -27,7 +27,7 @@ void Branching::look_at_ends() {
   const bool lost_life = 0 < environment_.lives() && environment_.lives() < end_.lives;
   const Ends ends = ends_of(environment_, life_loss_);
   const bool reported = life_loss_ == LifeLoss::kReported && (lost_life || end_.terminated);
-  life_ended_ |= life_loss_ == LifeLoss::kEnds && lost_life;
+  life_ended_ |= life_loss_ == LifeLoss::kEnd && lost_life;
   end_.terminated = ends.terminated || life_ended_ || reported;
   end_.truncated = ends.truncated;
   end_.lives = environment_.lives();

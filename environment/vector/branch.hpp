@@ -32,7 +32,7 @@ class Branching {
   void enter(const Environment::Saved& root);
 
   bool over() const { return environment_.game_over() || life_ended_; }
-  bool life_ended() const { return life_ended_; }  // by LifeLoss::kEnds: the game continues
+  bool life_ended() const { return life_ended_; }  // by LifeLoss::kEnd: the game continues
 
   // Plays one act and returns player A's reward. Throws what Environment::act() throws.
   int act(const Act& act);

@@ -31,7 +31,7 @@ const SlotSettings& checked(const SlotSettings& settings) {
 Settings machine_settings(const SlotSettings& settings) {
   Settings machine = settings.machine;
   if (settings.steps == Steps::kActs) {
-    machine.truncate_on_life_loss |= settings.life_loss == LifeLoss::kResets;
+    machine.truncate_on_life_loss |= settings.life_loss == LifeLoss::kRestart;
     return machine;
   }
   machine.frame_skip = 1;
@@ -42,8 +42,8 @@ Settings machine_settings(const SlotSettings& settings) {
 
 // EnvPool and Stable-Baselines3 play the step to its end, and then look at the lives.
 bool stops_at_lost_life(const SlotSettings& settings) {
-  if (settings.life_loss == LifeLoss::kEnds) return settings.reset_order == ResetOrder::kFireNoops;
-  return settings.life_loss == LifeLoss::kResets;
+  if (settings.life_loss == LifeLoss::kEnd) return settings.reset_order == ResetOrder::kFireNoops;
+  return settings.life_loss == LifeLoss::kRestart;
 }
 
 std::string described(const StackSettings& stack) {
@@ -55,7 +55,7 @@ std::string described(const StackSettings& stack) {
 }  // namespace
 
 Ends ends_of(const Environment& machine, LifeLoss life_loss) {
-  if (life_loss != LifeLoss::kResets) return {machine.terminal(), machine.truncated()};
+  if (life_loss != LifeLoss::kRestart) return {machine.terminal(), machine.truncated()};
   const int limit = machine.settings().max_episode_frames;
   const bool too_long = limit > 0 && machine.episode_frame_number() >= limit;
   return {machine.terminal() || (machine.truncated() && !too_long), too_long};
@@ -90,7 +90,7 @@ void Slot::look_at_ends() {
 void Slot::look_at_lives() {
   const Ends ends = ends_of(environment_, settings_.life_loss);
   const bool lost_life = outcome_.lives_lost > 0 && environment_.lives() > 0;
-  const bool by_life = settings_.life_loss == LifeLoss::kEnds && (progress_.game_continues || lost_life);
+  const bool by_life = settings_.life_loss == LifeLoss::kEnd && (progress_.game_continues || lost_life);
   progress_.terminated =
       ends.terminated || by_life || (settings_.life_loss == LifeLoss::kReported && lost_life);
   progress_.truncated = ends.truncated;
@@ -162,10 +162,10 @@ void Slot::run_frames(const Act& act) {
     progress_.finished = over || too_long || (life_stops && lost);
     if (progress_.finished || remaining == 1) break;
   }
-  progress_.finished |= lost && settings_.life_loss == LifeLoss::kEnds;
+  progress_.finished |= lost && settings_.life_loss == LifeLoss::kEnd;
   outcome_.lives_lost += std::max(0, progress_.lives - environment_.lives());
   progress_.lives = environment_.lives();
-  progress_.game_continues = settings_.life_loss == LifeLoss::kEnds && lost && !over && !too_long;
+  progress_.game_continues = settings_.life_loss == LifeLoss::kEnd && lost && !over && !too_long;
   progress_.terminated = over || (settings_.life_loss != LifeLoss::kIgnored && lost);
   progress_.truncated = too_long && !progress_.terminated;
   progress_.blends = pools() && (remaining == 1 || settings_.reset_order == ResetOrder::kFireNoops);
@@ -231,7 +231,7 @@ void Slot::put_back(const Saved& saved) {
   progress_.lives = environment_.lives();
   outcome_.lives_lost = 0;
   if (environment_.terminal()) progress_.finished = progress_.terminated = true;
-  if (settings_.steps == Steps::kActs) progress_.game_continues &= settings_.life_loss == LifeLoss::kEnds;
+  if (settings_.steps == Steps::kActs) progress_.game_continues &= settings_.life_loss == LifeLoss::kEnd;
   if (saved.noops) noops_.set_generator(*saved.noops);
   look_at_ends();
   if (!stack_) return;

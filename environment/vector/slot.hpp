@@ -34,15 +34,15 @@ enum class ResetOrder {
 enum class LifeLoss {
   kIgnored,
   kReported,  // the step counts as terminated, but the episode continues (ALE's life_loss_info)
-  kEnds,      // the episode ends, and the next one continues the game with the next life, as in DQN
-  kResets     // the episode ends, and the next one is a new game (ALE's episodic_life)
+  kEnd,       // the episode ends, and the next one continues the game with the next life, as in DQN
+  kRestart    // the episode ends, and the next one is a new game (ALE's episodic_life)
 };
 
 struct Ends {
   bool terminated = false, truncated = false;
 };
-// How the episode of a machine ended whose acts end with a lost life as ALE's do
-// (Settings::truncate_on_life_loss), which kResets asks for.
+// How the machine's episode ended. kRestart sets Settings::truncate_on_life_loss, with which ALE truncates an
+// episode at a lost life. Such an episode counts as terminated here.
 Ends ends_of(const Environment& machine, LifeLoss life_loss);
 
 // The stack of screens when an episode begins.
@@ -54,7 +54,7 @@ enum class StackStart {
 struct SlotSettings {
   // frame_skip and the limits of rewards and frames apply to a step. With Steps::kFrames, frame_skip_max,
   // truncate_on_life_loss and color_averaging must not be set, and no-ops at the start do not count as frames
-  // of the episode. With Steps::kActs, LifeLoss::kResets sets truncate_on_life_loss.
+  // of the episode. With Steps::kActs, LifeLoss::kRestart sets truncate_on_life_loss.
   Settings machine{
       .frame_skip = 4, .sticky = 0, .max_episode_frames = 108000, .reward_min = -1, .reward_max = 1};
   std::optional<int> mode, difficulty;  // the game's defaults if not given
@@ -108,7 +108,7 @@ class Slot {
 
   void begin_request();      // sets the sums of outcome() to 0
   void act(const Act& act);  // one step
-  // Begins an episode. After a lost life with LifeLoss::kEnds, the game continues; otherwise a new game
+  // Begins an episode. After a lost life with LifeLoss::kEnd, the game continues; otherwise a new game
   // begins. A seed powers the machine on anew, and seeds the generator of no-ops, too. Throws InvalidInput,
   // and what the pace throws; the slot is then unchanged.
   void reset(std::optional<std::uint32_t> seed = std::nullopt);

@@ -30,7 +30,7 @@ std::size_t size_of(const EpisodeLog& log) {
 PlaySettings settings_of_log(const PlaySettings& loaded, const Environment& machine) {
   PlaySettings settings = loaded;
   settings.autoreset = Autoreset::kDisabled;
-  if (loaded.life_loss != LifeLoss::kResets) settings.life_loss = LifeLoss::kIgnored;
+  if (loaded.life_loss != LifeLoss::kRestart) settings.life_loss = LifeLoss::kIgnored;
   settings.machine.random_seed = machine.settings().random_seed;
   settings.difficulty = machine.difficulty();
   settings.mode.reset();

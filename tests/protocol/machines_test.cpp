@@ -120,7 +120,7 @@ TEST_CASE("Machines of open whose steps are frames show what a batch shows") {
          s.slot.machine.reward_min = -(1 << 30);
          s.slot.noop_max = 5;
          s.slot.reset_order = ResetOrder::kNoopsFire;
-         s.slot.life_loss = LifeLoss::kEnds;
+         s.slot.life_loss = LifeLoss::kEnd;
          s.slot.max_pool = false;
          s.autoreset = Autoreset::kSameStep;
          s.stack = {.depth = 2, .width = 40, .height = 50, .rgb = true};
@@ -132,7 +132,7 @@ TEST_CASE("Machines of open whose steps are frames show what a batch shows") {
          s.slot.machine.reward_min = -(1 << 30);
          s.slot.noop_max = 3;
          s.slot.reset_order = ResetOrder::kBaselines;
-         s.slot.life_loss = LifeLoss::kResets;
+         s.slot.life_loss = LifeLoss::kRestart;
          s.slot.stack_start = StackStart::kRepeats;
          s.autoreset = Autoreset::kDisabled;
        }},

@@ -28,8 +28,8 @@ void bind_words(nb::module_& module) {
   nb::enum_<LifeLoss>(module, "LifeLoss")
       .value("IGNORED", LifeLoss::kIgnored)
       .value("REPORTED", LifeLoss::kReported)
-      .value("END", LifeLoss::kEnds)
-      .value("RESTART", LifeLoss::kResets);
+      .value("END", LifeLoss::kEnd)
+      .value("RESTART", LifeLoss::kRestart);
   nb::enum_<StackStart>(module, "StackStart")
       .value("ZEROS", StackStart::kZeros)
       .value("REPEATS", StackStart::kRepeats);

@@ -34,7 +34,7 @@ const Setters& setters() {
        }},
       {"life_loss_ends",
        [](auto& s, double v) {
-         if (v != 0) s.slot.life_loss = LifeLoss::kResets;
+         if (v != 0) s.slot.life_loss = LifeLoss::kRestart;
        }},
       {"life_loss_is_told",
        [](auto& s, double v) {

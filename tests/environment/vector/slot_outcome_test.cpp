@@ -91,7 +91,7 @@ lives = 3 - ram[0x92]
 
 TEST_CASE("A lost life ends an act's episode as it was chosen, and the game goes on only where it may") {
   for (const LifeLoss life_loss :
-       {LifeLoss::kIgnored, LifeLoss::kReported, LifeLoss::kEnds, LifeLoss::kResets}) {
+       {LifeLoss::kIgnored, LifeLoss::kReported, LifeLoss::kEnd, LifeLoss::kRestart}) {
     for (const int lives : {2, 0}) {
       Slot slot({test::counter_image(), test::game(kThreeLives, "three")}, acts(life_loss));
       slot.act({});
@@ -100,10 +100,10 @@ TEST_CASE("A lost life ends an act's episode as it was chosen, and the game goes
       slot.act({});
       INFO(static_cast<int>(life_loss) << ' ' << lives);
       // To ALE's limit, the last life is like others; the other kinds leave it to the game.
-      const bool counts = lives > 0 || life_loss == LifeLoss::kResets;
+      const bool counts = lives > 0 || life_loss == LifeLoss::kRestart;
       CHECK(slot.outcome().terminated == (counts && life_loss != LifeLoss::kIgnored));
       CHECK_FALSE(slot.outcome().truncated);
-      CHECK(slot.finished() == (counts && life_loss >= LifeLoss::kEnds));
+      CHECK(slot.finished() == (counts && life_loss >= LifeLoss::kEnd));
       const int frames = slot.environment().episode_frame_number();
       slot.act({});
       CHECK((slot.environment().episode_frame_number() == frames) == slot.finished());
@@ -111,7 +111,7 @@ TEST_CASE("A lost life ends an act's episode as it was chosen, and the game goes
       slot.reset();
       CHECK_FALSE(slot.finished());
       CHECK_FALSE(slot.outcome().terminated);
-      CHECK((slot.environment().lives() == lives) == (life_loss == LifeLoss::kEnds));
+      CHECK((slot.environment().lives() == lives) == (life_loss == LifeLoss::kEnd));
     }
   }
 }
@@ -119,7 +119,7 @@ TEST_CASE("A lost life ends an act's episode as it was chosen, and the game goes
 TEST_CASE("A life that is lost with the game, or at its limit, does not continue the game") {
   for (const Steps steps : {Steps::kFrames, Steps::kActs}) {
     for (const bool limit : {false, true}) {
-      SlotSettings settings = acts(LifeLoss::kEnds);
+      SlotSettings settings = acts(LifeLoss::kEnd);
       settings.steps = steps;
       settings.machine.frame_skip = 1;
       if (limit) settings.machine.max_episode_frames = steps == Steps::kFrames ? 2 : 3;
@@ -202,7 +202,7 @@ TEST_CASE(
 
 TEST_CASE("A state brings back how far its episode was, and how it ended") {
   SlotSettings settings = no_noops();
-  settings.life_loss = LifeLoss::kEnds;
+  settings.life_loss = LifeLoss::kEnd;
   Slot slot(cartridge(), settings);
   slot.act({});
   const Slot::Saved start = slot.save(true);

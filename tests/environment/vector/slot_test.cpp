@@ -58,19 +58,19 @@ TEST_CASE("A lost life does to the episode what was chosen") {
     return slot;
   };
   for (const LifeLoss life_loss :
-       {LifeLoss::kIgnored, LifeLoss::kReported, LifeLoss::kEnds, LifeLoss::kResets}) {
+       {LifeLoss::kIgnored, LifeLoss::kReported, LifeLoss::kEnd, LifeLoss::kRestart}) {
     const auto slot = after(life_loss);
     INFO(static_cast<int>(life_loss));
     CHECK(slot->outcome().terminated == (life_loss != LifeLoss::kIgnored));
-    CHECK(slot->finished() == (life_loss >= LifeLoss::kEnds));
+    CHECK(slot->finished() == (life_loss >= LifeLoss::kEnd));
     CHECK(slot->outcome().lives_lost == 1);
     CHECK(slot->outcome().frames == (slot->finished() ? 1 : 3));
     CHECK_FALSE(slot->outcome().game_over);
     const int frames = slot->environment().episode_frame_number();
     slot->reset();
     CHECK_FALSE(slot->finished());
-    CHECK((slot->environment().episode_frame_number() == frames + 1) == (life_loss == LifeLoss::kEnds));
-    CHECK((slot->environment().lives() == 2) == (life_loss == LifeLoss::kEnds));
+    CHECK((slot->environment().episode_frame_number() == frames + 1) == (life_loss == LifeLoss::kEnd));
+    CHECK((slot->environment().lives() == 2) == (life_loss == LifeLoss::kEnd));
   }
 }
 
@@ -78,7 +78,7 @@ TEST_CASE(
     "An episode that goes on with the next life ends with the game's limit of frames, and a seed begins a "
     "new game") {
   SlotSettings settings = no_noops();
-  settings.life_loss = LifeLoss::kEnds;
+  settings.life_loss = LifeLoss::kEnd;
   settings.machine.max_episode_frames = 6;
   Slot slot(cartridge(), settings);
   lose_life(slot, 2);  // 4 frames
@@ -97,7 +97,7 @@ TEST_CASE("A step that loses a life is played to its end where the model has it 
   for (const ResetOrder order : {ResetOrder::kFireNoops, ResetOrder::kNoopsFire, ResetOrder::kBaselines}) {
     SlotSettings settings = no_noops();
     settings.reset_order = order;
-    settings.life_loss = LifeLoss::kEnds;
+    settings.life_loss = LifeLoss::kEnd;
     Slot slot(cartridge(), settings);
     lose_life(slot, 2);
     INFO(static_cast<int>(order));
@@ -110,7 +110,7 @@ TEST_CASE("A step that loses a life is played to its end where the model has it 
 TEST_CASE("The last life is the game's own matter, and the one before it is not") {
   for (const int remaining : {0, 1}) {
     SlotSettings settings = no_noops();
-    settings.life_loss = LifeLoss::kEnds;
+    settings.life_loss = LifeLoss::kEnd;
     Slot slot(cartridge(), settings);
     lose_life(slot, remaining);
     INFO(remaining);
@@ -123,7 +123,7 @@ TEST_CASE("The next life begins as the model has it") {
   const auto pressed = [](ResetOrder order) {
     SlotSettings settings = no_noops();
     settings.reset_order = order;
-    settings.life_loss = LifeLoss::kEnds;
+    settings.life_loss = LifeLoss::kEnd;
     Slot slot(cartridge(), settings);
     lose_life(slot, 2);
     return pressed_at_reset(slot);
@@ -147,7 +147,7 @@ TEST_CASE("A stack begins with zeros or with the first screen, and may live on w
   for (const StackStart start : {StackStart::kZeros, StackStart::kRepeats}) {
     SlotSettings settings = no_noops();
     settings.stack_start = start;
-    settings.life_loss = LifeLoss::kEnds;
+    settings.life_loss = LifeLoss::kEnd;
     Slot slot(cartridge(), settings);
     slot.set_stack(StackSettings{.depth = 2});
     slot.act({});
@@ -166,7 +166,8 @@ Cartridge beamfall() { return {load_image("builtin:beamfall"), find_game("beamfa
 
 constexpr Act kRight{.a = 3};
 
-// What an agent sees after so many frames of the right button: the last one, or the brighter of the last two.
+// What an agent sees after this many frames of the right button: the last one, or the brighter of the last
+// two.
 std::vector<std::uint8_t> seen_after(SlotSettings settings, int frames, bool pooled) {
   settings.machine.frame_skip = 1;
   settings.machine.max_episode_frames = 0;
