@@ -9,8 +9,8 @@ namespace racebeam {
 namespace {
 
 constexpr int kInstructionsPerStep = 25000;
-constexpr std::int32_t kEndlessTurn =
-    kEndlessCycle / 2 / (2 * kLineCycles) * (2 * kLineCycles);  // an even number of lines
+// The clocks are turned back by this much: an even number of lines.
+constexpr std::int32_t kEndlessTurn = kEndlessCycle / 2 / (2 * kLineCycles) * (2 * kLineCycles);
 
 }  // namespace
 

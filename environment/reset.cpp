@@ -17,8 +17,8 @@ void Environment::Impl::reset() {
   play.switches.moved = 0;
   all_audio.clear();
   console.reset();
-  controller_input.press(console.inputs(), {}, play.switches,
-                         play.paddles);  // the first frame repeats this
+  // The first frame repeats this.
+  controller_input.press(console.inputs(), {}, play.switches, play.paddles);
   if (!may_copy_reset()) return run_reset();
   const ResetStart start = reset_start();
   if (const auto end = reset_cache().find(start)) return copy_reset(*end);

@@ -15,7 +15,7 @@ namespace racebeam::tuning {
 
 // Frames between two looks.
 RACEBEAM_TUNED(int, kFramesBetweenLooks, 4, "frames", "replies");
-// If so many frames take longer, the session looks after each.
+// If the frames between two looks take longer than this, the session looks after each.
 RACEBEAM_TUNED(std::chrono::microseconds, kLongBetweenLooks, 400, "us", "replies");
 
 // Replies to requests that were sent ahead are sent together (line/session.cpp).
@@ -24,7 +24,7 @@ RACEBEAM_TUNED(std::chrono::microseconds, kLongBetweenLooks, 400, "us", "replies
 RACEBEAM_TUNED(std::int64_t, kFramesOfReplies, 64, "frames", "replies");
 // Bytes of the replies that wait: about twenty screens.
 RACEBEAM_TUNED(std::size_t, kBytesOfReplies, 65536, "bytes", "replies");
-// They go out once more when so many requests are left. The client reads them meanwhile, and sends the next.
+// Replies also go out when this many requests are left. The client reads them meanwhile, and sends the next.
 RACEBEAM_TUNED(std::size_t, kLastRequests, 3, "requests", "replies");
 // Fewer replies are not worth waking the client twice.
 RACEBEAM_TUNED(std::int64_t, kFewReplies, 4, "replies", "replies");

@@ -83,8 +83,8 @@ class AtomicFolder {
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
 
-  void add(const std::string& name,
-           std::span<const std::uint8_t> bytes);  // writes the whole file, or none of it
+  // Writes the whole file, or none of it.
+  void add(const std::string& name, std::span<const std::uint8_t> bytes);
   void commit();
 
  private:

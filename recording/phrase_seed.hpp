@@ -14,7 +14,7 @@ constexpr std::string_view kPhraseRule =
 bool is_phrase(std::string_view text);
 void check_phrase(std::string_view phrase);  // throws InvalidInput
 
-std::uint32_t seed_of_phrase(std::string_view phrase, std::string_view game, int trial,
-                             int episode);  // from 1 to 2^31 - 1
+// The seed of an episode, from 1 to 2^31 - 1.
+std::uint32_t seed_of_phrase(std::string_view phrase, std::string_view game, int trial, int episode);
 
 }  // namespace racebeam

@@ -104,8 +104,8 @@ class Recording : public std::enable_shared_from_this<Recording> {
 
   // Used by the recorder's threads:
   DiskBudget budget_;
-  std::vector<std::unique_ptr<Media>>
-      media_;    // in the order of order_.kinds; empty when nothing more is written
+  // In the order of order_.kinds. Empty when nothing more is written.
+  std::vector<std::unique_ptr<Media>> media_;
   Sound sound_;  // a copy: recording must not change what is played
   std::unique_ptr<Claim> claim_;
   std::size_t written_ = 0;

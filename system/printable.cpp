@@ -9,7 +9,7 @@ namespace {
 
 struct Form {
   unsigned char mask, lead;  // of the first byte
-  std::uint32_t least;       // the least code point that needs so many bytes
+  std::uint32_t least;       // the least code point of this length
 };
 constexpr std::array<Form, 4> kForms = {
     {{0x80, 0x00, 0}, {0xE0, 0xC0, 0x80}, {0xF0, 0xE0, 0x800}, {0xF8, 0xF0, 0x10000}}};

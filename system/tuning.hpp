@@ -42,7 +42,7 @@ T tuned(const std::string& name, T usual) {
 
 namespace racebeam::tuning {
 
-// Busy polling (busy_poll.hpp): polling that was in vain is left out for some times, at most for so many.
+// Busy polling (busy_poll.hpp): the most polls that are skipped after one in vain.
 RACEBEAM_TUNED(int, kMostSkippedPolls, 1024, "polls", "none");
 
 }  // namespace racebeam::tuning

@@ -51,7 +51,7 @@ struct Cost {
   double disk_megabytes = 0;        // of logs and tables
 };
 
-// Frames of one trial, if episodes have so many.
+// Frames of one trial, if each episode has `episode_frames`.
 struct TrialFrames {
   double training = 0, evaluation = 0;
 };
@@ -63,7 +63,7 @@ double seconds_of_trial(const PlanAgent& agent, const PlayRate& rate);
 // Without rates, episodes are taken to be as long as they may be, so that this is the most.
 Cost cost_of(const Plan& plan, const PlayRates& rates = {});
 
-// Throws InvalidInput if so many threads are expected to take more than `bytes` of memory.
+// Throws InvalidInput if this many threads are expected to take more than `bytes` of memory.
 void check_memory(const Plan& plan, unsigned threads, const Allowance& bytes);
 
 }  // namespace racebeam

@@ -14,11 +14,11 @@ namespace racebeam {
 struct ExperimentSettings {
   unsigned threads = 1;
   std::size_t shard = 1, shards = 1;  // this process runs each shards-th unit, from the shard-th on
-  std::chrono::milliseconds checkpoints{60000};  // at least so much time between two
+  std::chrono::milliseconds checkpoints{60000};  // the least time between two
   CpuKind cpu = CpuKind::kAuto;
   std::chrono::milliseconds reports{0};  // between two within a unit; 0: only finished units are reported
-  std::function<void()> check =
-      {};  // called after each decision, by all threads; what it throws ends the run
+  // Called after each decision, by all threads. An exception of it ends the run.
+  std::function<void()> check = {};
 };
 
 // How far an experiment has come.

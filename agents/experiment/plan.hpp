@@ -15,7 +15,8 @@
 
 namespace racebeam {
 
-// How long a trial is. Training ends after so many episodes, or, if `training_frames` is not 0, frames.
+// How long a trial is. Training ends after `training_episodes`, or, if that is not 0, after
+// `training_frames`.
 struct TrialLength {
   int trials = 1;
   int training_episodes = 0;

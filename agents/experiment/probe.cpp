@@ -20,9 +20,10 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr std::size_t kMostProbes = 60, kMostActions = 4;
 constexpr Seconds kLongestProbe{2};
-constexpr double kMostWaiting = 10;  // on a busy machine, a probe ends after so many times its share
-constexpr double kMostLearning = 8;  // a learner's speed may take so many times its share to settle
-// The probe samples one in so many of the screens that facts are discovered from, but each of a trajectory.
+constexpr double kMostWaiting = 10;  // on a busy machine, a probe ends after this multiple of its share
+constexpr double kMostLearning = 8;  // a learner's speed may take this multiple of its share to settle
+// The probe discovers facts from fewer screens than an experiment: one in kMostShare, or more if that were
+// fewer than kLeastScreens.
 constexpr int kMostShare = 12, kLeastScreens = 600;
 
 struct Enough {};  // ends an episode

@@ -16,8 +16,8 @@ struct RerunSettings {
   unsigned threads = 1;
   CpuKind cpu = CpuKind::kAuto;
   std::string version;  // of this program; the plan must have it, too
-  std::function<void()> check =
-      {};  // called after each decision, by all threads; what it throws ends the run
+  // Called after each decision, by all threads. An exception of it ends the run.
+  std::function<void()> check = {};
 };
 
 struct RerunVerdict {

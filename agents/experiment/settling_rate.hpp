@@ -12,7 +12,7 @@ class SettlingRate {
   // In seconds: rounds are counted until `least`, in any case, and end at `most`, whether or not they agree.
   SettlingRate(double least, double most) : least_(least), most_(most) {}
 
-  // One more was done, at so many seconds since the start. Returns whether this suffices; if the caller waits
+  // One more was done. now: seconds since the start. Returns whether this suffices; if the caller waits
   // for something else, only `most` does.
   bool add(double now, bool waits = false) {
     ++count_;

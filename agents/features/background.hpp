@@ -25,7 +25,7 @@ struct SampleSettings {
   std::string version = {};  // of the program
 };
 
-// Calls `look` with so many screens of sample trajectories; `first` says that a new one begins. Each begins
+// Calls `look` with this many screens of sample trajectories; `first` says that a new one begins. Each begins
 // with a random number of decisions of a Perturb policy, whose screens are not looked at, and goes on with
 // random actions. What is discovered depends on nothing that its file does not name (game_facts.cpp), so that
 // the machine has no sticky actions, and no limit of frames, whatever the settings say.

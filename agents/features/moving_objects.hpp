@@ -9,7 +9,7 @@
 
 namespace racebeam {
 
-// How far an object goes in a decision of so many frames, in x and in y: 8 pixels a frame (appendix C,
+// How far an object goes in a decision of `frame_skip` frames, in x and in y: 8 pixels a frame (appendix C,
 // "Maximum object velocity (pixels)").
 constexpr int reach_of(int frame_skip) { return std::min(8 * frame_skip, kFeatureHeight); }
 

@@ -40,10 +40,9 @@ class PairWeights {
   void move(float step);  // each weight along its trace; traces then decay
   void end();             // ends the episode: all deferred moves enter the table
 
-  std::size_t active() const {
-    return pairs(steady_.size() + varying_.size());
-  }                                                                     // features of the present state
-  ActionValues values() const;                                          // of the present state
+  // The number of features, and the values of the actions, in the present state.
+  std::size_t active() const { return pairs(steady_.size() + varying_.size()); }
+  ActionValues values() const;
   double weight(std::size_t bit, std::size_t other, int action) const;  // a bit with itself: the bit
 
   void write(StateWriter& out) const { out.put(table_); }  // between episodes

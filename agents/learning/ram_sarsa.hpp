@@ -18,8 +18,8 @@ class RamSarsa {
       : control_(settings, static_cast<std::size_t>(actions), seed), weights_(settings) {}
 
   int begin(Ram ram);  // returns the first action of an episode
-  int next(double reward,
-           Ram ram);        // the reward of the action before, and what followed; returns the next one
+  // The reward of the action before, and the state that it led to. Returns the next action.
+  int next(double reward, Ram ram);
   void end(double reward);  // of the last action
 
   void set_learning(bool learning) { control_.set_learning(learning); }

@@ -28,8 +28,8 @@ class Sarsa {
   // The reward of the last action. The value of what follows is 0.
   void end(double reward);
 
-  // There are so many groups of features now. Each that was split off has the weights and the traces of the
-  // one that it was a part of. Must precede the first use of a new group.
+  // groups: how many groups of features there are now. Each that was split off has the weights and the traces
+  // of the one that it was a part of. Must precede the first use of a new group.
   void refine(std::size_t groups, std::span<const FeatureSplit> splits);
 
   void set_learning(bool learning) { control_.set_learning(learning); }

@@ -29,8 +29,8 @@ class RolloutSearch {
   // one.
   int choose(const Model::State& root);
 
-  // After choose(): with `reuse_tree`, the subtree of `action` is the next tree, if the world went to `state`
-  // as it did.
+  // After choose(): with `reuse_tree`, the subtree of `action` is the next tree, if its root has the state to
+  // which the world went.
   void keep(int action, const Model::State& state);
 
   void forget() { root_.reset(); }

@@ -18,7 +18,7 @@ TreeSearch::TreeSearch(Model& model, const TreeSettings& settings, std::uint64_t
 
 int TreeSearch::choose(const Model::State& root) {
   begin(root);
-  // Breadth-first search has a tree of so many frames. IW(1) has a search of so many new ones.
+  // Breadth-first search limits the frames of the tree, and IW(1) those of one search.
   std::int64_t spent = -model_.frames();
   if (!settings_.needs_novelty)
     for (const Node& node : nodes_) spent += node.frames;

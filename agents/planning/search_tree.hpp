@@ -15,7 +15,7 @@ namespace racebeam {
 
 // Defaults: the paper, appendix C, where not said otherwise.
 struct TreeSettings {
-  std::int64_t frames = 133000;  // of a decision: no node is expanded after so many
+  std::int64_t frames = 133000;  // of a decision; no node is expanded after them
   double discount = 0.999;
   bool merge_duplicates = false;  // paper-notes: of siblings in the same state one is expanded
   bool needs_novelty = false;     // IW(1)
@@ -32,8 +32,8 @@ class TreeSearch {
   // one.
   int choose(const Model::State& root);
 
-  // After choose(): with `reuse_tree`, the subtree of `action` is the beginning of the next tree, if the
-  // world went to `state` as it did.
+  // After choose(): with `reuse_tree`, the subtree of `action` is the beginning of the next tree, if its
+  // root has the state to which the world went.
   void keep(int action, const Model::State& state);
 
   void forget() { kept_ = false; }

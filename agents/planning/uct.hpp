@@ -44,7 +44,8 @@ class Uct {
   // The action that was taken most often. Begins with the tree that keep() left, if there is one.
   int choose(const Model::State& root);
 
-  // After choose(): the subtree of `action` is the next tree, if the world went to `state` as it did.
+  // After choose(): the subtree of `action` is the next tree, if its root has the state to which the
+  // world went.
   void keep(int action, const Model::State& state);
 
   void forget() { root_.reset(); }

@@ -15,8 +15,8 @@ constexpr auto kUnanswered = 33ms;  // between pictures for a terminal that does
 constexpr int kMostUnderWay = 2;
 
 constexpr std::string_view kEnter = "\x1b[?1049h\x1b[?25l\x1b[2J", kLeave = "\x1b[0m\x1b[?25h\x1b[?1049l";
-constexpr std::string_view kReleases = "\x1b[>11u",
-                           kNoReleases = "\x1b[<u";  // all keys, as press and release
+// The terminal reports each key, when it is pressed and when it is released.
+constexpr std::string_view kReleases = "\x1b[>11u", kNoReleases = "\x1b[<u";
 constexpr std::string_view kDeletePictures = "\x1b_Ga=d,d=A,q=2\x1b\\";
 // The terminal shows what is between the two at once, if it knows them. kEndOfAny ends what a signal cut off.
 constexpr std::string_view kBegin = "\x1b[?2026h", kEnd = "\x1b[?2026l", kEndOfAny = "\x1b\\\x1b[?2026l";

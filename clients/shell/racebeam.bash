@@ -127,7 +127,7 @@ racebeam_launch() {
   exec {RACEBEAM_SERVER[0]}<&- {RACEBEAM_SERVER[1]}>&-
 }
 
-# Ends the session. More than once does nothing.
+# Ends the session. Further calls do nothing.
 racebeam_close() {
   if [[ -n $racebeam_input ]]; then
     exec {racebeam_input}<&- {racebeam_output}>&-

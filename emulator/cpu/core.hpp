@@ -20,8 +20,8 @@ struct ZeroPage {
 
 struct Core {
   Board& board;
-  std::int64_t
-      clock;  // cycle() and executed() in one number, so that an instruction counts both with one addition
+  // cycle() and executed() in one number, so that an instruction counts both with one addition.
+  std::int64_t clock;
   std::uintptr_t at;          // PC, as an address in the host's memory
   std::uintptr_t start, end;  // of the code window; end is 0 if locate() must find the next instruction
   std::uintptr_t origin;      // the host's address of address 0

@@ -40,7 +40,7 @@ RACEBEAM_TUNED(int, kFlickeringRows, 16, "rows", "frames");
 RACEBEAM_TUNED(int, kMostWork, 100, "instructions", "start");
 // What a block costs beside its instructions.
 RACEBEAM_TUNED(int, kWorkOfBlock, 3, "instructions", "start");
-// The most cycles of a block, without the waiting of WSYNC. The interpreter runs so many before the line
+// The most cycles of a block, without the waiting of WSYNC. The interpreter runs this many before the line
 // limit, and a hundred more.
 RACEBEAM_TUNED(int, kMostBlockCycles, 300, "cycles", "frames");
 
@@ -62,7 +62,7 @@ RACEBEAM_TUNED(int, kUsualBatches, 256, "batches", "start");
 RACEBEAM_TUNED(std::int64_t, kUsualPercent, 20, "%", "start");
 // The same beyond them: such a program is hardly worth the work.
 RACEBEAM_TUNED(std::int64_t, kLatePercent, 5, "%", "start");
-// The most of a step that counts: the longest takes so much on a quiet machine.
+// The most of a step that counts: the longest one takes this long on a quiet machine.
 RACEBEAM_TUNED(std::int64_t, kLongestStep, 400'000, "ns", "start");
 // The most of a batch that counts.
 RACEBEAM_TUNED(std::int64_t, kLongestBatch, 400'000, "ns", "start");
@@ -73,7 +73,7 @@ RACEBEAM_TUNED(std::int64_t, kLongestBatch, 400'000, "ns", "start");
 RACEBEAM_TUNED(std::int32_t, kBreakEvenCycles, 32, "cycles", "frames");
 // Cycles below break-even that a machine's balance holds.
 RACEBEAM_TUNED(std::int32_t, kMostDebt, 128, "cycles", "frames");
-// Cycles beyond break-even that it holds: entries that pay make up for so many that do not.
+// Cycles beyond break-even that it holds: up to these, entries that pay make up for those that do not.
 RACEBEAM_TUNED(std::int32_t, kMostSurplus, 4096, "cycles", "frames");
 // Searches, one of which enters anyway: another scene may differ.
 RACEBEAM_TUNED(std::uint32_t, kRetry, 64, "searches", "frames");
@@ -92,7 +92,7 @@ RACEBEAM_TUNED(std::int32_t, kRunSlack, 4096, "instructions", "frames");
 
 // The most of them.
 RACEBEAM_TUNED(int, kLongestBackoff, 63, "steps", "frames");
-// Steps that translated code completed; so many halve the count.
+// Steps that translated code must complete before the count is halved.
 RACEBEAM_TUNED(int, kCalmSteps, 4, "steps", "frames");
 
 // Whether steps are faster translated (step_trial.hpp). Pauses are multiples of four, so that a

@@ -200,8 +200,8 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::write_nusiz(unsigned which, std::u
 
 template <ChangePolicy Policy>
 RACEBEAM_INLINE void RegisterEffects<Policy>::write_ctrlpf(std::uint8_t value, std::int32_t clock) {
-  const bool latches =
-      line_cycle(clock / 3) < 49;  // a later write reflects the playfield only from the next line on
+  // A later write reflects the playfield only from the next line on.
+  const bool latches = line_cycle(clock / 3) < 49;
   const std::uint8_t reflect = latches ? value & 1 : tia_.reflect;
   value &= 0x37;
   if (policy_.looks() && tia_.ctrlpf == value && tia_.reflect == reflect) return policy_.reach(clock);
@@ -317,7 +317,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::show_cosmic_normally() {
 }
 
 // The position of a missile or of the ball after a strobe: where the beam is, or what docs/spec/tia.md, 8,
-// lists for a strobe so many clocks after an HMOVE.
+// lists for a strobe soon after an HMOVE.
 template <ChangePolicy Policy>
 RACEBEAM_INLINE std::uint8_t RegisterEffects<Policy>::strobe_position(TiaRegister reg,
                                                                       std::int32_t clock) const {

@@ -44,9 +44,9 @@ class AreaResize {
   // within 16 bytes.
   struct Octet {
     std::array<std::size_t, 2> from;
-    std::vector<std::array<std::uint8_t, 32>>
-        places;                                 // for each tap: indices into the 16 bytes, as 32-bit numbers
-    std::vector<std::array<float, 8>> weights;  // for each tap
+    // For each tap: indices into the 16 bytes, as 32-bit numbers, and their weights.
+    std::vector<std::array<std::uint8_t, 32>> places;
+    std::vector<std::array<float, 8>> weights;
   };
 
   bool fits_octets() const;

@@ -32,7 +32,7 @@ struct BatchSettings {
   std::string_view noun = "machine";  // what errors call a machine
 };
 
-// Throws InvalidInput if so many machines take more memory than the process may use. noun: as in
+// Throws InvalidInput if this many machines take more memory than the process may use. noun: as in
 // BatchSettings.
 void check_memory(std::size_t machines, std::string_view noun = "machine");
 

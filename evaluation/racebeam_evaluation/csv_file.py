@@ -83,7 +83,7 @@ def digest(path: pathlib.Path) -> Source:
 
 
 def _check_shape(path: pathlib.Path, content: bytes, columns: dict[str, Kind], fewest: int) -> None:
-    """Checks that the header has `columns`, each line as many fields as the header, and the file so many rows."""
+    """Checks that the header has `columns`, each line as many fields, and the file at least `fewest` rows."""
     try:
         content.decode()
     except UnicodeDecodeError as error:

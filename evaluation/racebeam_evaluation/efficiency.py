@@ -1,4 +1,4 @@
-"""Sample efficiency: the interquartile mean over trials of all games, after so many frames or decisions of training."""
+"""Sample efficiency: the interquartile mean over trials of all games, by frames or decisions of training."""
 
 import itertools
 

@@ -40,8 +40,8 @@ struct Game {
   std::vector<int> modes{0};
   std::vector<int> two_player_modes;  // those in which player B plays too; may repeat some of `modes`
   int default_mode = 0;
-  std::vector<int> difficulties{
-      0};               // bit 0: left switch A; bit 1: right switch A. An environment starts with 0
+  // Bit 0: left switch A; bit 1: right switch A. An environment starts with 0.
+  std::vector<int> difficulties{0};
   int paddle_max = -1;  // a wider range of the paddles than usual; -1: the usual one
 
   std::optional<RuleProgram> rule;

@@ -14,9 +14,9 @@ using RamMask = std::array<std::uint8_t, kRamBytes>;
 
 struct Memory {
   const std::uint8_t* ram = nullptr;  // the 128 bytes at $80-$FF
-  std::uint8_t (*peek)(const void* machine,
-                       std::uint16_t address) = nullptr;  // any 13-bit address; may be null
-  const void* machine = nullptr;                          // passed to peek
+  // Reads any 13-bit address of `machine`, which is passed to it. May be null.
+  std::uint8_t (*peek)(const void* machine, std::uint16_t address) = nullptr;
+  const void* machine = nullptr;
 };
 
 }  // namespace racebeam

@@ -15,11 +15,11 @@ constexpr int kMaxVariables = 16;       // of a rule: what persists from frame t
 constexpr int kMaxInstructions = 2048;  // of one program
 
 enum class Op : std::uint8_t {
-  kConstant,
-  kVariable,  // value; variable number `value`
-  kRam,
-  kRamAt,
-  kMemAt,  // RAM byte number `value`; RAM or bus byte at address a
+  kConstant,  // `value`
+  kVariable,  // variable number `value`
+  kRam,       // byte number `value` of RAM
+  kRamAt,     // byte of RAM at address a
+  kMemAt,     // byte on the bus at address a
   kBcd,
   kSigned8,
   kUnsigned8,
@@ -66,8 +66,8 @@ struct Output {
 
 struct Program {
   std::vector<Instruction> code;
-  std::vector<Output>
-      outputs;          // copied into the variables at the end, so that all code sees their old values
+  // Copied into the variables at the end, so that all code sees their old values.
+  std::vector<Output> outputs;
   Register result = 0;  // of an expression
 };
 

@@ -17,8 +17,8 @@ class ProgramBuilder {
   Register emit(const Instruction& instruction);  // throws std::length_error if the program gets too long
 
   std::optional<std::int32_t> constant_value(Register from) const;
-  std::set<int> ram_bytes(
-      Register from) const;  // the bytes of RAM, at fixed places, that this value depends on
+  // The bytes of RAM, at fixed places, that this value depends on.
+  std::set<int> ram_bytes(Register from) const;
   void output(int slot, Register from) { program_.outputs.push_back({slot, from}); }
   Program finish(Register result = 0);
 

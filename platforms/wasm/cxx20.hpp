@@ -46,8 +46,8 @@ inline to_chars_result to_chars(char* first, char* last, float value, chars_form
 template <typename Number>
 requires is_floating_point_v<Number> from_chars_result from_chars(const char* first, const char* last,
                                                                   Number& value) {
-  const string text(first,
-                    find_if(first, last, [](char c) { return c == 'x' || c == 'X'; }));  // no hexadecimal
+  // Hexadecimal numbers end at their x.
+  const string text(first, find_if(first, last, [](char c) { return c == 'x' || c == 'X'; }));
   if (text.empty() || !strchr("-.0123456789in", text[0])) return {first, errc::invalid_argument};
   char* end = nullptr;
   const Number number = is_same_v<Number, float> ? static_cast<Number>(strtof(text.c_str(), &end))

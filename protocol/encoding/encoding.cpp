@@ -46,7 +46,7 @@ std::size_t next_difference(std::span<const std::uint8_t> a, std::span<const std
   return at;
 }
 
-// The end of a changed part: before so many equal bytes that skipping them saves text.
+// The end of a changed part: where enough equal bytes follow that skipping them saves text.
 std::size_t end_of_change(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, std::size_t at) {
   for (;;) {
     while (at < a.size() && a[at] != b[at]) ++at;

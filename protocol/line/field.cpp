@@ -247,8 +247,8 @@ std::size_t View::most_held(const std::vector<Field>& fields) {
   for (const Field& field : fields) {
     if (field.row->number) continue;
     bytes += most_bytes(field);  // for scratch_, or in the machine
-    if (field.stack)
-      bytes += bytes_of(*field.stack) + kRgbScreen;  // itself, and the picture that it takes in
+    // The stack, and the picture that it takes in.
+    if (field.stack) bytes += bytes_of(*field.stack) + kRgbScreen;
     if (field.encoding == Encoding::kZlib) bytes += kDeflater + most_bytes(field);
     if (field.encoding == Encoding::kDelta) bytes += most_bytes(field);
   }

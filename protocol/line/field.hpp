@@ -18,8 +18,8 @@ struct FieldRow {
   std::string_view name;
   std::string_view summary;
   bool of_request;  // a result of the request's acts; else a part of what the machine shows
-  std::int64_t (*number)(const Environment&,
-                         const Outcome&);  // null for fields of bytes; then `bytes` is set
+  // The function of a number, or that of bytes. The other one is null.
+  std::int64_t (*number)(const Environment&, const Outcome&);
   std::span<const std::uint8_t> (*bytes)(const Environment&, std::vector<std::uint8_t>& scratch);
   Encoding usual;  // default encoding of a field of bytes
   Drawing looks_at = Drawing::kNone;

@@ -18,7 +18,7 @@ class LineReader {
   std::size_t longest() const { return longest_; }
 
   // After next() has returned nothing: how many bytes of memory the rest of the line needs now, usually 0. If
-  // there are so many, grow() allocates them, and may throw std::bad_alloc. Otherwise cut_line() makes next()
+  // memory suffices, grow() allocates them, and may throw std::bad_alloc. Otherwise cut_line() makes next()
   // return the line as kCut.
   std::size_t growth() const;
   void grow();

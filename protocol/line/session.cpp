@@ -238,14 +238,13 @@ void Session::measure() {
   metered_frames_ = context_.statistics.frames;
 }
 
-// The bytes of memory that the session holds. A request checks large allocations by itself; a long reply that
-// may come counts already.
+// The bytes of memory that the session holds. A request checks large allocations by itself. A long reply
+// counts before it is made.
 std::size_t Session::footprint() const {
   constexpr std::size_t kSession = std::size_t{2} << 10;  // the rest, measured
   constexpr std::size_t kLongReply = std::size_t{1} << 18;
   const LoadedGame& game = context_.game;
-  std::size_t reply =
-      game.loaded ? View::longest_text(context_.fields) : 0;  // that may come; only a long one counts
+  std::size_t reply = game.loaded ? View::longest_text(context_.fields) : 0;
   if (reply < kLongReply) reply = 0;
   std::size_t bytes = kSession + std::max(reply, reply_.capacity()) + input_.capacity() +
                       context_.footprint() + words_.capacity() * sizeof(std::string_view);
@@ -254,8 +253,8 @@ std::size_t Session::footprint() const {
 }
 
 std::string_view Session::whole_replies() const {
-  return reply_.text().substr(0,
-                              context_.pacer.in_progress() ? reply_.begin_of_last() : std::string_view::npos);
+  const std::string_view all = reply_.text();
+  return context_.pacer.in_progress() ? all.substr(0, reply_.begin_of_last()) : all;
 }
 
 void Session::sent(std::size_t count) {
@@ -275,15 +274,15 @@ void Session::cancel() {
 
 void Session::rest() {
   if (context_.pacer.in_progress()) return;
-  if (context_.game.loaded && context_.sharing)
-    context_.publish();  // a session that pauses shows what it stopped at
+  // Watchers see where a session has paused.
+  if (context_.game.loaded && context_.sharing) context_.publish();
   release();
 }
 
 // Releases what the next request can make again.
 void Session::release() {
-  if (context_.pacer.in_progress())
-    return;  // the request, whose words are in use, waits for its client to read
+  // A request may wait until its client reads. Its words are in use.
+  if (context_.pacer.in_progress()) return;
   context_.rest();
   if (reply_.text().empty()) context_.discard(reply_.text_memory());
   context_.discard(reply_.raw_memory());

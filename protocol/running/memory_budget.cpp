@@ -58,7 +58,7 @@ void MemoryShare::set(std::size_t bytes) {
   bytes_ = bytes;
 }
 
-// How much must be left for others if the owner takes so many bytes more.
+// How much must be left for others if the owner takes these bytes, too.
 std::uint64_t MemoryShare::spare_after(std::size_t bytes) const {
   if (bytes_ + bytes > budget_->little()) return budget_->reserve();
   const MemoryBudget* const owner = budget_->whole();

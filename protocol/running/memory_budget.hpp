@@ -77,8 +77,8 @@ class MemoryShare {
   MemoryShare& operator=(const MemoryShare&) = delete;
 
   void set(std::size_t bytes);  // what the owner holds
-  bool grow(
-      std::size_t bytes);  // returns false, and takes nothing, if less is left for an owner of this size
+  // Returns false, and takes nothing, if less is left for an owner of this size.
+  bool grow(std::size_t bytes);
   void check(std::size_t bytes, const std::string& what);  // as grow(), but throws RequestError
   bool is_short() const { return budget_ != nullptr && budget_->is_short(); }
 

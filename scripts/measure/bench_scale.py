@@ -3,7 +3,7 @@
 steps: 64 sessions act as fast as they can, for each of several observations. Microseconds are the server's processor
 time of a step; their inverse is the steps a second of a core. The client runs on the same machine and takes its share
 of it, so that steps/s are fewer than the processors could do. MB/s are of replies, for a core that does nothing else.
-cores: the same for a server that may use so many processors, with reward, ends and RAM; clients use all of the machine.
+cores: the same by processors of the server, with reward, ends and RAM; clients use all of the machine.
 sessions: the same for several numbers of acting sessions, with reward, ends and RAM. idle: memory and processor time of
 sessions that wait, in the server and in the kernel, after they have loaded a game. crowd: 50,000 sessions on several
 servers, of which 500 act ten times a second; latencies of the acts.

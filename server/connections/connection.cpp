@@ -188,8 +188,8 @@ Task<> play_over_tls(std::shared_ptr<Client> client, const Service& service, Car
     reason = std::current_exception();
   }
   const Patience patience(client);
-  co_await stream.async_shutdown(
-      net::redirect_error(use_task, error));  // tells the client that the output is complete
+  // Tells the client that the output is complete.
+  co_await stream.async_shutdown(net::redirect_error(use_task, error));
   if (reason) std::rethrow_exception(reason);
 }
 

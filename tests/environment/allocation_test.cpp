@@ -124,7 +124,7 @@ TEST_CASE(
   }
 }
 
-// Memory of so many machines that have played for a while.
+// Memory of this many machines that have played for a while.
 long bytes_taken(std::size_t machines) {
   const long before = bytes_in_use;
   BatchSettings settings;

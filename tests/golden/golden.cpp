@@ -182,7 +182,7 @@ int run(int argc, char** argv) {
   with_signature(app.add_flag("--images", options.images, "Include all games with a cartridge image"));
   CLI::Option* const frames =
       app.add_option("--frames", options.frames,
-                     "Play only games with a cartridge image, and so many frames of each")
+                     "Play only games with a cartridge image, and this many frames of each")
           ->check(CLI::Range(1, 1000000));
   with_signature(frames);
   app.add_option("--slice", options.slice, "K N: of these, each N-th from number K on")

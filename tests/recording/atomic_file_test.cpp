@@ -30,7 +30,7 @@ std::ptrdiff_t files_in(const Scratch& folder) {
   return std::distance(std::filesystem::directory_iterator(folder.path("")), {});
 }
 
-// While it exists, files cannot grow beyond so many bytes: as on a full disk.
+// While it exists, files cannot grow beyond this many bytes: as on a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -43,7 +43,7 @@ std::vector<std::uint8_t> pixels() {
   return found;
 }
 
-// Numbers of so many bytes, the lowest first.
+// Numbers of this many bytes, the lowest first.
 std::string numbers(int bytes, std::initializer_list<std::uint32_t> values) {
   std::string text;
   for (const std::uint32_t value : values)
@@ -53,7 +53,7 @@ std::string numbers(int bytes, std::initializer_list<std::uint32_t> values) {
 
 std::string text_of(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
 
-// The file of a film with so many of these pictures, and their sound.
+// The file of a film with this many of these pictures, and their sound.
 std::string film(MediaKind kind, int frames) {
   const Scratch folder;
   DiskBudget budget(10'000'000);

@@ -57,7 +57,7 @@ export function launch(settings?: {
 export class Session {
   /** Resolves with the reason once the session has ended, whether or not a request waits. */
   readonly ended: Promise<LostError>;
-  /** Ends the session. More than once does nothing. */
+  /** Ends the session. Further calls do nothing. */
   disconnect(): Promise<void>;
   [Symbol.asyncDispose](): Promise<void>;
 

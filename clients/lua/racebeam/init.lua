@@ -66,7 +66,7 @@ function racebeam.launch(options, ...)
   return session(transport.launch(program, { ... }), options)
 end
 
--- Ends the session. More than once does nothing.
+-- Ends the session. Further calls do nothing.
 function Session:close_connection()
   if not self.closed then
     self.closed = true

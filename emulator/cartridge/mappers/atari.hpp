@@ -4,7 +4,7 @@
 // three banks and 256 bytes of RAM at $1000-$10FF and $1100-$11FF. The homebrew schemes EF, DF and BF have
 // 16, 32 or 64 banks, selected from $1FE0, $1FC0 or $1F80 on.
 //
-// 2IN1 to 128IN1 are cartridges with so many games of 2K or 4K. The power switch of a console selects the
+// 2IN1 to 128IN1 are cartridges with that many games of 2K or 4K. The power switch of a console selects the
 // next one. Here, the scheme's name says which one it is: "32IN1" the first, "32IN1 2" the second.
 #pragma once
 

@@ -84,8 +84,8 @@ constexpr unsigned mask_of(bool condition) { return 0U - static_cast<unsigned>(c
 // A music fetcher wraps from 0 to its top. Its output is high from the top down to the bottom.
 inline void count_down(Fetcher& fetcher, int clocks) {
   const int period = fetcher.top + 1;
-  if (clocks >= period) [[unlikely]]
-    clocks %= period;  // slow: a division
+  if (clocks >= period) [[unlikely]]  // a division is slow
+    clocks %= period;
   int low = fetcher.top == 0 ? 0 : fetcher.low() - clocks;
   low += static_cast<int>(mask_of(low < 0)) & period;
   fetcher.set_low(static_cast<unsigned>(low));

@@ -42,15 +42,15 @@ constexpr int kEarliestWrite = 4;
 // The possible effect of a write to a register on the line of its cycle.
 struct LineEffect {
   std::uint32_t last;  // the largest LineWrite::counted_up() that takes effect on this line
-  std::int8_t
-      first_late_cycle;  // from this cycle on, it affects only the next line, as if it were written there
+  // From this cycle on, the write affects only the next line, as if it were written there.
+  std::int8_t first_late_cycle;
   std::uint8_t control;  // see LineDependencies; for RESPx only if a write follows at once
   std::uint16_t seen;    // kMoves, kClears, kMayBeCosmic, kRecolors or 0
 };
 extern const std::array<LineEffect, 64> kLineEffects;
 
-extern const std::array<TiaRegisters, 512>
-    kSeenBytes;  // the bits that count, by LineDependencies::seen without kClears
-extern const std::array<TiaRegisters, 256> kControlBytes;  // and by LineDependencies::control
+// The bits that count, by LineDependencies::seen without kClears, and by LineDependencies::control.
+extern const std::array<TiaRegisters, 512> kSeenBytes;
+extern const std::array<TiaRegisters, 256> kControlBytes;
 
 }  // namespace racebeam

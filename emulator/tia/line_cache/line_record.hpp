@@ -67,8 +67,8 @@ struct alignas(64) LineRecord {
   LineNumber number = kNoLine;
   std::uint8_t count;        // of events
   std::int16_t hmove_clock;  // of the last HMOVE, from the line's first clock, if the line kMoves
-  std::array<std::uint8_t, 2>
-      hashes{};          // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp)
+  // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp).
+  std::array<std::uint8_t, 2> hashes{};
   bool repeats = false;  // the line is that of the row before, and ends as it starts: see is_repetition_of()
   alignas(16) std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
 

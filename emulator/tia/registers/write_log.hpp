@@ -37,13 +37,13 @@ struct WriteLog {
   // or waits, calls is_short_of_room() first. So no program can make the list or the cycle's 18 bits
   // overflow.
   static constexpr std::size_t kCapacity = 65536;
-  static constexpr std::int32_t kLongestSpan =
-      50000;                                   // cycles; 25000 instructions of 8 cycles still fit after it
+  // Cycles. 25000 instructions of 8 cycles still fit after it.
+  static constexpr std::int32_t kLongestSpan = 50000;
   static constexpr std::size_t kPadding = 32;  // entries that may be read beyond the last
 
   static constexpr std::uint16_t kUnknown = 0x100;
-  static constexpr std::uint16_t kUnsettled =
-      0x200;  // the value is known, but writing it again does something
+  // The value is known, but writing it again does something.
+  static constexpr std::uint16_t kUnsettled = 0x200;
 
   // kUnknown for the registers whose repeated writes act.
   static constexpr std::array<std::uint16_t, 64> kOnRepeat = [] {

@@ -111,9 +111,10 @@ void run_unshare(Context& context, Words, Reply&) {
 
 void run_shared(Context& context, Words, Reply& reply) {
   std::vector<std::pair<std::string, std::shared_ptr<const Snapshot>>> snapshots;
-  for (const auto& share : context.service.shares->all())
-    if (auto snapshot = share->newest())
-      snapshots.emplace_back(share->name(), std::move(snapshot));  // else in a moment
+  for (const auto& share : context.service.shares->all()) {
+    // A session that has just been shared may not have one yet.
+    if (auto snapshot = share->newest()) snapshots.emplace_back(share->name(), std::move(snapshot));
+  }
   reply.add("count", static_cast<std::int64_t>(snapshots.size()));
   for (const auto& [name, snapshot] : snapshots) {
     reply.add_group();

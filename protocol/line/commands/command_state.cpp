@@ -139,8 +139,8 @@ Slot::Saved imported(std::span<const std::uint8_t> bytes, const Environment& mac
   }
 }
 
-// What lists of so many characters take, at most: a character and a comma are an action, and a vector that
-// grows has a copy for a moment.
+// The most memory that lists with these characters take: a character and a comma are an action, and a vector
+// that grows has a copy for a moment.
 void check_memory(Context& context, Words lists) {
   std::size_t actions = 0;
   for (const std::string_view list : lists) actions += list.size() / 2 + 1;

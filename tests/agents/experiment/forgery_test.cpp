@@ -30,7 +30,7 @@ class Forgery {
   const ResultsFolder folder;
 };
 
-// Ends the log after so many actions, or plays on with NOOPs, with what the machine then gives.
+// Ends the log after this many actions, or plays on with NOOPs, with what the machine then gives.
 void set_length(EpisodeLog& log, std::size_t actions) {
   log.actions.resize(actions);
   const Replay played = Replayer(1, CpuKind::kAuto).play(log, beamfall());

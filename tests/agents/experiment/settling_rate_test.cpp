@@ -12,7 +12,7 @@ struct Measured {
   double rate, seconds;
 };
 
-// Measures what takes so many seconds at a time.
+// Measures what takes seconds_at(time) seconds.
 Measured measure(const std::function<double(double)>& seconds_at, double least, double most) {
   SettlingRate rate(least, most);
   double now = 0;

@@ -20,7 +20,7 @@ const Pattern kRare = {"#####", "#   #", "#####"};
 const Pattern kBow = {"#   #", " # # ", "  #  ", "  #  "};
 const Pattern kStill = {"####", "####"};
 
-// A place on a way of so many pixels, to and fro.
+// A place on a way of `range` pixels, to and fro.
 int to_and_fro(int step, int range) {
   const int at = step % (2 * range);
   return at < range ? at : 2 * range - at;

@@ -55,7 +55,7 @@ TEST_CASE("Trials of steps pay where the interpreter is faster") {
 std::int64_t now;
 const Clocks kClocks{[] { return now; }, [] { return now; }};
 
-// Steps of a program that wants so many batches, one in each step until it has them. A step takes more
+// Steps of a program that wants this many batches, one in each step until it has them. A step takes more
 // without.
 std::int64_t budgeted(bool unlimited, int batches, std::int64_t step, std::int64_t more, std::int64_t batch) {
   TranslationBudget budget(unlimited, kClocks);
@@ -79,8 +79,8 @@ TEST_CASE("A budget for translation pays in programs that want code without end"
         budgeted(true, 200, 50'000, 50'000, 25'000) * 102 / 100);
 }
 
-// Searches that find code which runs for so many cycles, in turns. To enter it costs some beside a fifth of
-// them.
+// Searches that find code which runs for these numbers of cycles, in turns. To enter it costs some beside a
+// fifth of them.
 std::int64_t entered(bool always, std::array<std::int32_t, 2> cycles) {
   constexpr std::int64_t kEntry = 26;
   Profitability profitability;
@@ -125,7 +125,7 @@ TEST_CASE("Longer runs of the interpreter pay where nothing is worth entering") 
   CHECK(searched(true) == kEachTime);
 }
 
-// Steps of which one in so many is too long for translated code.
+// Steps of which one in each period is too long for translated code.
 std::int64_t backed_off(bool backs_off, int period) {
   constexpr std::int64_t kTranslated = 100, kInterpreted = 160;
   StepBackoff backoff;

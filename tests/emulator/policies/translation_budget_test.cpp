@@ -106,7 +106,7 @@ TEST_CASE("A batch that costs much more than the usual one is paid for before th
   CHECK(run(budget, 100, [](int) { work(300 * kMicrosecond); }) == 1);
 }
 
-// Batches of so much, until the budget covers no more. Returns how many it covered.
+// Runs batches until the budget covers no more. Returns how many it covered.
 int drain(TranslationBudget& budget) {
   int batches = 0;
   for (; budget.covers_batch(); ++batches) {
@@ -127,7 +127,7 @@ void step(TranslationBudget& budget, std::int64_t time) {
   budget.end_step();
 }
 
-// Steps of so much until the budget covers a batch.
+// Runs steps of this time until the budget covers a batch.
 int steps_until_covered(TranslationBudget& budget, std::int64_t time) {
   int steps = 0;
   for (; !budget.covers_batch(); ++steps) step(budget, time);

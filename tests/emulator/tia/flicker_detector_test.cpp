@@ -23,7 +23,7 @@ class Picture {
     return drawn;
   }
 
-  // The frames, of so many, in which rows are drawn after one in which none was.
+  // Those of `frames` in which rows are drawn, after a frame in which none was.
   std::vector<int> beginnings(int frames, const Content& content) {
     std::vector<int> found;
     for (bool before = true; frames_ < frames;) {
@@ -138,8 +138,8 @@ TEST_CASE("Flicker is found in the first frame after those that are compared") {
   CHECK(frames.detector.found());
 }
 
-// Whether a second set is kept in three tries. In each, two frames with it draw so many rows, and two without
-// it 16.
+// Whether a second set is kept in three tries. In each, two frames with it draw this many rows, and two
+// without it 16.
 bool is_kept(std::size_t rows) {
   Frames frames;
   while (!frames.detector.found()) frames.draw(8);

@@ -31,7 +31,7 @@ else:
 
 
 def play_games(env, games, seed=None):
-    """Plays at random until so many games are logged."""
+    """Plays at random until this many games are logged."""
     random, remaining = np.random.default_rng(3), games
     while remaining:
         env.reset(seed=seed)

@@ -63,7 +63,7 @@ class Agent:
 
 
 def ask_ahead(port, count, ahead, seconds, is_ready, total):
-    """Watchers that each have about so many requests in flight. `is_ready`: an event; `total`: receives the sum of
+    """Watchers that each have about `ahead` requests in flight. `is_ready`: an event; `total`: receives the sum of
     pictures."""
     watchers = [WebSocket(port) for _ in range(count)]
     received = dict.fromkeys((watcher.connection for watcher in watchers), 0)

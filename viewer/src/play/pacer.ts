@@ -1,4 +1,4 @@
-const SLACK = 0.1; // of a frame: a tick may come so much early
+const SLACK = 0.1; // of a frame: a tick may come this early
 const MOST_LATE = 4; // frames: what is later is forgotten, as when the tab slept
 
 /** Says at each tick of the display how many frames are due, whatever the display's rate. */

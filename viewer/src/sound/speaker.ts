@@ -20,7 +20,7 @@ export class Speaker {
     return this.#on ? this.#context?.state ?? "not started" : "off";
   }
 
-  /** Must be called while the browser handles what the user did. More than once does nothing. */
+  /** Must be called while the browser handles what the user did. Further calls do nothing. */
   async start(): Promise<void> {
     if (this.#starting) {
       await this.#context?.resume();

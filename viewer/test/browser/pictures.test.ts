@@ -43,7 +43,7 @@ describe("the pictures of docs/viewer.md", () => {
     assert.ok(different <= TOLERANCE * seen.width * seen.height, `${name}: ${different} pixels differ`);
   }
 
-  /** Plays so many frames of Beamfall, one by one. */
+  /** Plays frames of Beamfall, one by one. */
   async function play(page: Page, keys: readonly [string, number][]): Promise<void> {
     await page.getByRole("button", { name: "Play beamfall" }).waitFor();
     await page.locator("#figures").evaluate((figures: HTMLElement) => (figures.hidden = true));

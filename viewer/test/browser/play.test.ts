@@ -21,7 +21,7 @@ describe("the view Play", () => {
 
   const frame = () => numberIn(page, "#frame");
 
-  /** Waits for so many frames of the game. */
+  /** Waits for `count` frames of the game. */
   async function frames(count: number): Promise<void> {
     const goal = await frame() + count;
     await until(async () => await frame() >= goal, `${count} frames`);

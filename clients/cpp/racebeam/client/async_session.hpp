@@ -36,7 +36,7 @@ class AsyncSession : public Commands<AsyncSession> {
   AsyncSession& operator=(AsyncSession&& other) noexcept = default;
   ~AsyncSession() { close(); }
 
-  /// Ends the session. More than once does nothing. It does not wait for its own server, which a thread
+  /// Ends the session. Further calls do nothing. It does not wait for its own server, which a thread
   /// kills if it has not ended after 10 seconds.
   void close() noexcept {
     if (lines_) lines_->close();

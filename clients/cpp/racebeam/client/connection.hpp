@@ -54,7 +54,7 @@ class Connection {
   virtual asio::awaitable<void> open() = 0;
   virtual asio::awaitable<std::size_t> read(asio::mutable_buffer into) = 0;
   virtual asio::awaitable<void> write(asio::const_buffer data) = 0;
-  /// What waits fails. More than once does nothing. It does not block.
+  /// What waits fails. Further calls do nothing. It does not block.
   virtual void close() noexcept = 0;
   /// After close(): waits for the end of a process that was started for the connection.
   virtual void await_end() noexcept {}

@@ -175,8 +175,8 @@ inline Bytes from_zlib(std::string_view text) {
   while (true) {
     auto size = static_cast<uLongf>(bytes.size());
     const int status = uncompress(bytes.data(), &size, packed.data(), static_cast<uLong>(packed.size()));
-    if (status == Z_BUF_ERROR && size == bytes.size() &&
-        bytes.size() < 1100 * packed.size()) {  // zlib packs 1032 to 1
+    const bool may_grow = bytes.size() < 1100 * packed.size();  // zlib packs at most 1032 to 1
+    if (status == Z_BUF_ERROR && size == bytes.size() && may_grow) {
       bytes.resize(2 * bytes.size());
     } else if (status == Z_OK) {
       bytes.resize(size);

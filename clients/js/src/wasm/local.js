@@ -110,7 +110,7 @@ class LocalConnection {
     this.#deliver(calls.add_image(...sizes.slice(0, 3)));
   }
 
-  /** Gives replies of so many bytes to the receiver. */
+  /** Gives the receiver the replies, which have `size` bytes. */
   #deliver(size) {
     const at = this.#emulator.calls.replies();
     let replies = this.#emulator.memory.subarray(at, at + size);

@@ -37,7 +37,7 @@ final class Exchange implements Closeable {
     this.connection = connection;
   }
 
-  /** More than once does nothing. */
+  /** Ends the session. Further calls do nothing. */
   @Override
   public void close() {
     if (!closed) {

@@ -24,7 +24,7 @@ public final class Session extends Commands implements AutoCloseable {
     exchange = new Exchange(connection);
   }
 
-  /** Ends the session. More than once does nothing. */
+  /** Ends the session. Further calls do nothing. */
   @Override
   public void close() {
     exchange.close();
