@@ -106,6 +106,8 @@ TEST_CASE("arithmetic wraps around in 32 bits") {
   CHECK(computed("X / Y", kLowest, -1) == kLowest);
   CHECK(computed("X % Y", kLowest, -1) == 0);
   CHECK(folded("0xFFFFFFFF") == -1);
+  CHECK(folded("0X7fffffff") == kHighest);
+  CHECK(folded("2147483647") == kHighest);
 }
 
 TEST_CASE("operators bind as the catalogue's README says") {
@@ -235,6 +237,10 @@ TEST_CASE("no expression can exhaust the compiler") {
   CHECK_THAT(error_of(std::string(499, '-') + "1"), Contains("nested too deeply"));
   CHECK(folded(std::string(249, '(') + "1" + std::string(249, ')')) == 1);
   CHECK_THAT(error_of(std::string(250, '(') + "1"), Contains("nested too deeply"));
+  const std::string most_terms = "sum(i, 1, 64, sum(k, 1, 63, 1))";  // 64 and 64 * 63
+  CHECK(folded(most_terms) == 64 * 63);
+  CHECK_THAT(error_of(most_terms + " + sum(i, 1, 1, 1)"),
+             Contains("sums of more than 4096 terms are too long"));
   CHECK_THAT(error_of("sum(i, 0, 2147483647, 1)"), Contains("too long"));
   CHECK_THAT(error_of("sum(i, 0, 255, sum(k, 0, 255, 1))"), Contains("too long"));
   CHECK_THAT(error_of("sum(i, 0, 4000, ram[0x80 + i % 128] * i)"), Contains("too long"));

@@ -39,7 +39,7 @@ paddle_max   = 800000
 [[image]]
 md5              = "0123456789abcdef0123456789abcdef"
 left             = "paddles"
-right            = "joystick"
+right            = "driving"
 swap_ports       = true
 swap_paddles     = true
 left_difficulty  = "A"
@@ -50,8 +50,10 @@ ystart           = 20
 height           = 220
 
 [[image]]
-accepted = false
-ystart   = 40
+accepted         = false
+left_difficulty  = "B"
+right_difficulty = "A"
+ystart           = 40
 )",
                                "mine", "mine.toml");
   CHECK(game.name == "mine");
@@ -66,6 +68,7 @@ ystart   = 40
   CHECK_FALSE(game.has_rule());
   const std::string md5 = "0123456789abcdef0123456789abcdef";
   CHECK(game.properties_for(md5) == Properties{.left = Controller::kPaddles,
+                                               .right = Controller::kDriving,
                                                .swap_ports = true,
                                                .swap_paddles = true,
                                                .left_difficulty_a = true,
@@ -73,7 +76,7 @@ ystart   = 40
                                                .format = Format::kSecam,
                                                .ystart = 20,
                                                .height = 220});
-  CHECK(game.properties_for("another").ystart == 40);
+  CHECK(game.properties_for("another") == Properties{.right_difficulty_a = true, .ystart = 40});
   CHECK(game.accepts(md5));
   CHECK_FALSE(game.accepts("another"));
 }
@@ -154,14 +157,16 @@ TEST_CASE("rules that cannot work are refused") {
   CHECK_THAT(error_in("[rule]\nkeep = ['scroe']\n" + kStep),
              Contains("my.toml:3: rule.keep: the step never reads"));
   CHECK_THAT(error_in("[mode]\nsetup = 'soft_reset'"), Contains("mode: a mode program requires a [rule]"));
-  std::string many = "[rule]\nstep = '''\nscore = 0\nterminal = 0\n";
-  for (int i = 0; i < 20; ++i)
-    many += std::string("v")
-                .append(std::to_string(i))
-                .append(" = prev(v")
-                .append(std::to_string(i))
-                .append(")\n");
-  CHECK_THAT(error_in(many + "'''"), Contains("more than 16 variables"));
+  const auto with_variables = [](int count) {  // that persist, besides reward, terminal and score
+    std::string text = "[rule]\nstep = '''\nscore = 0\nterminal = 0\n";
+    for (int i = 0; i < count; ++i) {
+      const std::string name = "v" + std::to_string(i);
+      text.append(name).append(" = prev(").append(name).append(")\n");
+    }
+    return text + "'''";
+  };
+  CHECK(error_in(with_variables(13)).empty());
+  CHECK_THAT(error_in(with_variables(14)), Contains("more than 16 variables"));
 }
 
 TEST_CASE("facts that cannot be are refused") {
@@ -174,10 +179,14 @@ TEST_CASE("facts that cannot be are refused") {
   CHECK_THAT(error_in("start = ['FIRE 0']"), Contains("start: must be actions"));
   CHECK_THAT(error_in("start = ['FIRE x']"), Contains("start: must be actions"));
   CHECK_THAT(error_in("start = ['FIRE 1000000000']"), Contains("start: must be actions"));
-  CHECK_THAT(error_in("start = ['FIRE 60000', 'NOOP 60000']"),
+  CHECK_THAT(error_in("start = ['FIRE 100001']"), Contains("start: must be actions"));
+  CHECK_THAT(error_in("start = ['FIRE 60000', 'NOOP 40001']"),
              Contains("start: must be 100000 actions at most"));
+  CHECK_THAT(error_in("start = ['SELECT']"), Contains("start: must be actions"));
   CHECK_THAT(error_in("modes = ['7-3']"), Contains("modes: must be numbers"));
   CHECK_THAT(error_in("modes = [-1]"), Contains("modes: must be numbers"));
+  CHECK_THAT(error_in("modes = [65536]"), Contains("modes: must be numbers from 0 to 65535"));
+  CHECK_THAT(error_in("modes = []"), Contains("modes: must not be empty"));
   CHECK_THAT(error_in("modes = ['0-2000000000']"), Contains("modes: must be numbers"));
   CHECK_THAT(error_in("modes = [1, '0-2']"), Contains("1 is listed twice"));
   CHECK_THAT(error_in("difficulties = [4]"), Contains("difficulties: must be numbers from 0 to 3"));
@@ -185,10 +194,35 @@ TEST_CASE("facts that cannot be are refused") {
   CHECK_THAT(error_in("paddle_max = 0"), Contains("paddle_max: must be a resistance"));
   CHECK_THAT(error_in("[[image]]\nleft = 'mouse'"), Contains("image.left: unknown value 'mouse'"));
   CHECK_THAT(error_in("[[image]]\nformat = 'pal'"), Contains("NTSC"));
-  CHECK_THAT(error_in("[[image]]\nystart = 60"), Contains("image.ystart: must be 0 to 50"));
-  CHECK_THAT(error_in("[[image]]\nheight = 300"), Contains("image.height: must be 100 to 256"));
-  CHECK_THAT(error_in("[[image]]\nystart = 50\nheight = 256"), Contains("300 lines"));
+  for (const char* ystart : {"-1", "51"})
+    CHECK_THAT(error_in("[[image]]\nystart = " + std::string(ystart)),
+               Contains("image.ystart: must be 0 to 50"));
+  for (const char* height : {"99", "257"})
+    CHECK_THAT(error_in("[[image]]\nheight = " + std::string(height)),
+               Contains("image.height: must be 100 to 256"));
+  CHECK_THAT(error_in("[[image]]\nystart = 50\nheight = 251"), Contains("300 lines"));
+  const std::string digits = "0123456789abcdef0123456789abcde";
+  for (const char* end : {"", "F", "g", "00"})
+    CHECK_THAT(error_in("[[image]]\nmd5 = '" + digits + end + "'"), Contains("image.md5: must be 32"));
   CHECK_THAT(error_in("[image]\nleft = 'paddles'"), Contains("image: must be a list"));
+}
+
+TEST_CASE("facts at their limits are accepted") {
+  const Game game = game_with(
+      "start = ['FIRE 60000', 'NOOP 40000']\nmodes = [0, 65535]\npaddle_max = 1\n"
+      "[[image]]\nystart = 0\nheight = 256\n");
+  CHECK(game.starting_actions.size() == 100000);
+  CHECK(game.modes == std::vector<int>{0, 65535});
+  CHECK(game.paddle_max == 1);
+  CHECK(game.properties_for("any").ystart == 0);
+  CHECK(game.properties_for("any").height == 256);
+  CHECK(game_with("start = ['FIRE 100000']").starting_actions.size() == 100000);
+  for (const auto& [ystart, height] : {std::pair(50, 250), std::pair(50, 100)}) {
+    const Game other =
+        game_with("[[image]]\nystart = " + std::to_string(ystart) + "\nheight = " + std::to_string(height));
+    CHECK(other.properties_for("any").ystart == ystart);
+    CHECK(other.properties_for("any").height == height);
+  }
 }
 
 TEST_CASE("a game file that cannot be read is refused") {
@@ -271,6 +305,10 @@ TEST_CASE("mistakes in corrections, sources and wraps are named with their line"
   CHECK_THAT(
       error_in(rule + "[fixed]\nlives = '1'\n"),
       Equals("my.toml:7: fixed.reference: a correction that has more than 'wraps' must have this key"));
+  CHECK_THAT(
+      error_in(rule + "[fixed]\nwraps = 10\nlives = '1'\n"),
+      Equals("my.toml:7: fixed.reference: a correction that has more than 'wraps' must have this key"));
+  CHECK(error_in(rule + "[fixed]\nwraps = 10\n").empty());
   CHECK_THAT(error_in(rule + "[fixed]\nwraps = 9\n"),
              Contains("my.toml:8: fixed.wraps: must be at least 10"));
   CHECK_THAT(error_in(rule + "[fixed]\nmodes = [1]\n"), Contains("my.toml:8: fixed.modes: unknown key"));

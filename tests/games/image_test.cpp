@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 
@@ -9,6 +10,7 @@
 #include "games/rom_image.hpp"
 #include "system/invalid_input.hpp"
 #include "tests/games/scratch.hpp"
+#include "tests/support/skip.hpp"
 
 using namespace racebeam;
 using Catch::Contains;
@@ -171,11 +173,37 @@ TEST_CASE("other archives are refused with the reason") {
   CHECK_THAT(refusal(bomb), Contains("bomb.bin in it has more than 524288 bytes"));
   encrypted.add("secret.bin", numbers(4096), true, 1);
   CHECK_THAT(refusal(encrypted), Contains("secret.bin in it is encrypted"));
+  for (const std::size_t images : {8, 9}) {
+    ZipFile many;
+    for (std::size_t number = 1; number <= images; ++number)
+      many.add(std::to_string(number) + ".bin", "bytes");
+    CHECK_THAT(refusal(many), Catch::EndsWith(images == 8 ? "7.bin, 8.bin" : "7.bin, 8.bin and others"));
+  }
+  ZipFile empty;
+  empty.add("game.bin", "");
+  CHECK_THAT(refusal(empty), Contains("a.zip: image game: it is empty"));
   CHECK_THROWS_WITH(load_image(scratch.write("a.7z", "7z\xBC\xAF\x27\x1C and more")),
                     Contains("7z archives"));
-  CHECK_THROWS_WITH(load_image(scratch.write("b.zip", "<html>not found</html>")),
-                    Contains("b.zip: the file is named as an archive, but it is not a zip archive"));
+  for (const std::string name : {"b.zip", "b.7z"})
+    CHECK_THROWS_WITH(load_image(scratch.write(name, "<html>not found</html>")),
+                      Contains(name + ": the file is named as an archive, but it is not a zip archive"));
   CHECK_THROWS_WITH(load_image(scratch.write("c.zip", "")), Contains("c.zip: the file is empty"));
+}
+
+TEST_CASE("a zip archive in several parts or packed by another method is refused with the reason") {
+  const Scratch scratch;
+  ZipFile zip;
+  zip.add("game.bin", numbers(300), false);
+  const auto load_with = [&](std::size_t at, char byte) {
+    std::string bytes = zip.bytes();
+    bytes[at] = byte;
+    load_image(scratch.write("other.zip", bytes));
+  };
+  const std::size_t entry = zip.bytes().find("PK\1\2"), end = zip.bytes().find("PK\5\6");
+  CHECK_THROWS_WITH(load_with(entry + 10, 9),
+                    Contains("game.bin in it is packed by method 9; 0 and 8 are read"));
+  for (const std::size_t count : {end + 8, end + 10})
+    CHECK_THROWS_WITH(load_with(count, 2), Contains("the zip archive has several parts"));
 }
 
 TEST_CASE("a damaged zip archive is refused, or its image is whole") {
@@ -264,6 +292,45 @@ TEST_CASE("an image of 32 to 2047 bytes repeats in 2K, up to their end") {
     CHECK(image->file().size() == size);
   }
   CHECK(load_image(scratch.write("tiny.bin", numbers(31)))->bytes->size() == 31);
+}
+
+namespace {
+
+std::vector<std::string> names_of(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) names.push_back(std::filesystem::path(path).filename().string());
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("a folder's images are its files that are named like images") {
+  const Scratch scratch;
+  for (const char* name :
+       {"a.bin", "B.A26", "c.rom.gz", "d.zip", "e.7z", "f.gz", "g.txt", "h.bin.txt", "bin"})
+    scratch.write(name, "bytes");
+  std::filesystem::create_directory(scratch.path("folder.bin"));
+  CHECK(names_of(image_files(scratch.path(""))) == Names{"B.A26", "a.bin", "c.rom.gz", "d.zip", "e.7z"});
+  CHECK(broken_image_links(scratch.path("")).empty());
+  CHECK_THROWS_WITH(image_files(scratch.path("none")), Contains("cannot list the folder"));
+}
+
+TEST_CASE("a link to an image is one, and a broken link is found") {
+  namespace fs = std::filesystem;
+  const Scratch scratch;
+  scratch.write("a.bin", "bytes");
+  std::error_code error;
+  fs::create_symlink("a.bin", scratch.path("link.bin"), error);
+  if (error) return test::leave_out("this system makes no links");
+  fs::create_symlink("none.bin", scratch.path("broken.bin"));
+  fs::create_symlink("none.bin", scratch.path("broken.txt"));
+  CHECK(names_of(image_files(scratch.path(""))) == Names{"a.bin", "link.bin"});
+  CHECK(names_of(broken_image_links(scratch.path(""))) == Names{"broken.bin"});
+  fs::create_symlink("nowhere", scratch.path("away"));
+  CHECK_THROWS_WITH(image_files(scratch.path("away")),
+                    Contains("it is a link to 'nowhere', which is not there"));
 }
 
 TEST_CASE("built-in images are loaded by name") {

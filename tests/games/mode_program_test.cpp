@@ -173,12 +173,24 @@ TEST_CASE("an invalid mode program is refused with file, line and field") {
   CHECK_THAT(error_of("fail"), Contains("text"));
   CHECK_THAT(error_of("fail \"half"), Contains("text must end"));
   CHECK_THAT(error_of("soft_reset soft_reset"), Contains("end of the line"));
-  std::string deep;
-  for (int i = 0; i < 10000; ++i) deep += "if 1 { ";
-  CHECK_THAT(error_of(deep), Contains("nested too deeply"));
-  std::string many;
-  for (int i = 0; i < 40; ++i) many += std::string("v").append(std::to_string(i)).append(" = 1\n");
-  CHECK_THAT(error_of(many), Contains("too many variables"));
+}
+
+TEST_CASE("a mode program has blocks in 50 levels and 14 variables of its own at most") {
+  const auto nested = [](int levels) {
+    std::string text;
+    for (int i = 0; i < levels; ++i) text += "if 1 { ";
+    return text + "select 1" + std::string(static_cast<std::size_t>(levels), '}');
+  };
+  CHECK(run(nested(50), 0) == "select 1; ");
+  CHECK(run(nested(50) + '\n' + nested(50), 0) == "select 1; select 1; ");
+  for (const int levels : {51, 10000}) CHECK_THAT(error_of(nested(levels)), Contains("nested too deeply"));
+  const auto with_variables = [](int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += "v" + std::to_string(i) + " = " + std::to_string(i) + "\n";
+    return text + "v0 = 100\nselect v0 + v" + std::to_string(count - 1);
+  };
+  CHECK(run(with_variables(14), 0) == "select 113; ");
+  CHECK_THAT(error_of(with_variables(15)), Contains("too many variables"));
 }
 
 TEST_CASE("a text may be empty, and ends on its line") {
