@@ -1,5 +1,7 @@
 """Rows of aggregates, distributions, profiles and probabilities of improvement."""
 
+import dataclasses
+
 import package
 
 package.require()
@@ -12,6 +14,14 @@ from racebeam_evaluation.normalise import Ranges
 from racebeam_evaluation.scores import Group, scores_of
 
 GAMES = ("pong", "boxing", "alien")
+
+
+class TestMatrix:
+    def test_an_agent_has_a_row_for_each_trial_and_a_view_or_means_only_one(self):
+        scores = scores_of(results_of({("basic", "pong"): [[1], [3]], ("random", "pong"): [[2], [6]]}))
+        means = dataclasses.replace(scores, trials=None)
+        for source, agent, rows in ((scores, "basic", [[1], [3]]), (scores, "random", [[4]]), (means, "basic", [[2]])):
+            assert aggregate.matrix(source, agent, ["pong"]).tolist() == rows
 
 
 class TestDistribution:

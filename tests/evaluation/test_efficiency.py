@@ -62,6 +62,11 @@ class TestEfficiency:
         rows = self.rows(5, 1)
         assert rows[rows["axis"] == "frames"]["trained for"].to_list() == [5]  # before it no episode has ended
 
+    def test_a_point_has_a_row_only_if_an_episode_of_each_game_has_ended(self):
+        short, long = [("pong", "basic", 0, number, 5, 10) for number in range(10)], [("boxing", "basic", 0, 0, 5, 100)]
+        rows = efficiency.rows(curves_of(short + long), self.RANGES, FEW)
+        assert rows["trained for"].to_list() == [100]
+
     def test_games_that_not_all_were_trained_in_do_not_count(self):
         trained = curves_of(
             [("pong", "basic", 0, 0, 5, 100), ("pong", "bass", 0, 0, 7, 100), ("boxing", "bass", 0, 0, 9, 100)]
