@@ -187,6 +187,7 @@ class Slot {
   Environment reload(std::uint32_t seed);  // returns the one that it replaces
   void begin_episode();
   void begin_life();
+  int first_frame() const;
   void begin_progress();
   void begin_stack(bool continues, bool stepped);
   void draw_nothing();

@@ -93,7 +93,7 @@ void Slot::begin_episode() {
 // The game continues with the next life. The no-ops are those of the model: none in ALE, a new draw in
 // EnvPool, one step in Stable-Baselines3.
 void Slot::begin_life() {
-  const int frames = environment_.episode_frame_number();
+  const int game = first_frame();
   const Progress before = progress_;
   const Beginning beginning(begins_);
   const bool fire = has_fire();
@@ -109,7 +109,7 @@ void Slot::begin_life() {
       break;
   }
   if (environment_.game_over()) return begin_episode();
-  const bool continues = environment_.episode_frame_number() > frames;
+  const bool continues = first_frame() == game;
   environment_.begin_audio();
   begin_progress();
   if (continues) {
@@ -117,6 +117,11 @@ void Slot::begin_life() {
     progress_.elapsed = before.elapsed;
   }
   begin_stack(continues, settings_.reset_order == ResetOrder::kBaselines);
+}
+
+// The frame at which the current game began. It tells two games of a slot apart.
+int Slot::first_frame() const {
+  return frames_between(environment_.episode_frame_number(), environment_.frame_number());
 }
 
 void Slot::begin_progress() {

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "environment/reset/boot_analysis.hpp"
 #include "environment/saved_state.hpp"
 #include "tests/environment/steered.hpp"
 #include "tests/support/observation.hpp"
@@ -181,33 +180,6 @@ step = "score = 0; terminal = 0"
     Environment run(image, test::game(), settings);
     require_same(copied, run);
   }
-}
-
-// A program that overwrites RAM, timer and sound, and one that reads them first.
-BootFacts study(std::initializer_list<std::uint8_t> program) {
-  auto bytes = std::make_shared<std::vector<std::uint8_t>>(4096, 0xEA);
-  std::ranges::copy(program, bytes->begin());
-  (*bytes)[0xFFC] = 0x00, (*bytes)[0xFFD] = 0xF0;
-  SystemGenerator generator{1};
-  Properties properties;
-  properties.format = Format::kNtsc;
-  const Console console{bytes, properties, generator};
-  return analyze_boot(console, "4K");
-}
-
-TEST_CASE("The study finds what a program overwrites before it reads it") {
-  // LDX #0; TXA; loop: STA 0,X; INX; BNE loop; LDA #1; STA $296; then LDA INTIM
-  const auto all = study({0xA2, 0, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0xA9, 1, 0x8D, 0x96, 2, 0xAD, 0x84, 2});
-  CHECK((all.clears_ram && all.sets_timer && all.sets_sound));
-  // The timer is read first.
-  const auto timer = study({0xA2, 0, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0xAD, 0x84, 2, 0x8D, 0x96, 2});
-  CHECK((timer.clears_ram && !timer.sets_timer && timer.sets_sound));
-  // RAM is read first: LDA $80.
-  const auto warm = study({0xA5, 0x80, 0xA2, 0, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0x8D, 0x96, 2});
-  CHECK((!warm.clears_ram && !warm.sets_timer && !warm.sets_sound));
-  // From $81 on: LDX #$81.
-  const auto most = study({0xA2, 0x81, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0x4C, 0, 0xF0});
-  CHECK((!most.clears_ram && !most.sets_timer));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Errors in a state are named. That accepted states do no harm is tested in saved_state_fuzz_test.cpp.
+#include <array>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <functional>
@@ -8,6 +9,7 @@
 #include "emulator/cartridge/mappers/dpc.hpp"
 #include "emulator/cartridge/mappers/dpcplus.hpp"
 #include "emulator/cartridge/mappers/savecircuit.hpp"
+#include "emulator/tia/line/objects.hpp"
 #include "environment/saved/saved_state_format.hpp"
 #include "environment/saved_state.hpp"
 #include "tests/environment/steered.hpp"
@@ -17,6 +19,8 @@ namespace racebeam {
 namespace {
 
 using Values = Environment::Saved::Values;
+
+constexpr std::int32_t kMostLines = 3 * (kEndlessCycle / 228) + 228;
 
 struct Wrong {
   const char* sentence;
@@ -41,8 +45,42 @@ TEST_CASE("A state with a value that no machine has is refused by the field's na
   REQUIRE(refusal(environment, [](Values&) {}).empty());
   const Wrong wrongs[] = {
       {"the cycle is -1", [](Values& v) { v.machine.cycle = -1; }},
-      {"the number of draws", [](Values& v) { v.machine.drawn = 0xFFFFFFFF; }},
+      {"the cycle is 536870912", [](Values& v) { v.machine.cycle = kEndlessCycle; }},
+      {"the number of draws", [](Values& v) { v.machine.drawn = (1U << 27) + 1; }},
       {"the processor's status", [](Values& v) { v.machine.cpu.P |= 0x10; }},
+      {"the processor's status", [](Values& v) { v.machine.cpu.P |= 0x20; }},
+      {"a spare byte of the processor", [](Values& v) { v.machine.cpu.spare[2] = 1; }},
+      {"the timer's late flag", [](Values& v) { v.machine.riot.late = 2; }},
+      {"CTRLPF is 8", [](Values& v) { v.machine.tia.ctrlpf = 0x08; }},
+      {"CTRLPF is 64", [](Values& v) { v.machine.tia.ctrlpf = 0x40; }},
+      {"CTRLPF is 128", [](Values& v) { v.machine.tia.ctrlpf = 0x80; }},
+      {"the playfield's reflection", [](Values& v) { v.machine.tia.reflect = 2; }},
+      {"a player's REFP", [](Values& v) { v.machine.tia.player[0].refp = 2; }},
+      {"a player's VDELP", [](Values& v) { v.machine.tia.player[1].vdel = 2; }},
+      {"a player's skip flag", [](Values& v) { v.machine.tia.player[0].skip = 2; }},
+      {"a player's NUSIZ is 64", [](Values& v) { v.machine.tia.player[1].nusiz = 0x40; }},
+      {"a player's NUSIZ is 128", [](Values& v) { v.machine.tia.player[1].nusiz = 0x80; }},
+      {"a missile's ENAM", [](Values& v) { v.machine.tia.missile[1].enabled = 2; }},
+      {"a missile's RESMP", [](Values& v) { v.machine.tia.missile[0].locked = 2; }},
+      {"a missile's motion is 16", [](Values& v) { v.machine.tia.missile[1].motion = 16; }},
+      {"the ball's ENABL", [](Values& v) { v.machine.tia.ball.enabled = 2; }},
+      {"the ball's old ENABL", [](Values& v) { v.machine.tia.ball.old_enabled = 2; }},
+      {"the ball's VDELBL", [](Values& v) { v.machine.tia.ball.vdel = 2; }},
+      {"the ball's motion is 16", [](Values& v) { v.machine.tia.ball.motion = 16; }},
+      {"the blank flag", [](Values& v) { v.machine.tia.vblank = 2; }},
+      {"the comb flag", [](Values& v) { v.machine.tia.comb_armed = 2; }},
+      {"the Cosmic Ark flag", [](Values& v) { v.machine.tia.cosmic = 2; }},
+      {"a spare byte of the TIA", [](Values& v) { v.machine.tia.spare[3] = 1; }},
+      {"a spare byte of the picture", [](Values& v) { v.machine.tia.spare_bytes[1] = 1; }},
+      {"the frame's origin is -228", [](Values& v) { v.machine.tia.origin = -228; }},
+      {"the frame's origin modulo 3 is -1", [](Values& v) { v.machine.tia.origin = -1; }},
+      {"the clocks left on the line is -1", [](Values& v) { v.machine.tia.left = -1; }},
+      {"the number of lines", [](Values& v) { v.machine.frame.lines = kMostLines + 1; }},
+      {"the flag of a paddle's capacitor", [](Values& v) { v.machine.frame.dumping = 2; }},
+      {"the flag of an open frame", [](Values& v) { v.machine.frame.open = 2; }},
+      {"the paddles' buttons is 16", [](Values& v) { v.machine.inputs.paddle_fire = 16; }},
+      {"the frame number of the episode", [](Values& v) { v.play.episode_frames = 1U << 31; }},
+      {"strength", [](Values& v) { v.play.held.b.strength = std::numeric_limits<float>::infinity(); }},
       {"the processor's jam flag is 2; it must be from 0 to 1", [](Values& v) { v.machine.cpu.jammed = 2; }},
       {"the timer's shift is 40; it must be 0, 3, 6 or 10", [](Values& v) { v.machine.riot.shift = 40; }},
       {"a player's position is 160", [](Values& v) { v.machine.tia.player[1].position = 160; }},
@@ -78,6 +116,41 @@ TEST_CASE("A state with a value that no machine has is refused by the field's na
     INFO(wrong.sentence);
     CHECK_THAT(refusal(environment, wrong.spoil), Catch::Contains(wrong.sentence));
   }
+}
+
+TEST_CASE("A state is accepted with each value at its limit") {
+  Environment environment = test::steered();
+  for (int i = 0; i < 5; ++i) environment.act(i);
+  const auto highest = [](Values& values) {
+    State& machine = values.machine;
+    machine.cycle = kEndlessCycle - 1;
+    machine.drawn = 1U << 27;
+    machine.cpu.P = 0xCF;
+    machine.cpu.jammed = machine.riot.late = 1;
+    machine.tia.ctrlpf = 0x37;
+    machine.tia.reflect = machine.tia.vblank = machine.tia.comb_armed = machine.tia.cosmic = 1;
+    machine.tia.player.fill({255, 255, 1, 1, 0x37, 159, 15, 1});
+    machine.tia.missile.fill({1, 1, 159, 15});
+    machine.tia.ball = {1, 1, 1, 159, 15};
+    machine.tia.cosmic_count = 3;
+    machine.tia.cosmic_shape = CosmicShape::kHidden;
+    machine.tia.enabled = enabled_objects(machine.tia);
+    machine.tia.collisions = 0xEFFF;
+    machine.frame.lines = kMostLines;
+    machine.frame.dumping = machine.frame.open = machine.frame.greyed = 1;
+    machine.inputs.paddle.fill(std::numeric_limits<std::int32_t>::max());
+    machine.inputs.joystick.fill(127);
+    machine.inputs.paddle_fire = 15;
+    values.play.paddles.fill(std::numeric_limits<std::int32_t>::max());
+    values.play.frames = values.play.episode_frames = 0x7FFFFFFF;
+    values.play.mode = 3;
+    values.play.switches = {3, 7};
+    values.play.ram_is_stale = 1;
+    for (auto& channel : values.sound.channel) channel.divider = 31;
+  };
+  CHECK(refusal(environment, highest).empty());
+  for (const std::uint8_t shift : std::to_array<std::uint8_t>({0, 3, 6, 10}))
+    CHECK(refusal(environment, [shift](Values& v) { v.machine.riot.shift = shift; }).empty());
 }
 
 // The largest valid value of a byte of CartridgeState::bank; 0 for those that are not listed.

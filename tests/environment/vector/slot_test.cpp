@@ -133,6 +133,45 @@ TEST_CASE("The next life begins as the model has it") {
   CHECK(pressed(ResetOrder::kBaselines) == "---FFFUUU");
 }
 
+bool repeats_one_screen(const std::vector<std::uint8_t>& stack, std::size_t screen) {
+  return std::equal(stack.begin() + static_cast<std::ptrdiff_t>(screen), stack.end(), stack.begin());
+}
+
+TEST_CASE("The next life continues the score, the frames and the stack, unless the game ends as it begins") {
+  struct Row {
+    ResetOrder order;
+    bool fire, ends;  // the game, with the first frame that is run for the next life
+  };
+  const Row rows[] = {
+      {ResetOrder::kFireNoops, true, false},  {ResetOrder::kFireNoops, true, true},
+      {ResetOrder::kFireNoops, false, false},  // no frame is run
+      {ResetOrder::kNoopsFire, true, false},  {ResetOrder::kNoopsFire, true, true},
+      {ResetOrder::kNoopsFire, false, false}, {ResetOrder::kNoopsFire, false, true},
+      {ResetOrder::kBaselines, true, false},  {ResetOrder::kBaselines, true, true},
+  };
+  for (const Row& row : rows) {
+    INFO(static_cast<int>(row.order) << ' ' << row.fire << ' ' << row.ends);
+    SlotSettings settings = no_noops();
+    settings.reset_order = row.order;
+    settings.fire_at_reset = row.fire;
+    settings.life_loss = LifeLoss::kEnd;
+    settings.stack_start = StackStart::kRepeats;
+    Slot slot(cartridge(), settings);
+    slot.set_stack(StackSettings{.depth = 4});
+    slot.act({});
+    slot.environment().set_ram(test::kScore, 5);
+    lose_life(slot, 2);
+    const int elapsed = slot.elapsed();
+    if (row.ends) slot.environment().set_ram(test::kOver, 1);
+    slot.reset();
+    CHECK_FALSE(slot.finished());
+    CHECK(slot.environment().lives() == (row.ends ? 0 : 2));
+    CHECK(slot.score() == (row.ends ? 0 : 5));
+    CHECK(slot.elapsed() == (row.ends ? 0 : elapsed));
+    CHECK(repeats_one_screen(slot.stack()->bytes(), std::size_t{84} * 84) == row.ends);
+  }
+}
+
 TEST_CASE("A stack begins with zeros or with the first screen, and may live on with the game") {
   constexpr std::size_t kScreen = 84 * 84;
   const auto oldest = [](const Slot& slot) {
@@ -231,6 +270,29 @@ step = "score = 0; terminal = 0"
   CHECK(chosen.environment().difficulty() == 3);
 }
 
+TEST_CASE("The sound of a request has the frames of its acts, and none that begin an episode or a life") {
+  for (const ResetOrder order : {ResetOrder::kFireNoops, ResetOrder::kNoopsFire, ResetOrder::kBaselines}) {
+    SlotSettings settings = no_noops();
+    settings.machine.sound = true;
+    settings.all_audio = true;
+    settings.noop_max = 30;
+    settings.reset_order = order;
+    settings.life_loss = LifeLoss::kEnd;
+    Slot slot(cartridge(), settings);
+    INFO(static_cast<int>(order));
+    CHECK(slot.environment().all_audio().empty());
+    lose_life(slot, 2);
+    CHECK(slot.environment().all_audio().size() ==
+          static_cast<std::size_t>(slot.outcome().frames) * kAudioSize);
+    slot.reset();  // the next life
+    CHECK(slot.environment().lives() == 2);
+    CHECK(slot.environment().all_audio().empty());
+    slot.reset();  // the next game
+    CHECK(slot.environment().lives() == 0);
+    CHECK(slot.environment().all_audio().empty());
+  }
+}
+
 TEST_CASE("A slot tells which acts begin an episode") {
   SlotSettings settings = no_noops();
   settings.noop_max = 30;
@@ -255,19 +317,26 @@ TEST_CASE("A reset that fails leaves a slot as it was") {
   SlotSettings settings = no_noops();
   settings.noop_max = 30;
   settings.machine.copy_resets = false;
-  Slot slot(cartridge(), settings, &pace);
+  Slot slot(cartridge(), settings, &pace), undisturbed(cartridge(), settings);
   CHECK(slot.reset_frames() > 60);
   slot.act({});
+  undisturbed.act({});
   const auto before = slot.environment().save(true);
   for (const auto seed : {std::optional<std::uint32_t>(), std::optional(3U)}) {
-    pace.most = pace.count + 50;
-    CHECK_THROWS_WITH(slot.reset(seed), "too long");
-    CHECK(slot.environment().same_state(slot.environment()));
-    CHECK(slot.environment().save(true)->same_state(*before));
-    CHECK(slot.environment().save(true)->random == before->random);
-    CHECK(slot.environment().episode_frame_number() > 3);
-    CHECK(slot.environment().settings().random_seed == settings.machine.random_seed);
+    for (const int frames : {50, 72}) {  // while the console starts, and among the no-ops, which draw
+      pace.most = pace.count + frames;
+      CHECK_THROWS_WITH(slot.reset(seed), "too long");
+      CHECK(slot.environment().save(true)->same_state(*before));
+      CHECK(slot.environment().save(true)->random == before->random);
+      CHECK(slot.environment().episode_frame_number() > 3);
+      CHECK(slot.environment().settings().random_seed == settings.machine.random_seed);
+    }
   }
+  pace.most = 1'000'000;
+  slot.reset();
+  undisturbed.reset();
+  CHECK(slot.environment().same_state(undisturbed.environment()));
+  CHECK(slot.environment().episode_frame_number() == undisturbed.environment().episode_frame_number());
 }
 
 }  // namespace
