@@ -52,6 +52,7 @@ TEST_CASE("of two images with one name, the first stays, unless the other is mor
   images.add_file(given, "pong");
   CHECK(first_byte(images.find("pong")) == 'c');
   images.add_file(given_again, "pong");
+  images.add_file(given_again, std::nullopt, scratch.write("pong.toml", kGame));  // is as certain
   images.add_file(by_name);
   CHECK(first_byte(images.find("pong")) == 'c');
   CHECK(images.find("beamfall")->image->md5 == load_image("builtin:beamfall")->md5);
