@@ -16,6 +16,7 @@ import pytest
 
 package.require("numpy", "gymnasium")
 
+import gymnasium
 import numpy as np
 import racebeam.program
 from racebeam import InvalidInput, RecordLog
@@ -281,14 +282,45 @@ class TestSubmissions:
             RecordLog(racebeam.AtariEnv("beamfall"), self.folder, about={"words": "x" * 4001})
         with pytest.raises(TypeError, match="folder is 3; it takes a path"):
             RecordLog(racebeam.AtariEnv("beamfall"), 3)
-        for arguments in (
-            {"frameskip": (2, 5)},
-            {"noop_max": 30},
-            {"reward_range": (-1, 1)},
+        for arguments, sentence in (
+            ({"frameskip": (2, 5)}, r"frameskip is \(2, 5\); a log takes a number"),
+            ({"noop_max": 30}, "noop_max is 30; a log takes 0"),
+            ({"noop_max": 1}, "noop_max is 1; a log takes 0"),
+            ({"reward_range": (-1, 1)}, r"reward_range is \(-1, 1\); a log has whole rewards"),
         ):
-            with pytest.raises(InvalidInput):
+            with pytest.raises(InvalidInput, match=sentence):
                 self.record(**arguments)
+        own = pathlib.Path(self.scratch.name, "own.toml")
+        own.write_text('title = "Own"\n[rule]\nstep = "score = 0; terminal = 0"\n')
+        with pytest.raises(InvalidInput, match="the game comes from a game file; a log takes a game of the catalogue"):
+            RecordLog(racebeam.AtariEnv(game_file=own, rom="builtin:beamfall"), self.folder)
+        with pytest.raises(InvalidInput, match="env is of class Plain; RecordLog takes an AtariEnv"):
+            RecordLog(type("Plain", (gymnasium.Env,), {})(), self.folder)
         assert not self.folder.exists()
+
+    def test_a_game_for_two_is_refused(self):
+        if "pong" not in package.roms():
+            pytest.skip("no image of pong was found")
+        with pytest.raises(InvalidInput, match="two_player is True; a log has the actions of player A"):
+            RecordLog(racebeam.AtariEnv("pong", two_player=True), self.folder)
+        assert not self.folder.exists()
+
+    @pytest.mark.needs_program
+    def test_texts_at_their_limits_are_written(self):
+        about = {"words": "x" * 4000, "link": "http://a", "role": "learner"}
+        env = RecordLog(
+            racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40),
+            self.folder,
+            agent="a" * 64,
+            version="v" * 64,
+            training_frames=10**15 - 1,
+            phrase="é" * 500,
+            trial=2,
+            about=about,
+        )
+        play_games(env, 2)
+        status, output = self.verify()
+        assert (status, output.split(";")[0]) == (0, "2 rows confirmed, 0 wrong, 0 could not be checked"), output
 
     def test_two_programs_cannot_share_a_folder(self):
         self.record(1)
