@@ -81,10 +81,17 @@ class TestLogs:
                 replay("beamfall", [0, action], seed=1, frame_skip=4)
 
     def test_an_agent_that_verify_would_refuse_is_refused(self):
-        for words in ({"agent": "a b"}, {"agent": ""}, {"agent": "é"}, {"agent": 3}, {"agent_seed": -1}):
+        wrong = [{"agent": agent} for agent in ("a b", "", "é", 3, "-a", "a" * 65)]
+        for words in (*wrong, {"agent_seed": -1}, {"agent_seed": 2**32}):
             with pytest.raises(InvalidInput, match=f"{next(iter(words))} is .*; it takes"):
                 write_log(self.path, "beamfall", [1] * 20, seed=1, frame_skip=4, max_episode_frames=40, **words)
         assert not self.path.exists()
+
+    def test_numbers_and_names_at_their_limits_are_accepted(self):
+        for words in ({"agent": "a" * 64}, {"agent_seed": 2**32 - 1}, {"agent": "Z_.-9"}):
+            write_log(self.path, "beamfall", [1] * 20, seed=0, frame_skip=4, max_episode_frames=40, **words)
+            for key, word in words.items():
+                assert f" {key}={word} " in contents(self.path.read_bytes())[0][2]
 
     def test_states_that_are_equal_have_one_hash(self):
         one, other = (replay("beamfall", actions, seed=1, frame_skip=1) for actions in ([1] * 256, [1] * 300))
