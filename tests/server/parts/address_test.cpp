@@ -12,6 +12,8 @@ TEST_CASE("An endpoint is written as it is read") {
                                  "tcp://node-1.cluster:0",
                                  "tls://4you.org:1",
                                  "tcp://node_1:1",
+                                 "tcp://az09.AZ:1",
+                                 "tcp://9.0a:1",
                                  "unix:s",
                                  "unix:/run/s",
                                  "systemd",
@@ -51,6 +53,12 @@ TEST_CASE("An invalid endpoint is refused with the valid forms") {
                                  "tcp://no body:1",
                                  "tcp://1.2.3:1",
                                  "tcp://-a:1",
+                                 "tcp://.a:1",
+                                 "tcp://a/b:1",
+                                 "tcp://a@b:1",
+                                 "tcp://[a:1",
+                                 "tcp://a]:1",
+                                 "tcp://::1:1x",
                                  "tcp://a.:1",
                                  "tcp://[a]b:1",
                                  "tcp://[localhost]:1",
@@ -77,6 +85,12 @@ TEST_CASE("An invalid endpoint is refused with the valid forms") {
   CHECK_THROWS_WITH(parse_endpoint("udp://1.2.3.4:1"), Catch::Contains("accepted: tcp://HOST:PORT"));
   CHECK_THROWS_WITH(parse_endpoint("ws://[::1]:\xCF"),
                     Catch::StartsWith("'ws://[::1]:\\xcf' is not an address"));
+}
+
+TEST_CASE("A host name has 253 characters at most") {
+  const std::string longest(253, 'a');
+  CHECK(to_string(parse_endpoint("tcp://" + longest + ":1")) == "tcp://" + longest + ":1");
+  CHECK_THROWS_AS(parse_endpoint("tcp://a" + longest + ":1"), std::invalid_argument);
 }
 
 TEST_CASE("Only loopback addresses are loopback") {

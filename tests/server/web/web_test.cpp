@@ -11,6 +11,7 @@ TEST_CASE("The origin of the server's own page has its host and port") {
   CHECK(admits(rules, "http://127.0.0.1:7800", "127.0.0.1:7800"));
   CHECK(admits(rules, "https://[::1]:7800", "[::1]:7800"));
   CHECK(admits(rules, "http://localhost:7800", "LOCALHOST:7800"));
+  CHECK(admits({{}, true}, "http://az:7800", "AZ:7800"));
   CHECK(admits(rules, "http://10.0.0.1", "10.0.0.1"));
   CHECK(!admits(rules, "http://127.0.0.1:7801", "127.0.0.1:7800"));
   CHECK(!admits(rules, "http://127.0.0.1", "127.0.0.1:7800"));
