@@ -18,9 +18,9 @@ int Uct::choose(const Model::State& root) {
     root_ = make_node();
     root_->state = root;
   }
-  if (root_->over) return static_cast<int>(random_.below(static_cast<std::size_t>(model_.actions())));
-  while (root_->visits < settings_.simulations || root_->children.empty()) simulate();
+  while (!root_->over && (root_->visits < settings_.simulations || root_->children.empty())) simulate();
   frames_ = model_.frames() - before;
+  if (root_->over) return static_cast<int>(random_.below(static_cast<std::size_t>(model_.actions())));
   return most_visited().action;
 }
 

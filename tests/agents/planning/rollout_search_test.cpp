@@ -90,6 +90,18 @@ TEST_CASE("Rollout-IW(1) chooses each of equal actions, and no action that ends 
   CHECK(chosen[1] == 200 - chosen[0]);
 }
 
+TEST_CASE("Where the episode is over, Rollout-IW(1) chooses any action and runs no frame") {
+  ToyModel model(3, [](int, int) -> Arrow { return {1, 1}; });
+  RolloutSearch search(model, settings(), 1);
+  std::map<int, int> chosen;
+  for (int i = 0; i < 50; ++i) {
+    search.forget();
+    ++chosen[search.choose(ToyModel::place(0, true))];
+  }
+  CHECK(chosen.size() == 3);
+  CHECK(search.frames() == 0);
+}
+
 TEST_CASE("Rollout-IW(1) looks behind a trap") {
   ToyModel model(2, trap);
   CHECK(RolloutSearch(model, settings(), 1).choose(ToyModel::place(0)) == 1);

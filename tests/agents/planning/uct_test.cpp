@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
+#include <vector>
 
 #include "tests/agents/planning/toy_model.hpp"
 
@@ -49,6 +51,61 @@ TEST_CASE("The values of a line are those computed by hand") {
   // The root itself has no reward: both returns are discounted once on the way into it.
   CHECK(uct.root()->mean == Approx(0.9 * (1 + 0.9 * below)));
   CHECK(uct.frames() == 5 * (3 + 3));
+}
+
+// The visits of actions with these rewards after so many steps by UCB1, the first of which try each action.
+std::vector<std::int64_t> visits_by_ucb1(const std::vector<double>& rewards, int steps, double exploration) {
+  std::vector<std::int64_t> visits(rewards.size(), 1);
+  for (int step = static_cast<int>(rewards.size()); step < steps; ++step) {
+    std::size_t best = 0;
+    double highest = -1e9;
+    for (std::size_t i = 0; i < rewards.size(); ++i) {
+      // The root was also visited by the first simulation, which plays from there.
+      const double bound = rewards[i] + exploration * std::sqrt(std::log(step + 1.0) / double(visits[i]));
+      if (bound > highest) highest = bound, best = i;
+    }
+    ++visits[best];
+  }
+  return visits;
+}
+
+TEST_CASE("UCT visits actions as UCB1 says") {
+  const std::vector<double> rewards = {0.5, 3, 2.25};
+  ToyModel model(3, [&](int, int action) -> Arrow {
+    return {1 + action, rewards[static_cast<std::size_t>(action)]};
+  });
+  for (const double exploration : {0.1, 1.0, 5.0}) {
+    UctSettings chosen = settings(100, 1);
+    chosen.exploration = exploration;
+    Uct uct(model, chosen, 1);
+    CHECK(uct.choose(ToyModel::place(0)) == 1);
+    const auto expected = visits_by_ucb1(rewards, 99, exploration);
+    for (const auto& child : uct.root()->children) {
+      INFO("exploration " << exploration << ", action " << child->action);
+      CHECK(child->visits == expected[static_cast<std::size_t>(child->action)]);
+    }
+  }
+}
+
+TEST_CASE("Of actions that were visited as often, the better one is chosen") {
+  ToyModel model(2, [](int, int action) -> Arrow { return {1 + action, double(action)}; });
+  for (std::uint64_t seed = 1; seed <= 10; ++seed)
+    CHECK(Uct(model, settings(3, 1), seed).choose(ToyModel::place(0)) == 1);
+}
+
+TEST_CASE("Where the episode is over, UCT chooses any action and runs no frame") {
+  ToyModel model(3, [](int, int) -> Arrow { return {1, 1}; });
+  Uct uct(model, settings(50, 5), 1);
+  uct.choose(ToyModel::place(0));
+  const std::int64_t before = model.frames();
+  std::set<int> chosen;
+  for (int i = 0; i < 50; ++i) {
+    uct.forget();
+    chosen.insert(uct.choose(ToyModel::place(0, true)));
+  }
+  CHECK(chosen == std::set{0, 1, 2});
+  CHECK(uct.frames() == 0);
+  CHECK(model.frames() == before);
 }
 
 TEST_CASE("Depth counts from the present root") {
