@@ -34,7 +34,6 @@ void Uct::keep(int action, const Model::State& state) {
   }
   std::unique_ptr<Node> next = std::move(*found);
   next->parent = nullptr;
-  next->reward = 0;
   next->state = state;
   root_ = std::move(next);
 }
