@@ -107,11 +107,20 @@ TEST_CASE("Mistakes in a plan are named with their line") {
   check("environment = \"left=paddles\"\n",
         "test.toml:3: environment: an episode is played with the properties");
   check("environment = \"action_set=small\"\n", "test.toml:3: environment: action_set is 'small'");
+  check("environment = \"action_set=console\"\n", "test.toml:3: environment: action_set is console");
+  check("environment = \"max_episode_frames=1000001\"\n",
+        "test.toml:3: environment: max_episode_frames is 1000001; an experiment accepts 1 to 1000000");
+  check("class_screens = 0\n", "test.toml:3: class_screens: 0 is out of range; accepted: 1 to 10000000");
+  check("background_screens = 10000001\n", "test.toml:3: background_screens: 10000001 is out of range");
   check("environment = \"seed=7\"\n",
         "test.toml:3: environment: seed is not accepted here; all seeds follow from the plan's key 'seed'");
   check("seed = 4294967295\n", "test.toml:3: seed: 4294967295 is out of range; accepted: 0 to 2147483647");
   check("[backgrounds]\nbeamfall = \"12\"\n",
         "test.toml:4: backgrounds.beamfall: '12' is not a SHA-256; it takes 64");
+  for (const std::string& digest : {std::string(63, 'a'), std::string(65, 'a'), std::string(63, 'a') + "A"})
+    CHECK_THAT(
+        refusal_of(kStart + ("[backgrounds]\nbeamfall = \"" + digest + "\"\n")),
+        Catch::StartsWith("test.toml:4: backgrounds.beamfall: 'aaa") && Catch::Contains("is not a SHA-256"));
   check("[backgrounds]\npong = \"12\"\n", "test.toml:4: backgrounds.pong: unknown key; accepted: beamfall");
   check("[agent.basic]\nepsilon = 1.5\n",
         "test.toml:4: agent.basic.epsilon: 1.5 is not accepted; it takes a number from 0 to 1");
@@ -123,6 +132,10 @@ TEST_CASE("Mistakes in a plan are named with their line") {
   check("[agent.basic]\nalpha = true\n",
         "test.toml:4: agent.basic.alpha: true is not accepted; it takes a number from 1e-09 to 100");
   check("[agent.basic]\nframe_skip = 0\n", "test.toml:4: agent.basic.frame_skip: 0 is out of range");
+  check("[agent.basic]\nframe_skip = 1001\n", "test.toml:4: agent.basic.frame_skip: 1001 is out of range");
+  check("[agent.basic]\nalpha = 100.5\n", "test.toml:4: agent.basic.alpha: 100.5 is not accepted");
+  check("[agent.basic]\ngrid_width = 2.5\n",
+        "test.toml:4: agent.basic.grid_width: 2.5 is not accepted; it takes a whole number");
   check("[agent.basic]\ngrid_width = 17\n",
         "test.toml:4: agent.basic.grid_width: 17 does not divide the screen's 160 pixels");
   check("[agent.basic]\nreward_scale = \"second\"\n",
@@ -142,6 +155,49 @@ TEST_CASE("Mistakes in a plan are named with their line") {
   CHECK_THAT(refusal_of("games = [\"beamfall\"]\nagents = [\"dqn\"]\n"),
              Catch::StartsWith("test.toml:2: agents: unknown agent 'dqn'; accepted: random, const, perturb"));
   CHECK_THAT(refusal_of("games = ["), Catch::StartsWith("test.toml:1: TOML: "));
+}
+
+TEST_CASE("Values of a plan at their limits are accepted") {
+  for (const std::string limits :
+       {"seed = 0\nclass_screens = 1\nbackground_screens = 1\nenvironment = \"max_episode_frames=1\"\n",
+        "seed = 2147483647\nclass_screens = 10000000\nbackground_screens = 10000000\nenvironment = "
+        "\"max_episode_frames=1000000\"\n",
+        "[agent.basic]\nframe_skip = 1\nepsilon = 0\nalpha = 1e-9\n",
+        "[agent.basic]\nframe_skip = 1000\nepsilon = 1\nalpha = 100\n"}) {
+    INFO(limits);
+    CHECK(refusal_of(kStart + limits) == "");
+  }
+  const std::string digest = "0123456789abcdef" + std::string(48, 'f');
+  const Plan plan = parse_plan(kStart + ("[backgrounds]\nbeamfall = \"" + digest + "\"\n"), "");
+  CHECK(plan.games[0].background_csv == digest);
+}
+
+TEST_CASE("A plan has at most 100,000 units and 20 million evaluation episodes") {
+  const auto refusal = [](int trials, int episodes) {
+    return refusal_of("games = [\"beamfall\"]\nagents = [\"basic\"]\ntrials = " + std::to_string(trials) +
+                      "\nevaluation_episodes = " + std::to_string(episodes) + "\n");
+  };
+  CHECK(refusal(100000, 200) == "");
+  CHECK(refusal(100001, 1) == "test.toml:3: trials: the plan has 100001 units; accepted: at most 100000");
+  CHECK(refusal(100000, 201) ==
+        "test.toml:4: evaluation_episodes: the plan has 20100000 evaluation episodes; accepted: at most "
+        "20000000");
+  const std::string baselines =
+      "games = [\"beamfall\", \"updraft\"]\nagents = [\"const\"]\n"
+      "evaluation_episodes = 1\n[agent.const]\ntrials = ";
+  CHECK(refusal_of(baselines + "2777\n") == "");  // 2 games with 18 actions
+  CHECK_THAT(refusal_of(baselines + "2778\n"), Catch::Contains("the plan has 100008 units"));
+}
+
+TEST_CASE("Training that is given in episodes or in frames replaces that of the preset") {
+  const auto length = [](const std::string& text) { return parse_plan(text + kStart, "").agents[0].length; };
+  CHECK(length("training_episodes = 7\n") == TrialLength{30, 7, 0, 500});
+  CHECK(length("training_frames = 7\n") == TrialLength{30, 0, 7, 500});
+  CHECK(length("training_frames = 0\n") == TrialLength{30, 5000, 0, 500});
+  CHECK(length("training_frames = 7\ntraining_episodes = 0\n") == TrialLength{30, 0, 7, 500});
+  const std::string machado = "preset = \"machado2018\"\n";
+  CHECK(length(machado + "training_episodes = 7\n") == TrialLength{24, 7, 0, 100});
+  CHECK(length(machado + "training_episodes = 0\n") == TrialLength{24, 0, 200000000, 100});
 }
 
 TEST_CASE("All games without an image are named at once") {
