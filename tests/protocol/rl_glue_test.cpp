@@ -105,6 +105,7 @@ TEST_CASE("A step plays the action of its index, and NOOP for an index that no a
     asked.ask(kStart);
     const auto is_up = [&](std::uint32_t index) {
       asked.ask(kStep, action(index));
+      CHECK((asked.game.ram()[4] & 0x80) != 0);  // player B presses nothing
       return (asked.game.ram()[1] & 0x10) == 0;
     };
     CHECK(is_up(minimal ? 1 : 2));
