@@ -38,9 +38,9 @@ std::uint32_t number_at(std::string_view bytes, std::size_t place) {
 // An action of one whole number.
 std::string action(std::uint32_t index) { return number(1) + number(0) + number(0) + number(index); }
 
-// An environment that is asked; the payload of its reply.
-struct Asked {
-  explicit Asked(const RlGlueOptions& options = {}) : glue(game, options) {}
+// The core of an experiment, which asks an environment. ask() returns the payload of the reply.
+struct Core {
+  explicit Core(const RlGlueOptions& options = {}) : glue(game, options) {}
 
   std::string ask(std::uint32_t type, const std::string& payload = "") {
     const std::string reply = glue.answer(type, payload).value();
@@ -61,18 +61,18 @@ constexpr std::uint32_t kPixels = 210 * 160;
 
 TEST_CASE("An RL-Glue environment greets, and answers the messages of the core in their types") {
   CHECK(rl_glue_greeting() == number(3) + number(0));
-  Asked asked;
-  CHECK(asked.ask(kCleanup).empty());
-  CHECK(asked.ask(kMessage, "words\0"s) == "words\0"s);
-  CHECK_FALSE(asked.glue.answer(kTerminate, ""));
+  Core core;
+  CHECK(core.ask(kCleanup).empty());
+  CHECK(core.ask(kMessage, "words\0"s) == "words\0"s);
+  CHECK_FALSE(core.glue.answer(kTerminate, ""));
   for (const std::uint32_t unknown : {0U, 10U, 15U, 18U, 20U, 36U})
-    CHECK_THROWS_WITH(asked.glue.answer(unknown, ""), Contains("of type " + std::to_string(unknown) + ";"));
+    CHECK_THROWS_WITH(core.glue.answer(unknown, ""), Contains("of type " + std::to_string(unknown) + ";"));
 }
 
 TEST_CASE("The task names the colours and the number of actions, after its length") {
   for (const bool rgb : {false, true}) {
     for (const bool minimal : {false, true}) {
-      const std::string task = Asked({.rgb = rgb, .minimal_actions = minimal}).ask(kInit);
+      const std::string task = Core({.rgb = rgb, .minimal_actions = minimal}).ask(kInit);
       CHECK(number_at(task, 0) == task.size() - 4);
       CHECK_THAT(task, Contains(rgb ? "(100800 0 255)" : "(33600 0 127)"));
       CHECK_THAT(task, Contains(minimal ? "ACTIONS INTS (0 2)" : "ACTIONS INTS (0 18)"));
@@ -82,18 +82,18 @@ TEST_CASE("The task names the colours and the number of actions, after its lengt
 
 TEST_CASE("An observation is RAM and the screen, a whole number for each byte") {
   for (const bool rgb : {false, true}) {
-    Asked asked({.rgb = rgb});
-    asked.ask(kStart);
-    const std::string step = asked.ask(kStep, action(0));
+    Core core({.rgb = rgb});
+    core.ask(kStart);
+    const std::string step = core.ask(kStep, action(0));
     const std::string_view seen = std::string_view(step).substr(kRewardEnd);
     const std::uint32_t numbers = 128 + (rgb ? 3 : 1) * kPixels;
     CHECK(number_at(seen, 0) == numbers);
     CHECK(number_at(seen, 1) == 0);
     CHECK(number_at(seen, 2) == 0);
     REQUIRE(seen.size() == 4 * (3 + std::size_t{numbers}));
-    std::vector<std::uint8_t> pixels(asked.game.screen().begin(), asked.game.screen().end());
-    if (rgb) asked.game.screen_rgb(pixels);
-    for (std::size_t i = 0; i < kRamSize; ++i) REQUIRE(number_at(seen, 3 + i) == asked.game.ram()[i]);
+    std::vector<std::uint8_t> pixels(core.game.screen().begin(), core.game.screen().end());
+    if (rgb) core.game.screen_rgb(pixels);
+    for (std::size_t i = 0; i < kRamSize; ++i) REQUIRE(number_at(seen, 3 + i) == core.game.ram()[i]);
     for (std::size_t i = 0; i < pixels.size(); ++i) REQUIRE(number_at(seen, 3 + kRamSize + i) == pixels[i]);
   }
 }
@@ -101,12 +101,12 @@ TEST_CASE("An observation is RAM and the screen, a whole number for each byte") 
 TEST_CASE("A step plays the action of its index, and NOOP for an index that no action has") {
   // $81 shows the joystick: bit 4 is low while UP is pressed.
   for (const bool minimal : {false, true}) {
-    Asked asked({.minimal_actions = minimal});
-    asked.ask(kStart);
+    Core core({.minimal_actions = minimal});
+    core.ask(kStart);
     const auto is_up = [&](std::uint32_t index) {
-      asked.ask(kStep, action(index));
-      CHECK((asked.game.ram()[4] & 0x80) != 0);  // player B presses nothing
-      return (asked.game.ram()[1] & 0x10) == 0;
+      core.ask(kStep, action(index));
+      CHECK((core.game.ram()[4] & 0x80) != 0);  // player B presses nothing
+      return (core.game.ram()[1] & 0x10) == 0;
     };
     CHECK(is_up(minimal ? 1 : 2));
     CHECK_FALSE(is_up(0));
@@ -116,35 +116,35 @@ TEST_CASE("A step plays the action of its index, and NOOP for an index that no a
 }
 
 TEST_CASE("A step has the end and the reward of its act, and a start begins a new game") {
-  Asked asked;
-  asked.ask(kStart);
-  asked.game.set_ram(test::kScore, 5);
-  std::string step = asked.ask(kStep, action(0));
+  Core core;
+  core.ask(kStart);
+  core.game.set_ram(test::kScore, 5);
+  std::string step = core.ask(kStep, action(0));
   CHECK(number_at(step, 0) == 0);
   CHECK(step.substr(4, 8) == "\x40\x14\0\0\0\0\0\0"s);  // 5 as a double
-  asked.game.set_ram(test::kOver, 1);
-  step = asked.ask(kStep, action(0));
+  core.game.set_ram(test::kOver, 1);
+  step = core.ask(kStep, action(0));
   CHECK(number_at(step, 0) == 1);
   CHECK(step.substr(4, 8) == std::string(8, '\0'));
-  const std::string start = asked.ask(kStart);
+  const std::string start = core.ask(kStart);
   CHECK(start.size() == 4 * (3 + std::size_t{128} + kPixels));
-  CHECK_FALSE(asked.game.terminal());
+  CHECK_FALSE(core.game.terminal());
 }
 
 TEST_CASE("An action without a whole number is refused") {
-  Asked asked;
+  Core core;
   for (const std::string& wrong :
        {""s, action(0).substr(0, 15), number(0) + number(0) + number(1) + number(7)})
-    CHECK_THROWS_WITH(asked.glue.answer(kStep, wrong),
+    CHECK_THROWS_WITH(core.glue.answer(kStep, wrong),
                       Contains(std::to_string(wrong.size()) + " bytes without a whole number"));
 }
 
 TEST_CASE("The session is over after its frames") {
-  Asked asked({.max_num_frames = 2});
-  asked.ask(kStart);
-  asked.ask(kStep, action(0));
-  asked.ask(kStep, action(0));
-  for (const std::uint32_t type : {kStart, kStep, kMessage}) CHECK_FALSE(asked.glue.answer(type, action(0)));
+  Core core({.max_num_frames = 2});
+  core.ask(kStart);
+  core.ask(kStep, action(0));
+  core.ask(kStep, action(0));
+  for (const std::uint32_t type : {kStart, kStep, kMessage}) CHECK_FALSE(core.glue.answer(type, action(0)));
 }
 
 TEST_CASE("A game whose screen does not have 210 rows is refused") {
