@@ -35,7 +35,7 @@ TEST_CASE("A folder is taken with all that is in it, and with the folders above 
   }
 }
 
-TEST_CASE("Of several names, all are claimed or none") {
+TEST_CASE("Several names are claimed together, or not at all") {
   const auto claims = std::make_shared<Claims>();
   const Claim claim(claims, {"taken"});
   CHECK_THROWS_AS(claims->add({"first", "taken", "last"}), std::runtime_error);

@@ -270,7 +270,8 @@ step = "score = 0; terminal = 0"
   CHECK(chosen.environment().difficulty() == 3);
 }
 
-TEST_CASE("The sound of a request has the frames of its acts, and none that begin an episode or a life") {
+TEST_CASE(
+    "The sound of a request has the frames of its acts, but not those that begin an episode or a life") {
   for (const ResetOrder order : {ResetOrder::kFireNoops, ResetOrder::kNoopsFire, ResetOrder::kBaselines}) {
     SlotSettings settings = no_noops();
     settings.machine.sound = true;

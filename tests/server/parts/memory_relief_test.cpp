@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kMost = std::uint64_t{16} << 20, kHalfMiB = std::uint64_t{1} << 19;
 
-// Sessions of one owner on one loop, with a second owner that has none.
+// Sessions of one owner on one loop. A second owner has no sessions.
 struct Hall {
   explicit Hall(std::initializer_list<std::uint64_t> sessions = {}) {
     for (const std::uint64_t bytes : sessions) enter(bytes);

@@ -86,7 +86,7 @@ TEST_CASE("a connection stays open as its client asks") {
   CHECK_FALSE(refuse(http::status::bad_request, "no").keep_alive());
 }
 
-TEST_CASE("a session is opened by a WebSocket from an origin that is allowed, or from none") {
+TEST_CASE("a session is opened by a WebSocket whose origin is allowed or missing") {
   CHECK_FALSE(answer(upgrade(), site()));
   CHECK_FALSE(answer(upgrade("http://127.0.0.1:7800"), site()));
   const Reply other(upgrade("http://evil.example"), site());
