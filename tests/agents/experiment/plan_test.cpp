@@ -144,7 +144,7 @@ TEST_CASE("Mistakes in a plan are named with their line") {
         "test.toml:4: agent.basic.beta: unknown key; accepted: frame_skip, trials");
   check("[agent.ram]\nalpha = 1\n", "test.toml:3: agent.ram: this agent is not in agents; add it there");
   check("[agent.rom]\nalpha = 1\n", "test.toml:3: agent.rom: unknown key; accepted: basic and random");
-  check("training_episodes = 5\ntraining_frames = 5\n", "test.toml:4: training_frames: training is so many");
+  check("training_episodes = 1\ntraining_frames = 1\n", "test.toml:4: training_frames: training is so many");
   CHECK_THAT(refusal_of("games = [\"beamfal\"]\n"),
              Catch::StartsWith("test.toml:1: games: unknown game 'beamfal'; did you mean beamfall?"));
   CHECK_THAT(refusal_of("games = \"all\"\n"),
@@ -193,10 +193,12 @@ TEST_CASE("Training that is given in episodes or in frames replaces that of the 
   const auto length = [](const std::string& text) { return parse_plan(text + kStart, "").agents[0].length; };
   CHECK(length("training_episodes = 7\n") == TrialLength{30, 7, 0, 500});
   CHECK(length("training_frames = 7\n") == TrialLength{30, 0, 7, 500});
+  CHECK(length("training_frames = 1\n") == TrialLength{30, 0, 1, 500});
   CHECK(length("training_frames = 0\n") == TrialLength{30, 5000, 0, 500});
   CHECK(length("training_frames = 7\ntraining_episodes = 0\n") == TrialLength{30, 0, 7, 500});
   const std::string machado = "preset = \"machado2018\"\n";
   CHECK(length(machado + "training_episodes = 7\n") == TrialLength{24, 7, 0, 100});
+  CHECK(length(machado + "training_episodes = 1\n") == TrialLength{24, 1, 0, 100});
   CHECK(length(machado + "training_episodes = 0\n") == TrialLength{24, 0, 200000000, 100});
 }
 
