@@ -175,7 +175,7 @@ TEST_CASE("an invalid mode program is refused with file, line and field") {
   CHECK_THAT(error_of("soft_reset soft_reset"), Contains("end of the line"));
 }
 
-TEST_CASE("a mode program has blocks in 50 levels and 14 variables of its own at most") {
+TEST_CASE("a mode program may nest 50 blocks, and have 14 variables of its own") {
   const auto nested = [](int levels) {
     std::string text;
     for (int i = 0; i < levels; ++i) text += "if 1 { ";

@@ -135,7 +135,7 @@ TEST_CASE("A unit without a log leaves nothing, and one with a log stays") {
   CHECK(refusal_of(order) == "mine has the unit beamfall-agent-2 already; another trial= makes another");
 }
 
-TEST_CASE("A log without its row is removed, and so is one for which there is no space") {
+TEST_CASE("A log is removed if its row cannot be written, or if it exceeds the budget") {
   const Scratch place;
   DiskBudget budget(kMuch), small(4096 + 400);
   SubmissionFolder folder(order_of(place.path("mine"), 2), budget);

@@ -103,8 +103,8 @@ TEST_CASE("a session is opened by a WebSocket whose origin is allowed or missing
 }
 
 TEST_CASE("a refusal is a whole response, which closes the connection") {
-  const std::string text = http_refusal("there is no room");
+  const std::string text = http_refusal("the server is full");
   CHECK_THAT(text, Catch::StartsWith("HTTP/1.1 503 Service Unavailable\r\n") &&
-                       Catch::EndsWith("\r\n\r\nthere is no room\n") && Contains("Connection: close\r\n") &&
-                       Contains("Content-Length: 17\r\n") && Contains("X-Content-Type-Options: nosniff\r\n"));
+                       Catch::EndsWith("\r\n\r\nthe server is full\n") && Contains("Connection: close\r\n") &&
+                       Contains("Content-Length: 19\r\n") && Contains("X-Content-Type-Options: nosniff\r\n"));
 }

@@ -1,6 +1,6 @@
 import { connect, type Session } from "racebeam";
 
-/** An agent that plays in a session of its own, until it is told to stop. It waits this many milliseconds after each frame. */
+/** Plays in a session of its own until stop() is called, and waits `pause` milliseconds after each frame. */
 export class Agent {
   readonly #session: Session;
   readonly #pause: number;
