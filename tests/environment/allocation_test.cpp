@@ -162,6 +162,9 @@ TEST_CASE("A machine that fails takes no results of others with it, whichever al
     settings.threads = 1;
     settings.screens = true;
     EpisodeState play(settings, kMachines);
+    std::vector<std::shared_ptr<const Environment::Saved>> saved;  // hold pictures, which machines must copy
+    for (std::size_t machine = 0; machine < kMachines; ++machine)
+      saved.push_back(play.batch.slot(machine).environment().save());
     play.batch.send(std::vector<int>(kMachines), std::vector<std::int32_t>{0, 1, 2, 3});
     until_failure = failures;
     try {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <new>
 
 namespace racebeam {
 namespace {
@@ -25,14 +26,17 @@ constexpr TiaRegisters mask_of(ByteSet set) {
   return std::bit_cast<TiaRegisters>(bytes);
 }
 
-// Elements of a map do not move.
-const LineMask* find_or_add(const Key& key) {
+// Elements of a map do not move. Null also if memory has run out: no exception can pass translated code,
+// which may be waiting for a line.
+const LineMask* find_or_add(const Key& key) try {
   static std::mutex mutex;
   static std::map<Key, LineMask> all;
   const std::lock_guard lock(mutex);
   if (const auto found = all.find(key); found != all.end()) return &found->second;
   if (all.size() == kMost) return nullptr;
   return &(all[key] = {mask_of(key.counts), mask_of(key.sets)});
+} catch (const std::bad_alloc&) {
+  return nullptr;
 }
 
 }  // namespace

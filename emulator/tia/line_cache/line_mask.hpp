@@ -15,7 +15,8 @@ struct LineMask {
   static const LineMask kWhole;  // all bytes count, and are set
 
   // Returns the mask with these bytes. It is shared by all machines and never released. Thread-safe. Returns
-  // null if there are too many masks, which only a program causes that writes at random.
+  // null if there are too many masks, which only a program causes that writes at random, or no memory is
+  // left.
   static const LineMask* find(ByteSet counts, ByteSet sets);
 };
 
