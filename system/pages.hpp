@@ -47,5 +47,6 @@ void discard_pages(void* first, std::size_t size);
 
 // Asks the system to use large pages for this memory, if it has them.
 void prefer_large_pages(void* memory, std::size_t size);
+bool can_prefer_large_pages();  // whether that has an effect
 
 }  // namespace racebeam

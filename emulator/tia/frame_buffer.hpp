@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
+#include "emulator/base/large_pages.hpp"
 #include "emulator/state/state.hpp"
 #include "emulator/tia/line_cache/line_record.hpp"
 #include "emulator/tia/recorded_step.hpp"
@@ -19,6 +19,14 @@ namespace racebeam {
 // Rows that have never been drawn are black, and allocate no memory.
 class FrameBuffer {
  public:
+  FrameBuffer() = default;
+  // A copy with this paging.
+  FrameBuffer(const FrameBuffer& other, Paging paging)
+      : undrawn(other.undrawn),
+        is_undrawn(other.is_undrawn),
+        rows_(other.rows_, paging),
+        shows_(other.shows_, paging) {}
+
   // All rows, one after the other: those of the window, and those that a reset may have shifted it down by
   // (docs/spec/tia.md, 2).
   std::span<std::uint8_t> pixels() {
@@ -63,8 +71,8 @@ class FrameBuffer {
   struct alignas(32) Row : std::array<std::uint8_t, kLinePixels> {};
   static_assert(sizeof(Row) == kLinePixels);
 
-  std::vector<Row> rows_;
-  std::vector<LineNumber> shows_;
+  MachineVector<Row> rows_;
+  MachineVector<LineNumber> shows_;
 };
 
 // Whether this is the only reference. A saved state may have been released by another thread, which had read

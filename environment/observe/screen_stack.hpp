@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "emulator/base/large_pages.hpp"
 #include "environment/environment.hpp"
 #include "environment/observe/preprocess.hpp"
 
@@ -79,13 +80,13 @@ class ScreenStack {
   const ScreenResize* resize_;          // null: screens stay as they are
   std::vector<Brightness> brightness_;  // one a channel
   std::size_t plane_size_, screen_size_;
-  std::vector<std::uint8_t> seen_;      // planes, one after the other
-  std::vector<Source> sources_;         // per row of the planes
-  std::vector<std::uint8_t> stale_;     // rows of the planes that this look must compute
-  std::vector<std::uint8_t> changed_;   // rows of the planes that the newest screen does not show
-  std::vector<std::uint8_t> due_rows_;  // rows of the next screen that differ from the newest
-  std::vector<std::uint8_t> reduced_;   // one plane, where there are several
-  std::vector<std::uint8_t> screens_;   // a ring
+  MachineVector<std::uint8_t> seen_;     // planes, one after the other
+  MachineVector<Source> sources_;        // per row of the planes
+  std::vector<std::uint8_t> stale_;      // rows of the planes that this look must compute
+  std::vector<std::uint8_t> changed_;    // rows of the planes that the newest screen does not show
+  std::vector<std::uint8_t> due_rows_;   // rows of the next screen that differ from the newest
+  std::vector<std::uint8_t> reduced_;    // one plane, where there are several
+  MachineVector<std::uint8_t> screens_;  // a ring
   std::size_t newest_ = 0;
 };
 

@@ -44,11 +44,13 @@ std::optional<ResetEnd> ResetCache::find(const ResetStart& start) {
   return std::nullopt;
 }
 
-void ResetCache::keep(const ResetStart& start, const ResetEnd& end) {
+void ResetCache::keep(const ResetStart& start, ResetEnd end) {
   const std::uint64_t hash = start.hash();
+  for (std::shared_ptr<FrameBuffer>* const picture : {&end.pictures.current, &end.pictures.previous})
+    if (*picture) *picture = std::make_shared<FrameBuffer>(**picture, Paging::kUsual);
   const std::lock_guard lock(mutex_);
   shrink_to(capacity_ - 1);
-  entries_.push_back({hash, ++calls_, start, end});
+  entries_.push_back({hash, ++calls_, start, std::move(end)});
 }
 
 std::size_t ResetCache::size() {

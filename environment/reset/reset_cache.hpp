@@ -54,8 +54,8 @@ class ResetCache {
   void set_capacity(std::size_t entries);
 
   std::optional<ResetEnd> find(const ResetStart& start);
-  // If the cache is full, replaces the entry that was not used for longest.
-  void keep(const ResetStart& start, const ResetEnd& end);
+  // Keeps copies of the pictures. If the cache is full, replaces the entry that was not used for longest.
+  void keep(const ResetStart& start, ResetEnd end);
   std::size_t size();
 
  private:

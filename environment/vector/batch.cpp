@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "emulator/base/large_pages.hpp"
 #include "environment/vector/thread_pool.hpp"
 #include "games/game/actions.hpp"
 #include "system/invalid_input.hpp"
@@ -88,6 +89,7 @@ struct Batch::Impl final : VectorHost {
       : settings(batch_settings),
         watch(batch_watch),
         batch_size(checked_size(cartridges.size(), batch_settings)),
+        many(cartridges.size()),
         pool(useful_threads(batch_settings.threads, cartridges.size()), batch_settings.busy_poll,
              batch_settings.first_processor),
         layout(batch_settings.stack, batch_settings.screens,
@@ -157,6 +159,7 @@ struct Batch::Impl final : VectorHost {
   const BatchSettings settings;
   Watch watch;
   const std::size_t batch_size;
+  const ManyMachines many;
   ThreadPool pool;
   const BatchArrays* out = nullptr;  // of the request that runs; null between send() and receive()
   ResultLayout layout;

@@ -64,5 +64,6 @@ void Pages::forbid(std::size_t offset, std::size_t size) {
 void discard_pages(void* first, std::size_t size) { ::madvise(first, size, MADV_FREE); }
 
 void prefer_large_pages(void*, std::size_t) {}  // the system chooses them when memory is mapped
+bool can_prefer_large_pages() { return false; }
 
 }  // namespace racebeam

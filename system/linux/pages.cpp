@@ -47,5 +47,6 @@ void Pages::forbid(std::size_t offset, std::size_t size) {
 void discard_pages(void* first, std::size_t size) { ::madvise(first, size, MADV_DONTNEED); }
 
 void prefer_large_pages(void* memory, std::size_t size) { ::madvise(memory, size, MADV_HUGEPAGE); }
+bool can_prefer_large_pages() { return true; }
 
 }  // namespace racebeam

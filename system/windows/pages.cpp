@@ -59,5 +59,6 @@ void Pages::forbid(std::size_t offset, std::size_t size) {
 void discard_pages(void* first, std::size_t size) { VirtualAlloc(first, size, MEM_RESET, PAGE_READWRITE); }
 
 void prefer_large_pages(void*, std::size_t) {}  // they require a privilege
+bool can_prefer_large_pages() { return false; }
 
 }  // namespace racebeam

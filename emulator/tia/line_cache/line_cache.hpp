@@ -6,8 +6,8 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
+#include "emulator/base/large_pages.hpp"
 #include "emulator/tia/line_cache/flicker_detector.hpp"
 #include "emulator/tia/line_cache/line_record.hpp"
 
@@ -47,8 +47,8 @@ class LineCache {
 
   void begin();
 
-  std::array<std::vector<LineRecord>, 2> sets_;
-  std::vector<LineRecord>* set_ = sets_.data();
+  std::array<MachineVector<LineRecord>, 2> sets_;
+  MachineVector<LineRecord>* set_ = sets_.data();
   LineNumber next_number_ = 0;
   FlickerDetector flicker_;
   bool is_new_ = true;

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <optional>
 #include <random>
 
+#include "emulator/base/large_pages.hpp"
+#include "system/pages.hpp"
 #include "system/resources.hpp"
 #include "tests/environment/steered.hpp"
 #include "tests/environment/vector/batches.hpp"
@@ -52,6 +55,18 @@ TEST_CASE("A batch gives the same on one thread and on several") {
   const BatchResults a = play(alone, 40), b = play(together, 40);
   check_same(a, b);
   CHECK(std::ranges::count(a.ram, a.ram[0]) != std::ssize(a.ram));
+}
+
+TEST_CASE("A batch gives its large pages back, and a saved state keeps the one of its pictures") {
+  REQUIRE(large_pages_in_use() == 0);
+  std::optional<Batch> batch(std::in_place, copies(64), short_episodes());
+  play(*batch, 40);
+  if (can_prefer_large_pages()) CHECK(large_pages_in_use() > 2);
+  std::shared_ptr<const Environment::Saved> saved = batch->slot(0).environment().save();
+  batch.reset();
+  CHECK(large_pages_in_use() <= 2);
+  saved.reset();
+  CHECK(large_pages_in_use() == 0);
 }
 
 TEST_CASE("The machines of a batch have their own seeds, one after the other") {
