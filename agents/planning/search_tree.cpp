@@ -88,7 +88,6 @@ void TreeSearch::visit(Number number) {
     const bool known = reused && node.opened;  // to a search before
     if (reused) look_again(node);
     if (node.opened) (settings_.reward_aside && node.reward > 0 && !known ? aside_ : open_).push_back(child);
-    if (!settings_.reuse_tree && !node.opened) node.state = nullptr;
   }
 }
 
@@ -182,14 +181,12 @@ TreeSearch::Number TreeSearch::child_of_root(int action) const {
   return child;
 }
 
-// Drops all nodes but those of the subtree of `to`, which keep their order.
+// Drops all nodes but those of the subtree of `to`, which keep their order. The root is as in a new tree, but
+// has its children.
 void TreeSearch::move_root(Number to) {
   std::vector<Number> number_of(nodes_.size());  // 0: it is dropped, or is the new root
   std::vector<Node> nodes;
-  nodes.push_back(std::move(nodes_[to]));
-  nodes[0].parent = nodes[0].twin = 0;
-  nodes[0].frames = 0;
-  nodes[0].reward = 0;
+  nodes.push_back({.first_child = nodes_[to].first_child});
   for (Number number = to + 1; number < nodes_.size(); ++number) {
     const Number parent = nodes_[number].parent;
     if (parent != to && number_of[parent] == 0) continue;

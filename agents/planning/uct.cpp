@@ -57,11 +57,7 @@ void Uct::simulate() {
     node = grown ? grown : &select(*node);
     ++depth;
   }
-  double value = 0;
-  if (!node->over && depth < settings_.depth) {
-    if (node == root_.get()) model_.enter(node->state);
-    value = rollout(settings_.depth - depth);
-  }
+  const double value = node->over ? 0 : rollout(settings_.depth - depth);  // the model is at a new leaf
   update(node, value, settings_.discount);
 }
 

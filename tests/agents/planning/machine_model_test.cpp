@@ -90,6 +90,45 @@ TEST_CASE("The game goes where the search saw it go, so that the subtree is kept
   }
 }
 
+TEST_CASE("A model tries the actions that it was given, and counts their frames") {
+  Environment game(beamfall().image, beamfall().game, settings());
+  const Model::State root = MachineModel::state_of(game);
+  MachineModel model(beamfall(), settings(), 5, {4, 3});
+  REQUIRE(model.actions() == 2);
+  for (const int number : {0, 1}) {
+    game.restore(*static_cast<const Environment::Saved*>(root.get()));
+    game.act(number == 0 ? 4 : 3);
+    model.enter(root);
+    model.act(number);
+    CHECK(model.equal(model.save(), MachineModel::state_of(game)));
+  }
+  CHECK(model.frames() == 2 * 5);
+}
+
+TEST_CASE("With sticky actions, a model that is read from a checkpoint draws the same chances") {
+  Environment game(beamfall().image, beamfall().game, settings());
+  const Model::State root = MachineModel::state_of(game);
+  MachineModel model(beamfall(), settings(0.25F), 5), other(beamfall(), settings(0.25F), 6);
+  const auto plays = [&](MachineModel& of) {
+    of.enter(root);
+    for (int step = 0; step < 100; ++step) of.act(3 + step % 2);
+    return of.save();
+  };
+  StateWriter out;
+  model.write(out);
+  const Model::State first = plays(model);
+  CHECK(!model.equal(plays(other), first));
+  StateReader in(out.bytes());
+  other.read(in);
+  CHECK(in.at_end());
+  CHECK(model.equal(plays(other), first));
+  StateReader invalid(std::string_view(out.bytes()).substr(1));
+  CHECK_THROWS_AS(other.read(invalid), InvalidInput);
+  StateWriter none;
+  MachineModel(beamfall(), settings(), 5).write(none);
+  CHECK(none.bytes().empty());
+}
+
 #if !defined(__SANITIZE_ADDRESS__)  // the sanitizer keeps released memory
 TEST_CASE("A tree of 26,600 states takes less than 128 MiB") {
   Environment game(beamfall().image, beamfall().game, settings());

@@ -106,3 +106,17 @@ TEST_CASE("Rollout-IW(1) looks behind a trap") {
   ToyModel model(2, trap);
   CHECK(RolloutSearch(model, settings(), 1).choose(ToyModel::place(0)) == 1);
 }
+
+TEST_CASE(
+    "Rollout-IW(1) keeps nothing below an action that ended the episode, and nothing without a search") {
+  ToyModel model(2, end_or_on);
+  RolloutSettings hasty = settings();
+  hasty.discount = 0.5;
+  RolloutSearch search(model, hasty, 1);
+  CHECK(search.value(0) == 0);
+  search.keep(0, ToyModel::place(0));
+  REQUIRE(search.choose(ToyModel::place(0)) == 0);
+  REQUIRE(search.nodes() > 0);
+  search.keep(0, ToyModel::place(1, true));
+  CHECK(search.nodes() == 0);
+}

@@ -292,3 +292,17 @@ TEST_CASE("Of equal actions, one that ends the episode is not chosen") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
     CHECK(TreeSearch(model, settings(2, 3), seed).choose(ToyModel::place(0)) == 1);
 }
+
+TEST_CASE("A tree is not kept below an action that ended the episode, and not without a search") {
+  ToyModel model(2, end_or_on);
+  TreeSettings reusing = settings(4, 2);
+  reusing.reuse_tree = true;
+  TreeSearch search(model, reusing, 1);
+  CHECK(search.value(0) == 0);
+  search.keep(0, ToyModel::place(0));
+  REQUIRE(search.choose(ToyModel::place(0)) == 0);
+  search.keep(0, ToyModel::place(1, true));
+  search.choose(ToyModel::place(0));
+  CHECK(search.nodes() == 9);
+  CHECK(search.frames() == 40);
+}

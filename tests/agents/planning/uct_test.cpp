@@ -184,3 +184,20 @@ TEST_CASE("The same seed searches the same") {
   CHECK(describe(*one.root()) == describe(*other.root()));
   CHECK(describe(*one.root()) != describe(*third.root()));
 }
+
+TEST_CASE("Siblings in the same place are two if only one of them ends the episode") {
+  ToyModel model(2, [](int, int action) -> Arrow { return {1, 0, action == 0}; });
+  Uct uct(model, settings(50, 1), 1);
+  uct.choose(ToyModel::place(0));
+  CHECK(uct.root()->children.size() == 2);
+}
+
+TEST_CASE("A tree is not kept below an action that ended the episode, nor without a search") {
+  ToyModel model(2, end_or_on);
+  Uct uct(model, settings(50, 1), 1);
+  uct.keep(0, ToyModel::place(0));
+  CHECK(uct.root() == nullptr);
+  REQUIRE(uct.choose(ToyModel::place(0)) == 0);
+  uct.keep(0, ToyModel::place(1, true));
+  CHECK(uct.root() == nullptr);
+}
