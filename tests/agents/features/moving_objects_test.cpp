@@ -39,9 +39,24 @@ TEST_CASE("An object has the velocity with which it came from the nearest like i
   objects.see(DrawnScreen().draw(67, 52, kBird).draw(100, 60, {"####", "####", "####"}).pixels);
   CHECK(!objects.objects().all()[0].velocity);  // nine pixels
   CHECK(!objects.objects().all()[1].velocity);  // another shape
+  objects.see(DrawnScreen().draw(67, 61, kBird).pixels);
+  CHECK(!objects.objects().all()[0].velocity);  // nine pixels down
   objects.forget();
-  objects.see(DrawnScreen().draw(67, 52, kBird).pixels);
+  objects.see(DrawnScreen().draw(67, 61, kBird).pixels);
   CHECK(!objects.objects().all()[0].velocity);
+}
+
+TEST_CASE("Of two objects of the same shape, an object was the nearer one") {
+  for (const bool mirrored : {false, true}) {
+    const int near = mirrored ? 48 : 52, far = mirrored ? 55 : 45;
+    MovingObjects objects({}, 8);
+    objects.see(DrawnScreen().draw(near, 61, kBird).draw(far, 61, kBird).pixels);
+    objects.see(DrawnScreen().draw(50, 60, kBird).pixels);
+    CHECK(objects.objects().all()[0].velocity == Velocity{50 - near, -1});
+    objects.see(DrawnScreen().draw(50, 53, kBird).draw(51, 65, kBird).pixels);
+    objects.see(DrawnScreen().draw(50, 60, kBird).pixels);
+    CHECK(objects.objects().all()[0].velocity == Velocity{-1, -5});
+  }
 }
 
 TEST_CASE("A shape of which a tenth has changed is the same object, of which more has is not") {

@@ -59,14 +59,29 @@ TEST_CASE("What is fast, or looks different at each step, is a class") {
   CHECK(classes == expected);
 }
 
+TEST_CASE("A class is on at least a fifth of the screens") {
+  ClassDiscovery enough({}, 8), too_few({}, 8);
+  for (int step = 0; step < 1000; ++step) {
+    const DrawnScreen screen = DrawnScreen().draw(20 + step % 50, 50, kFish), empty;
+    enough.add((step < 200 ? screen : empty).pixels, true);
+    too_few.add((step < 199 ? screen : empty).pixels, true);
+  }
+  CHECK(enough.classes().size() == 1);
+  CHECK(too_few.classes().empty());
+}
+
 TEST_CASE("Objects that move within a small region do not make a class") {
-  ClassDiscovery near({}, 8), far({}, 8);
+  ClassDiscovery near({}, 8), far({}, 8), flat({}, 8), high({}, 8);
   for (int step = 0; step < 100; ++step) {
     near.add(DrawnScreen().draw(20 + to_and_fro(step, 15), 50, kFish).pixels, step == 0);
     far.add(DrawnScreen().draw(20 + to_and_fro(step, 16), 50, kFish).pixels, step == 0);
+    flat.add(DrawnScreen().draw(20, 50 + to_and_fro(step, 15), kFish).pixels, step == 0);
+    high.add(DrawnScreen().draw(20, 50 + to_and_fro(step, 16), kFish).pixels, step == 0);
   }
   CHECK(near.classes().empty());
   CHECK(far.classes().size() == 1);
+  CHECK(flat.classes().empty());
+  CHECK(high.classes().size() == 1);
 }
 
 // It grows from 10 to 20 pixels. Of the lengths between, each is too rare to be compared.
@@ -102,11 +117,13 @@ TEST_CASE("Frequent shapes of which at most 45 % of the pixels are different are
 
 TEST_CASE("A class of two similar shapes may be frequent where neither is, and move where neither does") {
   const Pattern open = {"######", "####  ", "######"}, shut = {"######", "##### ", "######"};
+  const auto [right, down] =
+      GENERATE(std::pair(16, 0), std::pair(-16, 0), std::pair(0, 16), std::pair(0, -16));
   ClassDiscovery together({}, 8), one({}, 8);
   for (int step = 0; step < 100; ++step) {
     DrawnScreen screen;
-    if (step % 8 == 0) screen.draw(20, 50, open);
-    if (step % 8 == 4) screen.draw(36, 50, shut);
+    if (step % 8 == 0) screen.draw(50, 50, open);
+    if (step % 8 == 4) screen.draw(50 + right, 50 + down, shut);
     together.add(screen.pixels, true);
     one.add(step % 8 == 4 ? DrawnScreen().pixels : screen.pixels, true);
   }
@@ -186,8 +203,10 @@ TEST_CASE("An invalid list of classes is refused with its line") {
       "runs of pixels, ROW,FIRST,LAST";
   for (const std::string line :
        {"2 0,0,1", "x 0,0,1", "0", "0 0,0", "0 0,0,1,2", "0 0,1,0", "0 0,0,160", "0 210,0,1", "0 0,0,1 0,1,2",
-        "0 0,0,1 0,2,3", "0 1,0,1", "0 0,1,1", "0 1,0,1 0,0,1", "", "-1 0,0,1", "0 0,0,256"})
+        "0 0,0,1 0,2,3", "0 1,0,1", "0 0,1,1", "0 1,0,1 0,0,1", "", "-1 0,0,1", "0 0,0,256",
+        "0 0,0,1 210,0,1", "0 0,0,3 1,2,1"})
     CHECK_THROWS_WITH(classes_of_text("a", "0 0,0,1\n" + line + "\n"), sentence);
+  CHECK(classes_of_text("a", "0 0,0,159 209,0,0\n").size() == 1);
   std::string eleven;
   for (int number = 0; number < 11; ++number) eleven += std::to_string(number) + " 0,0,1\n";
   CHECK_THROWS_WITH(classes_of_text("a", eleven), Catch::StartsWith("a:11: "));

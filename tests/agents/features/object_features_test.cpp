@@ -112,6 +112,21 @@ TEST_CASE("An object that looks different has the velocity with which one of its
   CHECK(velocity(60, 5, kArrow) == Velocity{0, 0});
 }
 
+TEST_CASE("An object that looks different came from the nearest object of its class, not of another") {
+  InstanceFinder finder({}, {{shape_of(kArrow), shape_of(kBlock)}, {shape_of({"#####"})}}, 8);
+  const auto velocity = [&](const DrawnScreen& before) {
+    finder.forget();
+    finder.find(before.pixels);
+    return finder.find(DrawnScreen().draw(50, 50, kBlock).pixels)[0].velocity;
+  };
+  // The centre of a block at (50, 50) is (51, 51), and that of an arrow there is a pixel above it.
+  CHECK(velocity(DrawnScreen().draw(46, 50, kArrow).draw(52, 50, kArrow)).x == -2);
+  CHECK(velocity(DrawnScreen().draw(52, 50, kArrow).draw(46, 50, kArrow)).x == -2);
+  CHECK(velocity(DrawnScreen().draw(47, 50, kArrow).draw(51, 58, kArrow)).x == 3);
+  CHECK(velocity(DrawnScreen().draw(46, 50, kArrow).draw(50, 51, {"#####"})).x == 4);
+  CHECK(velocity(DrawnScreen().draw(50, 51, {"#####"})) == Velocity{0, 0});
+}
+
 TEST_CASE("The tiles of a pair's velocity select those of its position") {
   // 2 and 2 x 9 features, then 9 x 9 of the pair. Relative velocities from -80 to 80 have tiles of 80.5.
   ObjectFeatures set({}, two_classes(), settings(1, 2, 40));

@@ -1,6 +1,8 @@
 #include "agents/features/regions.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "agents/base/random.hpp"
 #include "tests/agents/features/drawn_screen.hpp"
@@ -17,6 +19,28 @@ std::vector<Shape> shapes(const Regions& regions) {
     result.emplace_back(shape.begin(), shape.end());
   }
   return result;
+}
+
+using Touching = std::set<std::pair<std::size_t, std::size_t>>;
+
+// The pairs of regions with pixels beside each other, also at corners. A region is the list of its pixels.
+Touching touching_of(const std::vector<std::vector<std::size_t>>& regions) {
+  constexpr std::size_t kNone = ~std::size_t{0};
+  std::vector<std::size_t> region_of(kFeaturePixels, kNone);
+  for (std::size_t number = 0; number < regions.size(); ++number)
+    for (const std::size_t pixel : regions[number]) region_of[pixel] = number;
+  Touching pairs;
+  for (std::size_t pixel = 0; pixel < kFeaturePixels; ++pixel) {
+    const std::size_t x = pixel % kFeatureWidth, y = pixel / kFeatureWidth;
+    for (const auto& [right, down] : {std::pair(1, 0), {-1, 1}, {0, 1}, {1, 1}}) {
+      const std::size_t column = x + static_cast<std::size_t>(right),
+                        row = y + static_cast<std::size_t>(down);
+      if (column >= kFeatureWidth || row >= kFeatureHeight) continue;  // -1 is large, too
+      const std::size_t one = region_of[pixel], other = region_of[row * kFeatureWidth + column];
+      if (one != kNone && other != kNone && one != other) pairs.insert(std::minmax(one, other));
+    }
+  }
+  return pairs;
 }
 
 }  // namespace
@@ -90,5 +114,9 @@ TEST_CASE("Regions are those that filling finds, on random screens") {
       REQUIRE(regions.all()[i].area == static_cast<int>(filled[i].size()));
       REQUIRE(area_of(regions.shape(regions.all()[i])) == regions.all()[i].area);
     }
+    Touching found;
+    for (const auto& [one, other] : regions.touching())
+      if (one != other) found.insert(std::minmax<std::size_t>(one, other));
+    REQUIRE(found == touching_of(filled));
   }
 }
