@@ -131,7 +131,9 @@ std::string unseal(const SealedKind& kind, const std::string& name, std::string_
 }
 
 std::string read_sealed(const SealedKind& kind, const std::string& path) {
-  const std::string bytes = read_input_file(std::string(kind.what), path, kind.most + kHeadSize);
+  const std::size_t added_by_zlib = kind.most / 1024 + 64;  // to contents that do not deflate, at most
+  const std::string bytes =
+      read_input_file(std::string(kind.what), path, kHeadSize + kind.most + added_by_zlib);
   return unseal(kind, path, bytes);
 }
 

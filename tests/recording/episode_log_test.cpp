@@ -8,6 +8,7 @@
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 #include "tests/games/scratch.hpp"
+#include "tests/recording/film.hpp"
 #include "tests/recording/sample_log.hpp"
 
 using namespace racebeam;
@@ -150,6 +151,34 @@ TEST_CASE("A file of a gibibyte is refused unread") {
 
 TEST_CASE("A log of 18,000 random frames takes at most 12 KiB") {
   CHECK(bytes_of(sample_log(18000)).size() <= 12 * 1024);
+}
+
+TEST_CASE("A log has the settings of the machine, but mode and difficulty only if they were set") {
+  const Environment machine = test::beamfall();
+  const auto words = [&machine](const PlaySettings& settings) {
+    const std::string text = ' ' + words_of(settings, machine) + ' ';
+    return [text](const std::string& word) { return text.find(' ' + word) != std::string::npos; };
+  };
+  PlaySettings settings;
+  settings.machine.random_seed = 9;
+  settings.machine.frame_skip = 5;
+  const auto plain = words(settings);
+  CHECK(plain("seed=9 "));
+  CHECK(plain("frame_skip=5 "));
+  CHECK(plain("life_loss_ends=0 "));
+  for (const char* const absent :
+       {"mode=", "difficulty=", "life_loss=", "preset=", "scheme=", "left=", "right=", "format="}) {
+    INFO(absent);
+    CHECK_FALSE(plain(absent));
+  }
+  settings.mode = 0;
+  settings.difficulty = 1;
+  set_life_loss(settings, LifeLoss::kRestart);
+  const auto chosen = words(settings);
+  CHECK(chosen("mode=0 "));
+  CHECK(chosen("difficulty=1 "));
+  CHECK(chosen("life_loss=restart "));
+  CHECK_FALSE(chosen("life_loss_ends="));
 }
 
 TEST_CASE("Settings without the seed are sorted, so that two logs of one plan have the same") {

@@ -118,8 +118,35 @@ TEST_CASE("A recording that is cut off is kept at once, and holds up nothing") {
   CHECK(film.recording->result().frames == 4);
   CHECK(film.recording->result().bytes == test::read(film.folder.path("a.y4m")).size());
   CHECK(film.add_until_behind(100) == 100);
+  film.recording->finish();
   CHECK(film.jobs.empty());
   CHECK(film.claims->empty());
+}
+
+TEST_CASE("A recording is charged for the queue, each encoder, and each process of an encoder") {
+  const Environment machine = test::beamfall();
+  const auto memory = [&](std::vector<MediaKind> kinds) {
+    return Order{std::move(kinds), "", "a", 1, {210, palette(machine.format()), 60}}.memory();
+  };
+  const std::size_t gif = memory({MediaKind::kGif}), both = memory({MediaKind::kGif, MediaKind::kY4m});
+  CHECK(both - gif == 12 * 160 * 210 + (std::size_t{1} << 19));
+  CHECK(memory({MediaKind::kMp4}) - gif == std::size_t{80} << 20);
+  CHECK(memory({MediaKind::kMp4, MediaKind::kWebm}) - both == std::size_t{160} << 20);
+}
+
+TEST_CASE("A recording that is given up before it begins leaves nothing") {
+  Film film({MediaKind::kGif});
+  *film.given_up = true;
+  film.work();
+  CHECK(film.recording->finished());
+  CHECK(film.recording->result().failure == "the server stops");
+  CHECK(test::files_in(film.folder.path("")) == 0);
+}
+
+TEST_CASE("The reason of a cut has the name that clients know") {
+  CHECK(name_of(Recording::Cut::kLimit) == "limit");
+  CHECK(name_of(Recording::Cut::kDisk) == "disk");
+  CHECK(name_of(Recording::Cut::kEncoder) == "encoder");
 }
 
 TEST_CASE("If one of two files cannot be committed, the other still is") {

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "system/invalid_input.hpp"
+#include "tests/games/scratch.hpp"
 
 using namespace racebeam;
 
@@ -37,6 +38,17 @@ TEST_CASE("Sealing pauses between pieces, and the file is the same") {
   CHECK(pauses == 6);
   CHECK((unseal(large, "file", sealed) == contents));
   CHECK((seal(large, contents) == sealed));
+}
+
+TEST_CASE("A file of the most contents can be read, even if they do not deflate") {
+  const Scratch folder;
+  std::string contents;
+  for (std::uint32_t number = 1; contents.size() < kKind.most; number = number * 1664525 + 1013904223)
+    contents += static_cast<char>(number >> 24);
+  const std::string path = folder.write("file", seal(kKind, contents));
+  CHECK((read_sealed(kKind, path) == contents));
+  CHECK_THROWS_WITH(read_sealed(kKind, folder.write("long", std::string(2000, 'x'))),
+                    Catch::Contains("larger than"));
 }
 
 TEST_CASE("Every altered bit and every cut of a sealed file is refused") {

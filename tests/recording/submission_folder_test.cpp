@@ -1,7 +1,9 @@
 #include "recording/submission_folder.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -148,6 +150,24 @@ TEST_CASE("A log is removed if its row cannot be written, or if it exceeds the b
   CHECK_THROWS_AS(full.add(test::sample_log()), BudgetSpent);
   CHECK(std::filesystem::is_empty(place.path("other/logs/beamfall-agent-2")));
   CHECK(contents(place.path("other/results.csv")) == line_of(kResultColumns));
+}
+
+TEST_CASE("Of a row that the disk takes only a part of, nothing stays") {
+  const Scratch place;
+  DiskBudget budget(kMuch);
+  SubmissionFolder folder(order_of(place.path("mine"), 2), budget);
+  const std::string table = line_of(kResultColumns) + std::string(10'000, 'x');  // larger than the log
+  place.write("mine/results.csv", table);
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const rlimit most{table.size() + 10, before.rlim_max};
+  const auto handler = ::signal(SIGXFSZ, SIG_IGN);
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &most) == 0);
+  CHECK_THROWS_WITH(folder.add(test::sample_log()), "cannot write results.csv: File too large");
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
+  ::signal(SIGXFSZ, handler);
+  CHECK((contents(place.path("mine/results.csv")) == table));
+  CHECK(std::filesystem::is_empty(place.path("mine/logs/beamfall-agent-2")));
 }
 
 TEST_CASE("Several can begin a submission at the same time") {
