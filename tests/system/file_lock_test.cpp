@@ -2,10 +2,12 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <thread>
 
+#include "system/regular_file.hpp"
 #include "tests/games/scratch.hpp"
 
 using namespace racebeam;
@@ -45,4 +47,41 @@ TEST_CASE("A lock in a folder that is gone says so") {
   const Scratch place;
   CHECK_THROWS_WITH(FileLock(place.path("gone/a.lock")),
                     Catch::StartsWith("cannot make " + place.path("gone/a.lock")));
+}
+
+TEST_CASE("Who has not locked a file or a folder sees whether another one has") {
+  const Scratch place;
+  const std::string path = place.path("a.lock");
+  for (const bool folder : {false, true}) {
+    const auto open = [&] { return folder ? open_lock_of_folder(place.path(".")) : open_lock(path); };
+    const int holder = open(), other = open();
+    REQUIRE((holder >= 0 && other >= 0));
+    CHECK_FALSE(is_locked(other));
+    close_file(other);  // which may have locked it to find out
+    CHECK(lock_file(holder, Waiting::kNo));
+    const int late = open();
+    CHECK(is_locked(late));
+    CHECK_FALSE(lock_file(late, Waiting::kNo));
+    CHECK(is_locked_elsewhere(errno));
+    close_file(holder);
+    CHECK_FALSE(is_locked(late));
+    close_file(late);
+  }
+  CHECK(open_lock_of_folder(path) == -1);
+  CHECK_FALSE(is_locked(-1));
+}
+
+TEST_CASE("An open file is at its path until it is removed or replaced") {
+  const Scratch place;
+  const std::string path = place.path("a.lock");
+  const int file = open_lock(path);
+  CHECK(is_at(file, path));
+  CHECK_FALSE(is_at(file, place.write("other", "")));
+  std::filesystem::rename(path, place.path("renamed"));
+  CHECK_FALSE(is_at(file, path));
+  const int next = open_lock(path);
+  CHECK_FALSE(is_at(file, path));
+  CHECK(is_at(next, path));
+  close_file(file);
+  close_file(next);
 }

@@ -1,12 +1,15 @@
 #include "system/resources.hpp"
 
+#include <pthread.h>
 #include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 namespace fs = std::filesystem;
 using namespace racebeam;
@@ -104,6 +107,42 @@ TEST_CASE("the smallest limit of the path counts, in version 1") {
   CHECK(root.processors() == 1);
 }
 
+TEST_CASE("a system may have groups of both versions") {
+  const Root root;
+  root.set_up("5:memory:/job\n0::/job\n",
+              std::string(kVersion1) + "36 31 0:33 / /sys/fs/cgroup/unified rw - cgroup2 cgroup2 rw\n");
+  root.write("sys/fs/cgroup/memory/job/memory.limit_in_bytes", "7000000\n");
+  root.write("sys/fs/cgroup/unified/job/memory.max", "8000000\n");
+  CHECK(root.memory() == 7000000);
+  root.write("sys/fs/cgroup/unified/job/memory.high", "6000000\n");
+  CHECK(root.memory() == 6000000);
+}
+
+TEST_CASE("a controller is known by its whole name") {
+  const Root root;
+  root.set_up("3:cpuset:/other\n4:cpuacct,cpu:/job\n",
+              "31 1 0:28 / /sys/set rw - cgroup cgroup rw,cpuset\n"
+              "32 1 0:29 / /sys/cpu rw - cgroup cgroup rw,cpuacct,cpu\n");
+  for (const std::string folder : {"sys/set/other/", "sys/set/job/", "sys/cpu/other/"}) {
+    root.write(folder + "cpu.cfs_quota_us", "1\n");
+    root.write(folder + "cpu.cfs_period_us", "1\n");
+  }
+  const std::uint64_t all = usable_processors("/nowhere").amount;
+  CHECK(root.processors() == all);
+  root.write("sys/cpu/job/cpu.cfs_quota_us", "100000\n");
+  root.write("sys/cpu/job/cpu.cfs_period_us", "100000\n");
+  CHECK(root.processors() == 1);
+}
+
+TEST_CASE("a quota without a period, or one of zero, does not limit anything") {
+  const Root root;
+  root.set_up("0::/job\n", kUnified);
+  for (const char* const quota : {"50000\n", "0 100000\n", "50000 0\n", "1 2 3\n"}) {
+    root.write("sys/fs/cgroup/job/cpu.max", quota);
+    CHECK(root.processors() == usable_processors("/nowhere").amount);
+  }
+}
+
 TEST_CASE("a quota is rounded up to whole processors") {
   const Root root;
   root.set_up("0::/job\n", kUnified);
@@ -152,3 +191,51 @@ TEST_CASE("processors that the process is not allowed to run on do not count") {
   REQUIRE(::sched_setaffinity(0, sizeof before, &before) == 0);
   CHECK(usable_processors("/nowhere").amount == static_cast<std::uint64_t>(CPU_COUNT(&before)));
 }
+
+TEST_CASE("the process may open as many files as the hard limit says") {
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
+  const rlimit few{before.rlim_max < 100 ? before.rlim_max : 100, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &few) == 0);
+  CHECK(usable_files() == before.rlim_max);
+  rlimit now{};
+  REQUIRE(::getrlimit(RLIMIT_NOFILE, &now) == 0);
+  CHECK(now.rlim_cur == before.rlim_max);
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &before) == 0);
+}
+
+TEST_CASE("open files are counted below a number") {
+  const std::uint64_t before = open_files(1000);
+  const int file = open_spare_file();
+  REQUIRE(file >= 0);
+  CHECK(open_files(1000) == before + 1);
+  CHECK(open_files(static_cast<std::uint64_t>(file) + 1) == open_files(static_cast<std::uint64_t>(file)) + 1);
+  ::close(file);
+  CHECK(open_files(1000) == before);
+  CHECK(open_files(0) == 0);
+}
+
+TEST_CASE("memory is resident once it is used") {
+  constexpr std::uint64_t kSize = std::uint64_t{32} << 20;
+  const std::uint64_t before = resident_memory();
+  const auto memory = std::make_unique_for_overwrite<char[]>(kSize);
+  CHECK(resident_memory() < before + kSize / 2);
+  std::memset(memory.get(), 'x', kSize);
+  CHECK(memory[kSize / 3] == 'x');
+  const std::uint64_t more = resident_memory() - before;
+  CHECK((more > kSize / 2 && more < 2 * kSize));
+}
+
+#if defined(__GLIBC__)
+TEST_CASE("threads that start have stacks of two MiB") {
+  pthread_attr_t before, now;
+  REQUIRE(::pthread_getattr_default_np(&before) == 0);
+  set_thread_stacks();
+  REQUIRE(::pthread_getattr_default_np(&now) == 0);
+  std::size_t size = 0;
+  REQUIRE(::pthread_attr_getstacksize(&now, &size) == 0);
+  CHECK(size == std::size_t{2} << 20);
+  REQUIRE(::pthread_setattr_default_np(&before) == 0);
+  for (pthread_attr_t* const attributes : {&before, &now}) ::pthread_attr_destroy(attributes);
+}
+#endif

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "system/named_rows.hpp"
 
@@ -61,6 +62,19 @@ TEST_CASE("A word that does not belong is told from a value that is not accepted
   } catch (const InvalidInput& error) {
     CHECK(error.what() == std::string("fruit is 'lemon'; it takes apple, pear or plum"));
   }
+  CHECK_THROWS_WITH(choice_of("pera", "fruit", kFruit),
+                    "fruit is 'pera'; did you mean pear? It takes apple, pear or plum");
+  CHECK(unknown_name("fruit", "lemon", kFruit) == "unknown fruit 'lemon'; accepted: apple pear plum");
+  for (const char* const word : {"seed", "seeds=1", "see=1", "=1", ""})
+    CHECK_THROWS_AS(value_of(word, "seed", "reset"), InvalidArguments);
+}
+
+TEST_CASE("A value is found by its word, and the word by the value") {
+  constexpr std::array<WordFor<int>, 2> kNumbers = {{{"one", 1}, {"two", 2}}};
+  CHECK(value_for("two", "number", kNumbers) == 2);
+  CHECK_THROWS_WITH(value_for("six", "number", kNumbers), Catch::StartsWith("number is 'six'; "));
+  CHECK(word_for(kNumbers, 2) == "two");
+  CHECK(word_for(kNumbers, 3).empty());
 }
 
 TEST_CASE("A pair is cut at the first '='") {
@@ -126,6 +140,10 @@ TEST_CASE("Numbers and pairs are written as they are read") {
   out += ' ';
   append_list(out, std::array{1, 2, 3});
   CHECK(out == "0.1 n=-7 t=x 1,2,3");
+  out.clear();
+  append_list(out, std::array<int, 0>{});
+  append_number(out, std::numeric_limits<std::int64_t>::min());
+  CHECK(out == "-9223372036854775808");
 }
 
 TEST_CASE("Tables have rows by name") {
