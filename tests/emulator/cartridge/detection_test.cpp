@@ -262,6 +262,40 @@ TEST_CASE("Schemes are found by the text that their tools write") {
          {"DPC+ without a driver", with_text(29696, "DPC+"), "DPC+"}});
 }
 
+TEST_CASE("A text counts in images of the least size of its scheme, and not in smaller ones") {
+  struct {
+    std::size_t size, smaller;
+    std::string text;
+    const char *scheme, *otherwise;
+  } const kTexts[] = {
+      {8192, 4096, "DPC+", "DPC+", "4K"},   {8192, 4096, "PLUSCDFJ", "CDFJ+", "4K"},
+      {8192, 4096, "CDFJ", "CDFJ", "4K"},   {8192, 4096, {"CDF\0", 4}, "CDF0", "4K"},
+      {8192, 4096, "CDF", "CDF", "4K"},     {8192, 4096, "3EX", "3EX", "4K"},
+      {8192, 4096, "MDMC", "MDM", "4K"},    {8192, 4096, "\x8D\xF8\xFF\x8D\xFC\xFF", "FC", "4K"},
+      {32768, 16384, "BUS", "BUS", "F6"},   {32768, 16384, "LENIN", "CTY", "F6"},
+      {65536, 32768, "EFEF", "EF", "F4"},   {65536, 32768, "EFSC", "EFSC", "F4"},
+      {131072, 65536, "DFDF", "DF", "MB"},  {131072, 65536, "DFSC", "DFSC", "MB"},
+      {262144, 131072, "BFBF", "BF", "MC"}, {262144, 131072, "BFSC", "BFSC", "MC"},
+  };
+  for (const auto& [size, smaller, text, scheme, otherwise] : kTexts) {
+    INFO(text << " in " << size << " bytes");
+    CHECK(scheme_name(with_text(size, text)) == scheme);
+    CHECK(scheme_name(with_text(smaller, text)) == otherwise);
+  }
+  CHECK(scheme_name(mixed(2048, {{700, {'T', 'J', '3', 'E'}}})) == "3E+");
+  CHECK(scheme_name(with_text(262144, "DFDF")).empty());
+  CHECK(scheme_name(with_text(524288, "BFBF")).empty());
+  CHECK(scheme_name(mixed(65536, {{65530, {0x4A, 0x50}}})) == "MB");
+  CHECK(scheme_name(mixed(32768, {{32762, {0x50, 0x4A}}})) == "F4");
+}
+
+TEST_CASE("Texts that must be there twice are less than 4096 bytes apart") {
+  const Bytes text = {'3', 'E', 'X'};
+  CHECK(scheme_name(mixed(8192, {{700, text}, {700 + 4095, text}})) == "3EX");
+  CHECK(scheme_name(mixed(16384, {{700, text}, {700 + 4096, text}})) == "F6");
+  CHECK(scheme_name(mixed(16384, {{700, text}, {5000, text}, {5000 + 4095, text}})) == "3EX");
+}
+
 // `code` with an absolute address.
 void put_access(Rom& rom, std::size_t at, unsigned opcode, unsigned address) {
   const unsigned code[] = {opcode, address & 0xFF, address >> 8};
@@ -342,6 +376,36 @@ TEST_CASE("Schemes with many hot spots are found by code that accesses most of t
          {"SB, 128K", with_each(131072, 0xAD, 0x0800, 1, 32), "SB"},
          {"SB, 256K", with_each(262144, 0xAD, 0x0800, 1, 64), "SB"},
          {"SB by its index", with_alike(262144, 0xBD, 0x0800, 0, 64), "SB"}});
+}
+
+TEST_CASE("As many different hot spots, and as many banks, as the table says are enough") {
+  struct {
+    std::size_t size;
+    unsigned first, step, spots;
+    const char *scheme, *otherwise;
+  } const kSpots[] = {
+      {8192, 0x1FE0, 1, 8, "E0", "F8"},    {8192, 0x03B0, 1, 5, "03E0", "F8"},
+      {16384, 0x1FE0, 1, 7, "E7", "F6"},   {65536, 0x1FE0, 1, 16, "EF", "MB"},
+      {65536, 0x080D, 16, 6, "X07", "MB"}, {131072, 0x0800, 1, 10, "SB", "MC"},
+      {262144, 0x0800, 1, 16, "SB", ""},   {131072, 0x1FC0, 1, 28, "DF", "MC"},
+      {262144, 0x1F80, 1, 56, "BF", ""},
+  };
+  for (const auto& [size, first, step, spots, scheme, otherwise] : kSpots) {
+    INFO(scheme << " of " << size << " bytes");
+    CHECK(scheme_name(with_each(size, 0xAD, first, step, spots)) == scheme);
+    CHECK(scheme_name(with_each(size, 0xAD, first, step, spots - 1)) == otherwise);
+  }
+  for (const unsigned opcode : {0xBDU, 0xB9U, 0x9DU, 0x99U}) {
+    INFO(opcode);
+    for (const unsigned address : {0x0800U, 0x07FFU}) {
+      CHECK(scheme_name(with_alike(131072, opcode, address, 0, 4)) == "SB");
+      CHECK(scheme_name(with_alike(131072, opcode, address, 0, 3)) == "MC");
+    }
+    CHECK(scheme_name(with_alike(131072, opcode, 0x0801, 0, 32)) == "MC");
+    CHECK(scheme_name(with_alike(131072, opcode, 0x07FE, 0, 32)) == "MC");
+  }
+  CHECK(scheme_name(with_alike(65536, 0xAD, 0x080D, 16, 3)) == "MB");
+  CHECK(scheme_name(with_alike(8192, 0xAD, 0x0220, 0, 1)) == "F8");
 }
 
 TEST_CASE("FA2 shows by its size, FC and WD by their code") {

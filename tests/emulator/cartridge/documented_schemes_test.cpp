@@ -1,6 +1,7 @@
 // The table of all schemes in docs/spec/cartridges.md, 11, is that of the program: which schemes run, what
 // tests them, and what refuses the others.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <map>
@@ -133,11 +134,11 @@ TEST_CASE("A scheme is either implemented or refused by its name") {
   }
 }
 
-// BX LR, `count` times, from the offset `first` on.
-Rom with_returns(std::size_t size, std::size_t count, std::size_t first) {
+// BX of a register, `count` times, from the offset `first` on.
+Rom with_returns(std::size_t size, std::size_t count, std::size_t first, std::uint8_t of_register = 0x70) {
   Rom rom = filled(size);
   for (std::size_t i = 0; i < count; ++i) {
-    rom[first + 100 * i] = 0x70;
+    rom[first + 100 * i] = of_register;
     rom[first + 100 * i + 1] = 0x47;
   }
   return rom;
@@ -152,6 +153,13 @@ TEST_CASE("An image with code for an ARM, and without a text, is refused until i
     CHECK_NOTHROW(scheme_of(with_returns(size, 2, 4096)));
     CHECK_NOTHROW(scheme_of(with_returns(size, 20, 4097)));
   }
+  for (const std::uint8_t of_register : std::to_array<std::uint8_t>({0x00, 0x08, 0x18, 0x70})) {
+    CHECK_THROWS(scheme_of(with_returns(24576, 8, 4096, of_register)));
+    CHECK_NOTHROW(scheme_of(with_returns(24576, 7, 4096, of_register)));
+  }
+  CHECK_NOTHROW(scheme_of(with_returns(24576, 20, 4096, 0x10)));
+  CHECK_THROWS(scheme_of(with_returns(65536, 8, 32768)));
+  CHECK_NOTHROW(scheme_of(with_returns(65536, 14, 32768 - 700)));  // seven on either side
   CHECK(scheme_of(with_returns(32768, 20, 4096), "CDFJ").name == "CDFJ");
   CHECK(scheme_of(with_returns(16384, 20, 4096)).name == "F6");
   Rom marked = with_returns(32768, 20, 4096);
@@ -172,6 +180,9 @@ TEST_CASE("Without an instruction that accesses a hot spot, an image is hardly o
   for (const int opcode : {0xAD, 0x8D, 0x2C, 0x0C, 0x4C, 0x20, 0xCD, 0xEE, 0xBD, 0xB9, 0x9D})
     CHECK_FALSE(doubtful("F8", 8192, {static_cast<std::uint8_t>(opcode), 0xF9, 0xFF}));
   CHECK_FALSE(doubtful("F8", 8192, {0xBD, 0xF7, 0xFF}));
+  CHECK(doubtful("F8", 8192, {0xBD, 0xF6, 0xFF}));
+  CHECK(doubtful("F8", 8192, {0xAD, 0xFA, 0xFF}));
+  CHECK(doubtful("F8", 8192, {0xBD, 0xFA, 0xFF}));
   CHECK(doubtful("F6", 16384, {0xAD, 0xF5, 0xFF}));
   CHECK_FALSE(doubtful("F6", 16384, {0xAD, 0xF6, 0xFF}));
   CHECK(doubtful("MB", 65536, {0xAD, 0xEF, 0xFF}));
