@@ -271,6 +271,25 @@ TEST_CASE("Paddles of the right port, and a pot of no resistance") {
   CHECK((bench.read_at(623, 11) & 0x80) == 0x80);
 }
 
+TEST_CASE("Each pot charges its own pin, also if ports or paddles are swapped") {
+  const bool swap_ports = GENERATE(false, true), swap_paddles = GENERATE(false, true);
+  Properties paddles = ntsc();
+  paddles.left = paddles.right = Controller::kPaddles;
+  paddles.swap_ports = swap_ports;
+  paddles.swap_paddles = swap_paddles;
+  Bench bench(Rom(4096, 0xEA), paddles);
+  bench.state.inputs.paddle = {10000, 20000, 30000, 40000};
+  bench.write_at(0, VBLANK, 0x80);
+  bench.write_at(100, VBLANK, 0x00);
+  for (unsigned paddle = 0; paddle < 4; ++paddle) {
+    const unsigned pin = 8 + (paddle ^ (swap_ports ? 2U : 0U) ^ (swap_paddles ? 1U : 0U));
+    const int need = static_cast<int>(1.6 * 10000 * (paddle + 1) * 0.01e-6 * 1.19e6);
+    INFO("paddle " << paddle << ", INPT" << pin - 8);
+    CHECK((bench.read_at(100 + need, pin) & 0x80) == 0x00);
+    CHECK((bench.read_at(101 + need, pin) & 0x80) == 0x80);
+  }
+}
+
 // COLUBK = $2E; frames of 254 lines; in the fourth, the processor jams after 100 lines.
 const Bytes kJams = {0xA9, 0x2E, 0x85, 0x09, 0xA9, 0x00, 0x85, 0x80,  // once
                      0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0x85, 0x02,

@@ -204,6 +204,54 @@ TEST_CASE("A mouse has two signals for each axis, a quarter of a period apart") 
     }
 }
 
+TEST_CASE("Two controllers have axes of their own, which go with swapped ports") {
+  const Inputs one = axes({1, 16383}, {2, -16383}), other = axes({2, -16383}, {1, 16383});
+  Inputs both;
+  both.paddle = {one.paddle[0], one.paddle[1], other.paddle[0], other.paddle[1]};
+  for (const Controller controller :
+       {Controller::kDriving, Controller::kTrackball, Controller::kAtariMouse, Controller::kAmigaMouse}) {
+    const auto shows = [controller](const Inputs& inputs) {
+      Connected bench(controller);
+      bench.connect(inputs);
+      return bench.left_nibble();
+    };
+    REQUIRE(shows(one) != shows(other));
+    for (const bool swapped : {false, true}) {
+      Properties properties = in_port(controller, controller);
+      properties.swap_ports = swapped;
+      Bench bench(Rom(4096, std::uint8_t{0xEA}), properties);
+      bench.state.inputs = both;
+      const unsigned left = shows(swapped ? other : one), right = shows(swapped ? one : other);
+      INFO(static_cast<int>(controller));
+      CHECK(unsigned{bench.read_at(100, kSWCHA)} == (left << 4 | right));
+    }
+  }
+}
+
+TEST_CASE("Two light guns see the beam at places of their own") {
+  Connected bench(Controller::kLightGun, Controller::kLightGun);
+  Inputs inputs;
+  inputs.paddle = {Axis{0, 0}.packed(), Axis{50, 0}.packed(), Axis{159, 0}.packed(), Axis{150, 0}.packed()};
+  bench.connect(inputs);
+  const int left = 76 * (34 + 50) + 68 / 3, right = 76 * (34 + 150) + (68 + 159) / 3;
+  CHECK_FALSE(bench.high(kINPT4, left));
+  CHECK(bench.high(kINPT5, left));
+  CHECK(bench.high(kINPT4, right));
+  CHECK_FALSE(bench.high(kINPT5, right));
+  CHECK(bench.high(kINPT5, right - 1));
+}
+
+TEST_CASE("VBLANK grounds the pins that a booster grip pulls up") {
+  Connected bench(Controller::kBooster);
+  Inputs inputs;
+  inputs.joystick = {kStickSecond | kStickThird, 0};
+  bench.connect(inputs);
+  CHECK((bench.high(kINPT0) && bench.high(kINPT1)));
+  bench.write_at(120, kVBLANK, 0x80);
+  CHECK_FALSE(bench.high(kINPT0, 130));
+  CHECK_FALSE(bench.high(kINPT1, 130));
+}
+
 TEST_CASE("Nothing answers where no controller is") {
   Connected bench(Controller::kNone, Controller::kNone);
   Inputs inputs;
