@@ -28,11 +28,10 @@ WrongTokens::Delay WrongTokens::pause(int wrong) const {
   return std::min<Delay>(longest_, kFirstDelay * (1 << std::min(wrong - 1, kMostDoublings)));
 }
 
-WrongTokens::Verdict WrongTokens::count(const std::string& source) {
+WrongTokens::Verdict WrongTokens::count(const std::string& source, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   if (!rows_.contains(source)) make_room();
   Row& row = rows_[source];
-  const auto now = Clock::now();
   row.wrong = now - row.latest > kMemory ? 1 : row.wrong + 1;
   row.latest = now;
   return {row.wrong, pause(row.wrong)};

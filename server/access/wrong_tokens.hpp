@@ -30,8 +30,8 @@ class WrongTokens {
     int in_a_row = 0;  // consecutive wrong tokens from the source
     Delay delay{};     // of the answer
   };
-  Verdict count(const std::string& source);  // reports a wrong token
-  void forgive(const std::string& source);   // reports a right token
+  Verdict count(const std::string& source, Clock::time_point now = Clock::now());  // reports a wrong token
+  void forgive(const std::string& source);                                         // reports a right token
 
  private:
   struct Row {

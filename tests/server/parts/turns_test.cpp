@@ -101,6 +101,29 @@ TEST_CASE("a turn lasts while other sessions work") {
   CHECK(busy.worked == "aa");
 }
 
+TEST_CASE("without others that wait, sessions work until the turn has lasted as long as the longest slice") {
+  Turns turns;
+  Usage one{}, other{};
+  CHECK(turns.may_work(one));
+  turns.worked(one, 2ms - 1us);
+  CHECK(turns.may_work(other));
+  turns.worked(other, 1us);
+  CHECK(turns.worked() == 2ms);
+  CHECK_FALSE(turns.may_work(one));
+  CHECK_FALSE(turns.may_work(other));
+}
+
+TEST_CASE("a session that comes is treated as if it had worked until now, less a credit of 250 us") {
+  Turns turns;
+  Usage one{}, other{}, ahead{1s};
+  for (int slice = 0; slice < 2; ++slice) turns.worked(one, 10ms);  // each costs 20 us more
+  CHECK(one == 20040us);
+  turns.may_work(other);
+  CHECK(other == 10020us - 250us);
+  turns.may_work(ahead);
+  CHECK(ahead == 1s);
+}
+
 TEST_CASE("slices are shorter while many wait") {
   Busy busy;
   std::vector<Usage> usages(100);

@@ -33,6 +33,18 @@ TEST_CASE("the delay doubles sixteen times at most") {
   CHECK(all.count("a").delay == 100ms * (1 << 16));
 }
 
+TEST_CASE("a wrong token is forgotten ten minutes after the latest one of its address") {
+  WrongTokens all(1s);
+  const auto start = WrongTokens::Clock::now();
+  CHECK(all.count("a", start).in_a_row == 1);
+  CHECK(all.count("a", start + 10min).in_a_row == 2);
+  CHECK(all.count("a", start + 20min).in_a_row == 3);
+  const auto verdict = all.count("a", start + 30min + 1ns);
+  CHECK(verdict.in_a_row == 1);
+  CHECK(verdict.delay == 100ms);
+  CHECK(all.count("a", start + 31min).in_a_row == 2);
+}
+
 TEST_CASE("wrong tokens from one address delay no other") {
   WrongTokens all(1s);
   all.count("a");
