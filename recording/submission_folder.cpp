@@ -45,7 +45,7 @@ bool makes_folder(const std::string& path) {
   return false;
 }
 
-constexpr auto kPatience = 2s;  // for the lock; other recordings wait, too
+constexpr auto kLockTimeout = 2s;  // for the lock; other recordings wait, too
 
 // A table that several programs append to.
 class SharedTable {
@@ -81,7 +81,7 @@ class SharedTable {
 
  private:
   void lock(const DiskBudget& budget) const {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
+    const auto end = std::chrono::steady_clock::now() + kLockTimeout;
     while (!lock_file(descriptor_, Waiting::kNo)) {
       if (!is_locked_elsewhere(errno) || budget.is_given_up() || std::chrono::steady_clock::now() > end)
         fail("lock", path_);

@@ -9,9 +9,9 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using Kind = TerminalEvent::Kind;
 
-constexpr auto kPatience = 500ms;   // for answers
-constexpr auto kLost = 2s;          // an answer that has not come by then does not come
-constexpr auto kUnanswered = 33ms;  // between pictures for a terminal that does not answer
+constexpr auto kAnswerTimeout = 500ms;  // for answers
+constexpr auto kLost = 2s;              // an answer that has not come by then does not come
+constexpr auto kUnanswered = 33ms;      // between pictures for a terminal that does not answer
 constexpr int kMostUnderWay = 2;
 
 constexpr std::string_view kEnter = "\x1b[?1049h\x1b[?25l\x1b[2J", kLeave = "\x1b[0m\x1b[?25h\x1b[?1049l";
@@ -51,7 +51,7 @@ TerminalAbilities ask_abilities(Tty& tty) {
   tty.write(kAskGraphics);
   tty.write(kAskKeyboard);
   tty.write(kAskAttributes);
-  for (const auto end = Clock::now() + kPatience; !abilities.answers && Clock::now() < end;)
+  for (const auto end = Clock::now() + kAnswerTimeout; !abilities.answers && Clock::now() < end;)
     for (const TerminalEvent& event : parser.parse(tty.wait(end))) note(abilities, event);
   return abilities;
 }
@@ -73,7 +73,7 @@ Display::Display(Graphics preference)
 // Answers that come later would be read by the next program.
 Display::~Display() {
   try {
-    while (under_way_ > 0 && Clock::now() < last_time_ + kPatience) wait(last_time_ + kPatience);
+    while (under_way_ > 0 && Clock::now() < last_time_ + kAnswerTimeout) wait(last_time_ + kAnswerTimeout);
   } catch (const std::exception&) {  // the terminal is gone
   }
 }

@@ -48,7 +48,7 @@ void WrongTokens::make_room() {
   rows_.erase(std::ranges::min_element(rows_, earlier));
 }
 
-Guesser::Update Guesser::update(int wrong) {
+TokenAttempts::Update TokenAttempts::update(int wrong) {
   Update all{wrong - wrong_};
   for (; wrong_ < wrong; ++wrong_) {
     const auto [in_a_row, delay] = all_->count(source_);

@@ -1,6 +1,6 @@
 // Slows down clients that guess tokens. The answer to a wrong token is delayed by 100 ms. The delay doubles
 // with each consecutive wrong token from the same address, over any connection. Right tokens are answered at
-// once: clients that share the address of a guesser are not locked out. A delay blocks no thread.
+// once: clients that share an address are not locked out. A delay blocks no thread.
 #pragma once
 
 #include <chrono>
@@ -47,9 +47,9 @@ class WrongTokens {
 };
 
 // A client that has not sent a right token yet.
-class Guesser {
+class TokenAttempts {
  public:
-  Guesser(WrongTokens& all, std::string source) : all_(&all), source_(std::move(source)) {}
+  TokenAttempts(WrongTokens& all, std::string source) : all_(&all), source_(std::move(source)) {}
 
   const std::string& source() const { return source_; }
   int wrong() const { return wrong_; }  // tokens

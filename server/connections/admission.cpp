@@ -17,23 +17,24 @@ void count_admission(Client& client, Metrics& metrics) {
   ++metrics.admitted;
 }
 
-WrongTokens::Delay judge(Client& client, const LineSession& session, Metrics& metrics) {
-  const auto [more, in_a_row, delay] = client.guesser->update(session.wrong_tokens());
+WrongTokens::Delay update_admission(Client& client, const LineSession& session, Metrics& metrics) {
+  const auto [more, in_a_row, delay] = client.token_attempts->update(session.wrong_tokens());
   metrics.wrong_tokens += more;
   if (more > 0) {
-    log_warning(client.name + ": a wrong token from " + client.guesser->source() + ", number " +
-                    std::to_string(in_a_row) + " in a row",
-                {{"client", client.name}, {"event", "wrong-token"}, {"address", client.guesser->source()}});
+    log_warning(
+        client.name + ": a wrong token from " + client.token_attempts->source() + ", number " +
+            std::to_string(in_a_row) + " in a row",
+        {{"client", client.name}, {"event", "wrong-token"}, {"address", client.token_attempts->source()}});
   }
   if (session.admitted()) {
-    client.guesser->admitted();
-    client.guesser.reset();
+    client.token_attempts->admitted();
+    client.token_attempts.reset();
     client.place.reset();
   }
   return delay;
 }
 
-Task<> hold_back(Client& client, WrongTokens::Delay delay) {
+Task<> delay_requests(Client& client, WrongTokens::Delay delay) {
   constexpr WrongTokens::Delay kBetweenLooks = 100ms;
   for (const auto end = Clock::now() + delay; Clock::now() < end && !client.ending();)
     co_await pause(client.loop.context, std::min(delay, kBetweenLooks));

@@ -69,13 +69,13 @@ class Client {
   Socket socket;
   Loop& loop;
   const std::string name;
-  std::optional<Counted> open, admitted_open;  // count the session in the metrics while it is open
-  std::optional<Guesser> guesser;              // while a token is required
-  std::optional<Lobby::Place> place;           // while a token is required
-  bool greeted = false;                        // the handshakes of TLS and HTTP are done
-  bool admitted = false;                       // it has given its token, or does not need one
-  bool working = false;                        // a slice of its requests is done, and the next is pending
-  Usage usage{};                               // how long it has used the event loop
+  std::optional<Counted> open, admitted_open;   // count the session in the metrics while it is open
+  std::optional<TokenAttempts> token_attempts;  // while a token is required
+  std::optional<Lobby::Place> place;            // while a token is required
+  bool greeted = false;                         // the handshakes of TLS and HTTP are done
+  bool admitted = false;                        // it has given its token, or does not need one
+  bool working = false;                         // a slice of its requests is done, and the next is pending
+  Usage usage{};                                // how long it has used the event loop
 
  private:
   const std::shared_ptr<MemoryBudget> budget_;

@@ -7,7 +7,7 @@
 #include <boost/asio/ssl.hpp>
 
 #include "server/connections/admission.hpp"
-#include "server/connections/departure.hpp"
+#include "server/connections/disconnect_detector.hpp"
 #include "server/connections/lingering_close.hpp"
 #include "server/connections/session_loop.hpp"
 #include "server/connections/session_scopes.hpp"
@@ -33,13 +33,13 @@ Task<> take_turn(Client& client) {
 // Works until the session has a reply or needs input.
 Task<> work(Client& client, PacedClassic& session) {
   Turns& turns = client.loop.turns;
-  Departure departure;
+  DisconnectDetector detector;
   for (bool done = false; !done;) {
     if (!turns.may_work(client.usage)) co_await take_turn(client);
     if (client.ending()) throw std::runtime_error("closed: " + client.reason());
     done = session.work(turns.slice());
     turns.worked(client.usage, session.worked());
-    if (!done && departure.has_gone(client.socket))
+    if (!done && detector.has_gone(client.socket))
       throw std::runtime_error("the client left in the middle of an act");
   }
 }
@@ -87,7 +87,7 @@ Task<> read(Stream& stream, Client& client, LineSession& session, bool piece) {
 template <typename Stream>
 Task<> serve_connection(Stream& stream, Client& client, LineSession& session, Metrics& metrics) {
   using Next = SessionLoop::Next;
-  Departure departure;
+  DisconnectDetector detector;
   Turns& turns = client.loop.turns;
   SessionLoop loop(session);
   const auto run = [&] {
@@ -101,7 +101,7 @@ Task<> serve_connection(Stream& stream, Client& client, LineSession& session, Me
     if (client.ending()) co_await take_leave(stream, client);
     Next next = loop.work(run);
     if (session.admitted()) count_admission(client, metrics);
-    if (client.guesser) co_await hold_back(client, judge(client, session, metrics));
+    if (client.token_attempts) co_await delay_requests(client, update_admission(client, session, metrics));
     const bool sends = next == Next::kSend;
     if (sends) {
       const std::string_view rest = send_at_once(stream, client, loop.output());
@@ -112,7 +112,7 @@ Task<> serve_connection(Stream& stream, Client& client, LineSession& session, Me
     if (next == Next::kDone) break;
     if (next == Next::kRead) {
       if (!client.ending()) co_await read(stream, client, session, std::exchange(piece, true));
-    } else if (!sends && departure.has_gone(client.socket)) {
+    } else if (!sends && detector.has_gone(client.socket)) {
       throw std::runtime_error("the client left in the middle of a request");
     } else if (next == Next::kPause) {
       co_await await_recording(client);
@@ -187,7 +187,7 @@ Task<> play_over_tls(std::shared_ptr<Client> client, const Service& service, Car
   } catch (const std::exception&) {
     reason = std::current_exception();
   }
-  const Patience patience(client);
+  const CloseTimer timer(client);
   // Tells the client that the output is complete.
   co_await stream.async_shutdown(net::redirect_error(use_task, error));
   if (reason) std::rethrow_exception(reason);

@@ -52,8 +52,8 @@ bool has_moved(Socket& socket, Loop& loop) {
   return true;
 }
 
-constexpr auto kPatience = 800ms;      // how long a client that comes when memory is short may wait
-constexpr auto kBetweenChecks = 20ms;  // of whether there is memory for it
+constexpr auto kReliefTimeout = 800ms;  // how long a client that comes when memory is short may wait
+constexpr auto kBetweenChecks = 20ms;   // of whether there is memory for it
 constexpr int kMostWaiting = 64;
 
 // Counts a client that waits for memory, during its lifetime.
@@ -258,7 +258,7 @@ void ConnectionAcceptor::receive(std::shared_ptr<Client> client, const Service& 
 Task<> ConnectionAcceptor::admit_after_relief(std::shared_ptr<Client> client, const Service& service,
                                               Carrier carrier, Endpoint endpoint) {
   const Waiting place(waiting_);
-  const auto end = client->came() + kPatience;
+  const auto end = client->came() + kReliefTimeout;
   while (!has_memory_for_one_more(service) && Clock::now() < end)
     co_await pause(loops_.first().context, kBetweenChecks);
   if (!closed_) admit(std::move(client), service, std::move(carrier), endpoint);
@@ -280,7 +280,7 @@ void ConnectionAcceptor::admit(std::shared_ptr<Client> client, const Service& se
   if (endpoint.classic) ++metrics_.sessions_classic;
   if (!endpoint.classic && !endpoint.web) ++metrics_.sessions_line;  // over HTTP, a session begins later
   if (access_.guards(service)) {
-    client->guesser.emplace(access_.wrong_tokens(), source_of(client->socket));
+    client->token_attempts.emplace(access_.wrong_tokens(), source_of(client->socket));
     lobby_->enter(client);
   }
   spawn(context, serve_connection(std::move(client), service, std::move(carrier), metrics_));

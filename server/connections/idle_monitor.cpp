@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 std::string why_not_admitted(const Client& client, int handshake_seconds) {
   const std::string time = std::to_string(handshake_seconds) + " seconds";
   if (!client.greeted) return "no handshake came within " + time;
-  const bool tried = client.guesser && client.guesser->wrong() > 0;
+  const bool tried = client.token_attempts && client.token_attempts->wrong() > 0;
   return (tried ? "no right token came within " : "no token came within ") + time;
 }
 

@@ -8,7 +8,7 @@ namespace net = boost::asio;
 using boost::system::error_code;
 using namespace std::chrono_literals;
 
-Patience::Patience(const std::shared_ptr<Client>& client) : timer_(client->socket.get_executor(), 2s) {
+CloseTimer::CloseTimer(const std::shared_ptr<Client>& client) : timer_(client->socket.get_executor(), 2s) {
   timer_.async_wait([client](error_code cancelled) {
     error_code ignored;
     if (!cancelled) client->socket.close(ignored);
@@ -18,7 +18,7 @@ Patience::Patience(const std::shared_ptr<Client>& client) : timer_(client->socke
 Task<> close_gently(std::shared_ptr<Client> client) {
   error_code error;
   client->socket.shutdown(Socket::shutdown_send, error);
-  const Patience patience(client);
+  const CloseTimer timer(client);
   std::array<char, 4096> rest;
   while (!error) {
     co_await client->socket.async_read_some(net::buffer(rest), net::redirect_error(use_task, error));

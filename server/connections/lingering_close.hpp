@@ -10,9 +10,9 @@
 namespace racebeam {
 
 // Limits how long a client may take to close its end.
-class Patience {
+class CloseTimer {
  public:
-  explicit Patience(const std::shared_ptr<Client>& client);
+  explicit CloseTimer(const std::shared_ptr<Client>& client);
 
  private:
   boost::asio::steady_timer timer_;

@@ -36,7 +36,7 @@ class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder)
       : folder_(open_lock_of_folder(folder.empty() ? "." : folder.string())) {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
+    const auto end = std::chrono::steady_clock::now() + kLockTimeout;
     while (!lock_file(folder_, Waiting::kNo) && is_locked_elsewhere(errno) &&
            std::chrono::steady_clock::now() < end)
       std::this_thread::sleep_for(kBetweenTries);
@@ -50,7 +50,7 @@ class FolderLock {
  private:
   // After this time, or if the folder does not support locks, the server goes on without the lock: another
   // program may hold it for long.
-  static constexpr std::chrono::seconds kPatience{2};
+  static constexpr std::chrono::seconds kLockTimeout{2};
   static constexpr std::chrono::milliseconds kBetweenTries{5};
 
   const int folder_;

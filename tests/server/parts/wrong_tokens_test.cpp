@@ -76,9 +76,9 @@ TEST_CASE("the wrong tokens of 4096 addresses are known") {
   }
 }
 
-TEST_CASE("a guesser counts each of its wrong tokens once") {
+TEST_CASE("attempts count each wrong token once") {
   WrongTokens all(1s);
-  Guesser one(all, "a"), other(all, "a");
+  TokenAttempts one(all, "a"), other(all, "a");
   CHECK(one.update(0).more == 0);
   const auto [more, in_a_row, delay] = one.update(2);
   CHECK(more == 2);

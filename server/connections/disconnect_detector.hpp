@@ -5,7 +5,7 @@
 
 namespace racebeam {
 
-class Departure {
+class DisconnectDetector {
  public:
   // Does not block, and sends nothing. A client that has only closed its sending end is still connected: it
   // may read the reply. On TCP, that looks like a client that has closed everything. If the client runs on

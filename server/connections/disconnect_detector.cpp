@@ -1,4 +1,4 @@
-#include "server/connections/departure.hpp"
+#include "server/connections/disconnect_detector.hpp"
 
 #include "system/program/sockets.hpp"
 
@@ -8,7 +8,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kBetweenQuestions = 200ms;
 
-bool Departure::has_gone(Socket& socket) {
+bool DisconnectDetector::has_gone(Socket& socket) {
   if (!socket.is_open()) return true;  // the server has closed it
   const auto number = static_cast<SocketNumber>(socket.native_handle());
   const PeerState state = state_of_peer(number);
