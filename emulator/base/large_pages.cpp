@@ -3,8 +3,10 @@
 #include <array>
 #include <atomic>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <new>
+#include <system_error>
 #include <utility>
 
 #include "system/forks.hpp"
@@ -30,7 +32,10 @@ struct alignas(kAlignment) Header {
   Header* next = nullptr;  // of the free ones of this size
 };
 
-struct alignas(kPage) Page {
+struct alignas(kAlignment) Page {
+  explicit Page(Pages from) : mapping(std::move(from)) {}
+
+  Pages mapping;           // what the page is a part of
   std::size_t blocks = 0;  // in use
   std::size_t used = 0;    // bytes of `memory` that were given out
   alignas(kAlignment) std::array<std::byte, kPage - kAlignment> memory;
@@ -68,11 +73,19 @@ class LargePages {
     return new (place) Header{newest_, size};
   }
 
+  // A mapping of twice the size holds a whole page. What is beside it takes no memory, since nobody uses it.
   static Page* new_page() {
-    void* const memory = ::operator new (kPage, std::align_val_t{kPage});
+    Pages mapping = map(2 * kPage);
+    void* memory = mapping.data();
+    std::size_t size = mapping.size();
+    std::align(kPage, kPage, memory, size);
     prefer_large_pages(memory, kPage);
     ++pages_in_use;
-    return new (memory) Page;
+    return new (memory) Page(std::move(mapping));
+  }
+
+  static Pages map(std::size_t size) try { return Pages(size); } catch (const std::system_error&) {
+    throw std::bad_alloc();
   }
 
   void release(Page* page) {
@@ -84,7 +97,7 @@ class LargePages {
           at = &(*at)->next;
       }
     if (newest_ == page) newest_ = nullptr;
-    ::operator delete (page, std::align_val_t{kPage});
+    const Pages unmapped_at_the_end = std::move(page->mapping);
     --pages_in_use;
   }
 
