@@ -34,7 +34,7 @@ class Pages {
 class CodeWriting {
  public:
   CodeWriting();
-  ~CodeWriting();
+  ~CodeWriting();  // NOLINT(performance-trivially-destructible): on macOS, it does something
   CodeWriting(const CodeWriting&) = delete;
   CodeWriting& operator=(const CodeWriting&) = delete;
 };
