@@ -25,7 +25,6 @@ class ManyMachines {
 std::size_t large_pages_in_use();
 
 // Usual paging is for what may outlive a vector of machines, and would keep a whole large page.
-
 enum class Paging { kLarge, kUsual };
 
 void* take_machine_memory(std::size_t size, Paging paging);  // aligned to 64 bytes; or std::bad_alloc
