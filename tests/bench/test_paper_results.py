@@ -98,7 +98,7 @@ class TestPaperResults:
         )
         text = self.text()
         assert "| asterix | 250.0 | 288.1 | 71.0 | up | 650.0 | 33.0 | up | 337.8 | const, perturb |" in text
-        assert "these agree: 1 in Random, 0 in Const, 0 in Perturb." in " ".join(text.split())
+        assert "1 for Random, 0 for Const, 0 for Perturb." in " ".join(text.split())
         assert "| `baselines` | random | largest | 4 | at most 12,288 |" in text
 
     def test_baselines_of_some_games_that_were_run_again_are_shown_as_such(self):
@@ -111,13 +111,13 @@ class TestPaperResults:
             text = plan.read_text().replace("[agent.perturb]\nframe_skip = 5", "[agent.perturb]\nframe_skip = 1")
             plan.write_text(text)
         text = " ".join(self.text().split())
-        assert "1 in Perturb." in text
+        assert "1 for Perturb." in text
         assert "| asterix | 100.0 | 288.1 | 10.0 | noop | 650.0 | 330.0 | up | 337.8 | random, const |" in text
         assert "| `baselines`, 1 games again | 3 |" in text
         (self.folder / "figures/baselines-partial.json").unlink()
         (self.folder / "baselines-partial/plan.toml").unlink()
         text = " ".join(self.text().split())
-        assert "0 in Perturb." in text
+        assert "0 for Perturb." in text
 
     def test_perturb_that_is_far_from_the_paper_has_a_cause(self, subtests):
         results(self.folder / "baselines", ["random", "const"], {"random": [[1]], "const_noop": [[1]]})

@@ -69,14 +69,14 @@ class Baselines(Part):
                 action = [] if policy == "random" else [agent.partition("_")[2] or "-"]
                 cells += [number(score), *action, number(theirs)]
             rows.append([game, *cells, ", ".join(differ) or "all agree"])
-        self.say(f"""Means of {found["settings"]["random"]["evaluation_episodes"]} episodes. Const and Perturb are the
-            best of 18 policies, with its action. Random and Perturb agree with the paper if their score is within a
-            fifth of the paper's. A constant action leaves nothing to chance without sticky actions, so that Const
-            agrees only if the scores are equal.""")
+        self.say(f"""Scores are means of {found["settings"]["random"]["evaluation_episodes"]} episodes. For Const and
+            Perturb, the table has the best of 18 policies, and its action. Random and Perturb agree with the paper if
+            their score is within a fifth of the paper's. Without sticky actions, a constant action leaves nothing to
+            chance, so Const agrees only if the scores are equal.""")
         self.not_again(each["perturb"], len(found["games"]))
-        counts = ", ".join(f"{number} in {policy.capitalize()}" for policy, number in count.items())
-        self.say(f"""Of {len(found["games"])} games, these agree: {counts}. The last column names the policies that do
-            not.""")
+        counts = ", ".join(f"{number} for {policy.capitalize()}" for policy, number in count.items())
+        self.say(f"""The number of games that agree, of {len(found["games"])}: {counts}. The last column names the
+            policies that do not agree.""")
         titles = ["Random", "paper", "Const", "action", "paper's Const"]
         titles += ["Perturb", "action of Perturb", "paper's Perturb"]
         self.add(rows_of(["game", *titles, "do not agree"], *rows))
@@ -97,7 +97,7 @@ class Baselines(Part):
 
     def not_again(self, perturb, games):
         if len(perturb) < games:
-            self.say(f"""Perturb, which chose an action for 5 frames before, has been run again in {len(perturb)} of
+            self.say(f"""Perturb, which once chose an action for 5 frames, has been run again in {len(perturb)} of
                 {games} games. The other games have a dash.""")
 
     def disagreements(self, cells):
@@ -109,11 +109,12 @@ class Baselines(Part):
             for policy, settings in self.figures.get(name, {}).get("settings", {}).items()
         }
         counts = ", ".join(f"{number_of[policy]} of {policy.capitalize()}" for policy in number_of)
-        self.say(f"""The cells that do not agree, each with its cause. In brackets: the standard error. A column has
-            the same policy in other episodes, of plans with `seed = 2`: {counts or "none yet"}. The best of 18 means
-            is higher than what its policy scores in the mean. The paper does not print how many episodes it has; the
-            causes take it for {PAPER_EPISODES}. Other episodes of Const begin with 0 to 29 no-ops (`noop_max=30`); the
-            column has the lowest and the highest score.""")
+        self.say(f"""The next table has the scores that do not agree, with their standard errors in brackets, and their
+            causes. "In other episodes" is the score of the same policy in plans with `seed = 2`:
+            {counts or "none yet"}. It corrects a bias: the best of 18 means is usually higher than the expected score
+            of its policy. The paper does not print its number of episodes; the causes assume {PAPER_EPISODES}. The
+            other episodes of Const begin with 0 to 29 no-ops (`noop_max=30`); the column has their lowest and highest
+            score.""")
         rows = []
         for game, policy, agent, score, theirs in cells:
             others, why = self.others(game, policy, agent, theirs)

@@ -77,20 +77,19 @@ class Conditions(Part):
 
     def introduction(self):
         self.add("# Results of the paper's benchmark")
-        self.say("""This document has the scores that racebeam's agents reach, beside those that were published.
-            `scripts/measure/paper_results.py`
-            writes it from figures that `scripts/measure/plan_figures.py` gathered from the results of each plan; no
-            figure is typed by hand. "The paper" is Bellemare et al. 2013. Where it is
-            silent, [paper-notes.md](paper-notes.md) says what racebeam does.""")
+        self.say("""This document compares the scores of racebeam's agents with published ones.
+            `scripts/measure/paper_results.py` writes it from figures that `scripts/measure/plan_figures.py` gathered
+            from the results of each plan; no figure is typed by hand. "The paper" is Bellemare et al. 2013.
+            [paper-notes.md](paper-notes.md) says what racebeam does where the paper is silent.""")
 
     def conditions(self):
         self.add("## Commands, machine, versions")
         self.say("""The plans are part of the program. `scripts/measure/paper_plans FOLDER PLAN` runs a plan, verifies
             its rows, and gathers its figures. Times are
             seconds of processor time, so that other programs hardly change them. Rows, curves and digests of logs of
-            long plans are kept in `docs/results/kept`. With the same command, another machine goes on with a plan
-            where it ended. By worth for their time, the plans to go on with are `learners`, `perturb`, `iw1`, `ram`,
-            `searches` and `blob_prost`.""")
+            long plans are kept in `docs/results/kept`. The same command on another
+            machine continues a plan from there. The plans that are most worth continuing come first in this list:
+            `learners`, `perturb`, `iw1`, `ram`, `searches` and `blob_prost`.""")
         rows = []
         for name in (*PLANS, *(each for each in (PARTIAL, *AGAIN) if each in self.figures)):
             found = self.figures.get(name)
@@ -114,9 +113,8 @@ class Conditions(Part):
 
     def scale(self):
         self.add("## What was scaled down")
-        self.say("""The plan `paper` has the paper's whole benchmark. `racebeam experiment paper --dry-run` prints what
-            it costs. The figures
-            of this document are from smaller plans:""")
+        self.say("""The plan `paper` is the paper's whole benchmark, whose cost `racebeam experiment paper --dry-run`
+            prints. The figures of this document are from smaller plans:""")
         iw1 = sum("iw1" in scores for scores in self.paper.values())
         header, *rows = SCALE
         self.add(rows_of(header, *([cell.format(iw1=iw1) for cell in row] for row in rows)))
@@ -127,22 +125,23 @@ class Conditions(Part):
             "\n".join(
                 item_of_list(text)
                 for text in (
-                    """The emulator: the paper used ALE of 2012. racebeam is bit-exact with ALE 0.12, whose
+                    """The emulator: the paper used the ALE of 2012. racebeam is bit-exact with ALE 0.12, whose
                     emulator and games' rules have changed since.""",
-                    """Starts: each episode begins at power-on with its own seed, and without the human
-                    trajectories and NOOPs that others used. Games that draw nothing from their seed give a
-                    policy without chance the same episode each time.""",
-                    """Rewards: some rules differ. Skiing's rewards were near 0 then, and add up to about -17,000
-                    for random play now. Its row cannot be compared.""",
-                    """Single episodes: searches play one, so that an early death costs all that would follow.""",
-                    """Single trials: a learner's score hangs on the moment at which training ends
+                    """Starts: each episode begins at power-on with its own seed, without the human
+                    trajectories and NOOPs that others used. If a game draws nothing from its seed, a deterministic
+                    policy plays the same episode each time.""",
+                    """Rewards: some rules differ. In Skiing, random play scored near 0 then, and about -17,000 now, so
+                    its row cannot be compared.""",
+                    """Single episodes: searches play one episode, so an early death loses everything that would have
+                    followed.""",
+                    """Single trials: a learner's score depends on the moment at which training ends
                     ([paper-notes.md](paper-notes.md#the-end-of-training)). The paper has the mean of 30 trials.""",
-                    """Steps: Basic in Freeway and Beam Rider, and BASS in Seaquest, score less than in the paper, and
-                    more with a fifth of the step ([paper-notes.md](paper-notes.md#the-end-of-training)). DISCO in
-                    Beam Rider and Freeway, and LSH in Freeway, score more than in the paper. No experiment has told
-                    why.""",
-                    """Exploration: in Ms. Pac-Man, UCT scores far less than in the paper with the printed constant, and
-                    more with a larger one and with new simulations for each decision
+                    """Step sizes: Basic in Freeway and Beam Rider, and BASS in Seaquest, score less than in the paper.
+                    They score more with a fifth of the step size
+                    ([paper-notes.md](paper-notes.md#the-end-of-training)). DISCO in Beam Rider and Freeway, and LSH in
+                    Freeway, score more than in the paper, for unknown reasons.""",
+                    """Exploration: in Ms. Pac-Man, UCT with the printed constant scores far less than in the paper. It
+                    scores more with a larger constant, and with new simulations for each decision
                     ([paper-notes.md](paper-notes.md#ucts-kept-visits)).""",
                     """Choices: the paper leaves much open ([paper-notes.md](paper-notes.md)).""",
                 )
@@ -158,7 +157,7 @@ class Conditions(Part):
         if not rows:
             return
         self.add("## Agents that have changed since")
-        self.say("""These agents did not do what their authors' do when the plans were run
-            ([paper-notes.md](paper-notes.md)). The agents are mended; their figures in this document are still those
-            of before. `racebeam experiment` makes new ones.""")
+        self.say("""When the plans were run, these agents differed from those of their authors
+            ([paper-notes.md](paper-notes.md)). They have been corrected, but this document still has their old figures.
+            `racebeam experiment` computes new ones.""")
         self.add(rows_of(["plan", "agent", "what the agent did"], *rows))

@@ -21,11 +21,10 @@ class Learners(Part):
         agents = [agent for agent in scores if agent in LEARNERS]
         random, trial = scores["random"], found["settings"][agents[0]]
         self.say(f"""{trial["trials"]} trials of {trial["training_frames"] // trial["frame_skip"]:,} decisions and
-            {trial["evaluation_episodes"]} evaluation episodes each. All took {number(found["seconds"] / 7200, 2)}
-            hours of processor time on
-            each of two cores (goal: 1, at most 1.5), the discovery of backgrounds and classes not included. In
-            brackets: the paper's scores, after 5,000 episodes. So much shorter training is not meant to agree with
-            them.""")
+            {trial["evaluation_episodes"]} evaluation episodes each. All together took
+            {number(found["seconds"] / 7200, 2)} hours of processor time on each of two cores (goal: 1, at most 1.5),
+            without the discovery of backgrounds and classes. In brackets are the paper's scores, after 5,000 episodes.
+            They are not expected to agree, because training is so much shorter here.""")
         self.add(
             rows_of(
                 ["game", "Random", *agents],
@@ -47,9 +46,10 @@ class Learners(Part):
         """In how many games each learner is above Random, and its decisions a second."""
         scores, speeds = found["scores"], found["speeds"]
         random, trial = scores["random"], found["settings"][agents[0]]
-        self.say(f"""Games in which the mean of each learner is above that of Random (goal: at least three), and its
-            speed, emulation included. {trial["trials"]} trials are too few to tell such a difference from chance:
-            `racebeam-evaluate` gives the number of games its interval, and tests each game.""")
+        self.say(f"""The next table has the number of games in which the mean of a learner is above that of Random
+            (goal: at least three), and the learner's speed, emulation included. {trial["trials"]} trials are too few
+            to tell such a difference from chance. `racebeam-evaluate` computes an interval for the number of games,
+            and tests each game.""")
         self.add(
             rows_of(
                 ["learner", "games above Random", "decisions a second, mean of the games", "lowest", "highest", "goal"],
@@ -90,9 +90,9 @@ class Learners(Part):
         if not plans:
             return
         self.say("""Training and evaluation are as long as in the paper: 5,000 and 500 episodes. Blob-PROST trains for
-            2,000. A score is the mean over trials of the mean over their episodes. The interval is at 95 %, by
-            Student's t over trials; a single trial lacks it. A score agrees with the published one if the interval has
-            it.""")
+            2,000. A score is the mean over trials of the mean over their episodes. The 95 % interval is by Student's
+            t over trials; a single trial has no interval. A score agrees with the published one if its interval
+            contains it.""")
         rows, curves = [], []
         for game, agent, found in self.trained(plans):
             theirs, score = self.paper[game].get(agent), found["scores"][agent][game]
@@ -103,8 +103,8 @@ class Learners(Part):
             curves.append([game, agent, *(number(part, 0) for part in found["curves"][agent][game])])
         header = ["game", "agent", "trials", "episodes", "score", "95 % interval", "published", "score / published"]
         self.add(rows_of([*header, "agrees"], *rows))
-        self.say("""Mean scores of training episodes, by tenths of the training. Training explores as evaluation
-            does.""")
+        self.say("""The next table has the mean scores of training episodes, by tenths of the training. The agent
+            explores in training as it does in evaluation.""")
         width = max(len(row) for row in curves)
         tenths = [f"{place}" for place in range(1, width - 1)]
         self.add(rows_of(["game", "agent", *tenths], *(row + ["-"] * (width - len(row)) for row in curves)))

@@ -14,12 +14,11 @@ class Logs(Part):
 
     def verification(self):
         self.add("## Verification")
-        self.say("""`racebeam verify` plays each episode again from its log. It confirms score, frames, end and state
-            hashes. That proves
-            that these actions give this score, not which agent chose them ([episodes.md](episodes.md)).
-            `scripts/check/verify-with-ale` plays the same logs in ALE. "Of the bench" is the speed beside that of
-            `racebeam bench --screen none` for the same games, frames and frame skip; the start of the process
-            counts.""")
+        self.say("""`racebeam verify` replays each episode from its log, and confirms score, frames, end and state
+            hashes. That proves that these actions give this score, but not which agent chose them
+            ([episodes.md](episodes.md)). `scripts/check/verify-with-ale` replays the same logs in ALE. "Of the bench"
+            is the speed of the verification, its start included, divided by that of `racebeam bench --screen none`
+            for the same games, frames and frame skip.""")
         rows = [self.verification_row(name, found) for name, found in self.figures.items() if found["verified"]]
         if not rows:
             self.say("Not run yet.")
@@ -29,8 +28,8 @@ class Logs(Part):
             self.say(f"Not verified yet: {', '.join(unverified)}.")
         for name, found in self.figures.items():
             if found["verified"] and (more := found["verified"]["confirmed"] - episodes(found)) > 0:
-                self.say(f"""The figures of {self.title(name)} include {more:,} rows that the tables no longer have: an
-                    agent was mended, and its units were run again.""")
+                self.say(f"""The figures of {self.title(name)} include {more:,} rows that the tables no longer have,
+                    because an agent was corrected and its units were run again.""")
         self.add(rows_of(VERIFICATION, *rows))
         self.bench_speeds()
 

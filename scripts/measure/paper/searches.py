@@ -25,14 +25,13 @@ class Searches(Part):
         plans = [plan for plan in ("uct", "full_tree", "iw1", "searches") if not self.lacks(plan)]
         every = [(self.figures[plan], episode) for plan in plans for episode in self.figures[plan]["searches"]]
         if every:
-            self.say("""One episode each, at the full budget of a decision. The last column compares with
-                `racebeam bench --search --frame-skip 5`.""")
+            self.say("""Each row is one episode, at the full budget of a decision. The last column compares the speed
+                with that of `racebeam bench --search --frame-skip 5`.""")
             self.add(rows_of(SEARCHES, *(self.search_row(*each) for each in every)))
         seconds_of_uct = [seconds_a_decision(episode) for _, episode in every if episode["agent"] == "uct"]
         if seconds_of_uct:
-            self.say(f"""UCT takes {number(statistics.mean(seconds_of_uct), 2)} seconds a decision in the mean (goal:
-            at most 1; the paper's
-                took 15).""")
+            self.say(f"""UCT takes {number(statistics.mean(seconds_of_uct), 2)} seconds a decision on average
+                (goal: at most 1; the paper's took 15).""")
 
     def search_row(self, found, episode):
         """The row of an episode of a plan, with the columns of SEARCHES."""
@@ -56,7 +55,7 @@ class Searches(Part):
         self.add("## UCT: score against simulations")
         if self.lacks(*(name for name in SIMULATIONS.values() if name != "uct")) or "uct" not in self.figures:
             return
-        self.say("Means of the episodes, whose number is in brackets.")
+        self.say("The table has the mean score of the episodes, and their number in brackets.")
         each = {count: self.figures[name] for count, name in SIMULATIONS.items()}
         games = each[10]["games"]
         self.add(
