@@ -106,7 +106,8 @@ void check_cartridge(const CartridgeState& state, const CartridgeSlot& slot) {
   if (!slot.scheme.admits(slot, state))
     throw InvalidInput("invalid state: a cartridge of scheme " + std::string(slot.scheme.name) +
                        " has no such banks or registers");
-  const std::size_t used = slot.scheme.ram > kRamInState ? slot.scheme.registers : slot.scheme.ram;
+  const std::size_t used =
+      slot.scheme.ram_bytes > kRamInState ? slot.scheme.register_bytes : slot.scheme.ram_bytes;
   check_zeros("a byte behind the cartridge's RAM", std::span(state.ram).subspan(used));
 }
 

@@ -52,7 +52,7 @@ Game with_image(Game game, const GameImage& image) {
 // The properties of a game's first image, for another dump of it.
 Properties properties_of_dump(const Game& game, const Image& image) {
   Properties properties = game.images.front().properties;
-  if (!properties.scheme.empty() && image.bytes->size() < scheme_named(properties.scheme).image)
+  if (!properties.scheme.empty() && image.bytes->size() < scheme_named(properties.scheme).least_image)
     properties.scheme = {};
   return properties;
 }

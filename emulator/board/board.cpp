@@ -16,7 +16,9 @@ namespace {
 // Drawing registers with other effects than on the picture, or on other registers.
 constexpr std::uint64_t kSpecialRegisters = register_bit(VBLANK) | register_bit(HMCLR);
 
-std::size_t ram_beside_state(const Scheme& scheme) { return scheme.ram > kRamInState ? scheme.ram : 0; }
+std::size_t ram_beside_state(const Scheme& scheme) {
+  return scheme.ram_bytes > kRamInState ? scheme.ram_bytes : 0;
+}
 
 constexpr std::uint8_t kNop = 0xEA;
 constexpr unsigned kFirstButton = 12;  // INPT4 among the registers that are read
@@ -37,7 +39,7 @@ Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
       rom_(std::move(rom)),
       ports_(properties),
       unwatched_(slot.scheme.watches(Scheme::Watch::kRiot) ? 0 : kRiot) {
-  slot.ram = cartridge_ram.empty() ? std::span(state.cartridge.ram).first(slot.scheme.ram)
+  slot.ram = cartridge_ram.empty() ? std::span(state.cartridge.ram).first(slot.scheme.ram_bytes)
                                    : std::span(cartridge_ram);
   if (slot.scheme.power_on != nullptr) slot.scheme.power_on(slot);
   map_memory();

@@ -29,7 +29,7 @@ struct CartridgeSlot {
   CartridgeState& state = machine.cartridge;
 };
 
-// What happens to a write after the cartridge has seen it.
+// Whether a write ends at the cartridge, or continues to the TIA.
 enum class Delivery : bool { kTaken, kToTia };
 
 // An access of the CPU to the operand of an instruction.
@@ -65,7 +65,8 @@ struct MapperOps {
 };
 
 struct Scheme : MapperOps {
-  // The accesses that a cartridge sees beside those to its own addresses. Each includes those before it.
+  // The accesses that a cartridge sees besides those to its own addresses. Each value includes those before
+  // it.
   enum class Watch : std::uint8_t {
     kNothing,
     kTia,
@@ -74,15 +75,16 @@ struct Scheme : MapperOps {
   };
 
   std::string_view name;
-  unsigned image;    // the least bytes of an image
-  unsigned hotspot;  // Atari's schemes: offset in 4K of the first hot spot, number of banks, initial bank
-  std::uint8_t banks, initial;
-  unsigned ram;     // bytes on the cartridge, or of its registers
-  bool random_ram;  // filled with random bytes at every reset
+  unsigned least_image;       // bytes of the smallest image
+  unsigned first_hot_spot;    // offset in the 4K of the cartridge; 0 if the mapper has constants for its own
+  std::uint8_t banks;         // their number, or that of games; 0 if the mapper does not need it
+  std::uint8_t initial_bank;  // the one that a reset selects; for one of many games, its number from 0
+  unsigned ram_bytes;         // RAM on the cartridge, or registers that are stored in its place
+  bool random_ram;            // every reset fills the RAM with random bytes
   Watch watch = Watch::kNothing;
-  unsigned registers = 0;    // bytes of the state in use where the RAM is beside it
-  unsigned most_image = 0;   // the most bytes of an image; 0: any number, of which the first are used
-  std::uint8_t version = 0;  // of schemes that share their functions
+  unsigned register_bytes = 0;  // registers in CartridgeState::ram, if the RAM itself is too large for that
+  unsigned most_image = 0;      // bytes of the largest image; 0: no limit, and only the first bytes are used
+  std::uint8_t version = 0;     // distinguishes schemes that share their functions
 
   bool watches(Watch accesses) const { return watch >= accesses; }
 };
@@ -100,15 +102,17 @@ inline bool banks_unused(const CartridgeState& state, std::size_t first) {
 // The scheme with that name. Throws InvalidInput, with the implemented names, if it is not implemented.
 const Scheme& scheme_named(std::string_view name);
 
-// The scheme of an image, from its size and signatures, or the one that is requested by name. Throws
-// InvalidInput if no scheme fits, the scheme is not implemented, or the image is too small for it.
-const Scheme& scheme_of(const Rom& rom, std::string_view asked_for = {});
+// The scheme with the requested name; without a name, the one that the size and the signatures of the image
+// indicate. Throws InvalidInput if no scheme fits, the scheme is not implemented, or the image is too small
+// or too large for it.
+const Scheme& scheme_of(const Rom& rom, std::string_view requested = {});
 
-// The name that the size and the signatures give; empty if no scheme fits.
+// The name of the scheme that the size and the signatures indicate; empty if no scheme fits.
 std::string_view scheme_name(const Rom& rom);
 
-// Whether no instruction in the image accesses a hot spot of its scheme, which selects banks of 4K by hot
-// spots at the end of the cartridge. The image is then unlikely to have that scheme. False for other schemes.
+// Whether no instruction in the image accesses a hot spot of the scheme, so that the image is unlikely to
+// have that scheme. Always false for schemes other than those with banks of 4K and a row of hot spots
+// (Scheme::first_hot_spot).
 bool accesses_no_hot_spot(const Rom& rom, const Scheme& scheme);
 
 // The names that can be requested, except for the games after the first of cartridges with many.

@@ -1,4 +1,5 @@
-// The 19 formats of Thumb instructions. A handler executes one; a table finds it by the upper ten bits.
+// The 19 formats of Thumb instructions, numbered as in the ARM7TDMI's data sheet. A handler executes one
+// instruction; a table finds it by the upper ten bits. Operations have the names of ARM's assembler language.
 #include "emulator/cartridge/arm/thumb.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ using Word = std::uint32_t;
 using Code = std::uint32_t;  // an instruction; 16 bits
 
 constexpr Word kHalf = 2;              // bytes of an instruction
-constexpr unsigned kLowRegisters = 8;  // those that most instructions have 3 bits for
+constexpr unsigned kLowRegisters = 8;  // R0 to R7, which most instructions name with 3 bits
 constexpr Code kWithLrOrPc = 0x100;    // PUSH and POP: one more register
 constexpr Word kAllButThumbBit = ~Word{1};
 
@@ -43,125 +44,125 @@ Word& low_register(Core& core, Code code) {
   return core.r[field(code, kBit, 3)];
 }
 
-Word with_flags(Core& core, Word result) {
+Word set_nz(Core& core, Word result) {
   core.n = result >> 31 != 0;
   core.z = result == 0;
   return result;
 }
 
-// The operations. Each sets the flags, and returns the result.
+// The operations. Each sets the flags, and returns the result. add_with_carry() sets all four, the logical
+// ones set N and Z, and shifts set N, Z and C.
 
-Word sum(Core& core, Word a, Word b, Word carry) {
+Word add_with_carry(Core& core, Word a, Word b, Word carry) {
   const std::uint64_t whole = std::uint64_t{a} + b + carry;
   const auto result = static_cast<Word>(whole);
   core.c = whole >> 32 != 0;
   core.v = (~(a ^ b) & (a ^ result)) >> 31 != 0;
-  return with_flags(core, result);
+  return set_nz(core, result);
 }
 
-Word add(Core& core, Word a, Word b) { return sum(core, a, b, 0); }
-Word add_carry(Core& core, Word a, Word b) { return sum(core, a, b, core.c); }
-Word subtract(Core& core, Word a, Word b) { return sum(core, a, ~b, 1); }
-Word subtract_carry(Core& core, Word a, Word b) { return sum(core, a, ~b, core.c); }
-Word negate(Core& core, Word, Word b) { return subtract(core, 0, b); }
-Word multiply(Core& core, Word a, Word b) { return with_flags(core, a * b); }
-Word take(Core& core, Word, Word b) { return with_flags(core, b); }
-Word take_inverted(Core& core, Word, Word b) { return with_flags(core, ~b); }
-Word bits_of_both(Core& core, Word a, Word b) { return with_flags(core, a & b); }
-Word bits_of_either(Core& core, Word a, Word b) { return with_flags(core, a | b); }
-Word bits_of_one(Core& core, Word a, Word b) { return with_flags(core, a ^ b); }
-Word bits_cleared(Core& core, Word a, Word b) { return with_flags(core, a & ~b); }
+Word add(Core& core, Word a, Word b) { return add_with_carry(core, a, b, 0); }
+Word adc(Core& core, Word a, Word b) { return add_with_carry(core, a, b, core.c); }
+Word sub(Core& core, Word a, Word b) { return add_with_carry(core, a, ~b, 1); }
+Word sbc(Core& core, Word a, Word b) { return add_with_carry(core, a, ~b, core.c); }
+Word neg(Core& core, Word, Word b) { return sub(core, 0, b); }
+Word mul(Core& core, Word a, Word b) { return set_nz(core, a * b); }
+Word mov(Core& core, Word, Word b) { return set_nz(core, b); }
+Word mvn(Core& core, Word, Word b) { return set_nz(core, ~b); }
+Word and_(Core& core, Word a, Word b) { return set_nz(core, a & b); }
+Word orr(Core& core, Word a, Word b) { return set_nz(core, a | b); }
+Word eor(Core& core, Word a, Word b) { return set_nz(core, a ^ b); }
+Word bic(Core& core, Word a, Word b) { return set_nz(core, a & ~b); }
 
-// Shifts use the low byte of the second operand. By 0 they leave the carry.
-Word shift_left(Core& core, Word a, Word b) {
+// Shifts use the low byte of the second operand. A shift by 0 does not change C.
+Word lsl(Core& core, Word a, Word b) {
   const unsigned by = b & 0xFF;
   if (by != 0) core.c = by <= 32 && (a >> (32 - by) & 1) != 0;
-  return with_flags(core, by < 32 ? a << by : 0);
+  return set_nz(core, by < 32 ? a << by : 0);
 }
 
-Word shift_right(Core& core, Word a, Word b) {
+Word lsr(Core& core, Word a, Word b) {
   const unsigned by = b & 0xFF;
   if (by != 0) core.c = by <= 32 && (a >> (by - 1) & 1) != 0;
-  return with_flags(core, by < 32 ? a >> by : 0);
+  return set_nz(core, by < 32 ? a >> by : 0);
 }
 
-Word shift_right_signed(Core& core, Word a, Word b) {
+Word asr(Core& core, Word a, Word b) {
   const unsigned by = std::min(b & 0xFF, Word{32});
   const auto whole = std::int64_t{static_cast<std::int32_t>(a)};
   if (by != 0) core.c = (whole >> (by - 1) & 1) != 0;
-  return with_flags(core, static_cast<Word>(whole >> by));
+  return set_nz(core, static_cast<Word>(whole >> by));
 }
 
-Word rotate_right(Core& core, Word a, Word b) {
+Word ror(Core& core, Word a, Word b) {
   const Word result = std::rotr(a, static_cast<int>(b & 31));
   if ((b & 0xFF) != 0) core.c = result >> 31 != 0;
-  return with_flags(core, result);
+  return set_nz(core, result);
 }
 
-// Formats 1 to 4: arithmetic with low registers. kZero is the number of bits that a shift by 0 means.
+// Formats 1 to 4: arithmetic with low registers. kZero: the distance that an immediate 0 of a shift stands
+// for.
 
 template <auto kOperation, unsigned kZero>
-void shift_by_number(Core& core, Code code) {
+void op_shift(Core& core, Code code) {
   const unsigned by = field(code, 6, 5);
   low_register<0>(core, code) = kOperation(core, low_register<3>(core, code), by == 0 ? kZero : by);
 }
 
 template <auto kOperation>
-void with_third_register(Core& core, Code code) {
+void op_registers(Core& core, Code code) {
   low_register<0>(core, code) = kOperation(core, low_register<3>(core, code), low_register<6>(core, code));
 }
 
 template <auto kOperation>
-void with_small_number(Core& core, Code code) {
+void op_immediate_3(Core& core, Code code) {
   low_register<0>(core, code) = kOperation(core, low_register<3>(core, code), field(code, 6, 3));
 }
 
 template <auto kOperation>
-void with_number(Core& core, Code code) {
+void op_immediate_8(Core& core, Code code) {
   Word& target = low_register<8>(core, code);
   target = kOperation(core, target, field(code, 0, 8));
 }
 
-void compare_with_number(Core& core, Code code) {
-  subtract(core, low_register<8>(core, code), field(code, 0, 8));
-}
+void compare_immediate(Core& core, Code code) { sub(core, low_register<8>(core, code), field(code, 0, 8)); }
 
 template <auto kOperation>
-void with_register(Core& core, Code code) {
+void op_register(Core& core, Code code) {
   Word& target = low_register<0>(core, code);
   target = kOperation(core, target, low_register<3>(core, code));
 }
 
 template <auto kOperation>
-void only_flags(Core& core, Code code) {
+void op_flags(Core& core, Code code) {
   kOperation(core, low_register<0>(core, code), low_register<3>(core, code));
 }
 
-// Format 5: any register, without flags.
+// Format 5: high and low registers. Only CMP sets flags.
 
-Word any_source(const Core& core, Code code) { return core.r[field(code, 3, 4)]; }
-unsigned any_target(Code code) { return field(code, 0, 3) | field(code, 7, 1) << 3; }
+Word high_source(const Core& core, Code code) { return core.r[field(code, 3, 4)]; }
+unsigned high_target(Code code) { return field(code, 0, 3) | field(code, 7, 1) << 3; }
 
-void put(Core& core, unsigned target, Word value) {
+void set_register(Core& core, unsigned target, Word value) {
   if (target == kPc)
     core.jump(value);
   else
     core.r[target] = value;
 }
 
-void add_any(Core& core, Code code) {
-  put(core, any_target(code), core.r[any_target(code)] + any_source(core, code));
+void add_high(Core& core, Code code) {
+  set_register(core, high_target(code), core.r[high_target(code)] + high_source(core, code));
 }
-void compare_any(Core& core, Code code) { subtract(core, core.r[any_target(code)], any_source(core, code)); }
-void move_any(Core& core, Code code) { put(core, any_target(code), any_source(core, code)); }
+void compare_high(Core& core, Code code) { sub(core, core.r[high_target(code)], high_source(core, code)); }
+void move_high(Core& core, Code code) { set_register(core, high_target(code), high_source(core, code)); }
 
 void branch_exchange(Core& core, Code code) {
-  const Word address = any_source(core, code);
+  const Word address = high_source(core, code);
   if ((address & 1) == 0) core.end(Ending::kReturned);
   core.jump(address);
 }
 
-// Formats 6 to 11: one number of memory.
+// Formats 6 to 11: loads and stores of one number.
 
 Word load_word(const Core& core, Word address) {
   return std::rotr(core.memory.load<Word>(address), static_cast<int>(address % 4 * 8));
@@ -177,17 +178,17 @@ void store(const Core& core, Word address, Word value) {
   core.memory.store(address, static_cast<Number>(value));
 }
 
-Word indexed_place(Core& core, Code code) {
+Word register_offset(Core& core, Code code) {
   return low_register<3>(core, code) + low_register<6>(core, code);
 }
 
 template <unsigned kSize>
-Word near_place(Core& core, Code code) {
+Word immediate_offset(Core& core, Code code) {
   return low_register<3>(core, code) + field(code, 6, 5) * kSize;
 }
 
-Word stack_place(Core& core, Code code) { return core.r[kSp] + field(code, 0, 8) * 4; }
-Word code_place(Core& core, Code code) { return (core.r[kPc] & ~Word{3}) + field(code, 0, 8) * 4; }
+Word sp_relative(Core& core, Code code) { return core.r[kSp] + field(code, 0, 8) * 4; }
+Word pc_relative(Core& core, Code code) { return (core.r[kPc] & ~Word{3}) + field(code, 0, 8) * 4; }
 
 template <auto kLoad, auto kPlace, unsigned kTarget = 0>
 void load_from(Core& core, Code code) {
@@ -199,22 +200,22 @@ void store_to(Core& core, Code code) {
   kStore(core, kPlace(core, code), low_register<kSource>(core, code));
 }
 
-// Formats 12 and 13: addresses.
+// Formats 12 and 13: addresses in the code or on the stack.
 
 template <auto kPlace>
-void take_address(Core& core, Code code) {
+void load_address(Core& core, Code code) {
   low_register<8>(core, code) = kPlace(core, code);
 }
 
-void move_stack(Core& core, Code code) {
+void adjust_sp(Core& core, Code code) {
   const Word distance = field(code, 0, 7) * 4;
   core.r[kSp] += field(code, 7, 1) != 0 ? Word{0} - distance : distance;
 }
 
-// Formats 14 and 15: several registers, the lowest one at the lowest address. Each takes as long as an
-// instruction.
+// Formats 14 and 15: several registers, the lowest one at the lowest address. Each register counts as an
+// instruction (run()).
 
-Word store_listed(Core& core, Code list, Word address) {
+Word store_list(Core& core, Code list, Word address) {
   core.spend(std::popcount(list & 0xFF));
   for (unsigned number = 0; number < kLowRegisters; ++number) {
     if (field(list, number, 1) == 0) continue;
@@ -224,7 +225,7 @@ Word store_listed(Core& core, Code list, Word address) {
   return address;
 }
 
-Word load_listed(Core& core, Code list, Word address) {
+Word load_list(Core& core, Code list, Word address) {
   core.spend(std::popcount(list & 0xFF));
   for (unsigned number = 0; number < kLowRegisters; ++number) {
     if (field(list, number, 1) == 0) continue;
@@ -238,14 +239,14 @@ void push(Core& core, Code code) {
   const Code list = field(code, 0, 9);
   if (list == 0) return core.end(Ending::kFault);
   core.r[kSp] -= static_cast<Word>(std::popcount(list)) * 4;
-  const Word end = store_listed(core, list, core.r[kSp]);
+  const Word end = store_list(core, list, core.r[kSp]);
   if ((list & kWithLrOrPc) != 0) core.memory.store(end, core.r[kLr]);
 }
 
 void pop(Core& core, Code code) {
   const Code list = field(code, 0, 9);
   if (list == 0) return core.end(Ending::kFault);
-  Word end = load_listed(core, list, core.r[kSp]);
+  Word end = load_list(core, list, core.r[kSp]);
   if ((list & kWithLrOrPc) != 0) {
     core.jump(core.memory.load<Word>(end));
     end += 4;
@@ -256,14 +257,14 @@ void pop(Core& core, Code code) {
 void store_multiple(Core& core, Code code) {
   if (field(code, 0, 8) == 0) return core.end(Ending::kFault);
   Word& base = low_register<8>(core, code);
-  base = store_listed(core, code, base);
+  base = store_list(core, code, base);
 }
 
-// A base that is in the list keeps what was loaded.
+// If the base is in the list, it keeps the loaded value.
 void load_multiple(Core& core, Code code) {
   if (field(code, 0, 8) == 0) return core.end(Ending::kFault);
   Word& base = low_register<8>(core, code);
-  const Word end = load_listed(core, code, base);
+  const Word end = load_list(core, code, base);
   if (field(code, field(code, 8, 3), 1) == 0) base = end;
 }
 
@@ -290,10 +291,10 @@ void branch_if(Core& core, Code code) {
 
 void branch(Core& core, Code code) { core.jump(core.r[kPc] + signed_field(code, 11) * kHalf); }
 
-// BL has two instructions. The first one leaves the upper part of the target in LR.
-void begin_call(Core& core, Code code) { core.r[kLr] = core.r[kPc] + (signed_field(code, 11) << 12); }
+// BL consists of two instructions. The first one leaves the upper part of the target in LR.
+void bl_prefix(Core& core, Code code) { core.r[kLr] = core.r[kPc] + (signed_field(code, 11) << 12); }
 
-void end_call(Core& core, Code code) {
+void bl_suffix(Core& core, Code code) {
   const Word target = core.r[kLr] + field(code, 0, 11) * kHalf;
   core.r[kLr] = (core.r[kPc] - kHalf) | 1;
   core.jump(target);
@@ -303,7 +304,7 @@ void undefined(Core& core, Code) { core.end(Ending::kFault); }
 
 using Handler = void (*)(Core&, Code);
 
-// The instructions whose upper bits, those of `mask`, are `bits`. The first row that fits counts.
+// An instruction has the format of the first row in which its bits in `mask` are `bits`.
 struct Format {
   Code mask, bits;
   Handler handler;
@@ -311,71 +312,71 @@ struct Format {
 
 // clang-format off
 constexpr Format kFormats[] = {
-    {0xF800, 0x0000, shift_by_number<shift_left, 0>},            // 1
-    {0xF800, 0x0800, shift_by_number<shift_right, 32>},
-    {0xF800, 0x1000, shift_by_number<shift_right_signed, 32>},
-    {0xFE00, 0x1800, with_third_register<add>},                  // 2
-    {0xFE00, 0x1A00, with_third_register<subtract>},
-    {0xFE00, 0x1C00, with_small_number<add>},
-    {0xFE00, 0x1E00, with_small_number<subtract>},
-    {0xF800, 0x2000, with_number<take>},                         // 3
-    {0xF800, 0x2800, compare_with_number},
-    {0xF800, 0x3000, with_number<add>},
-    {0xF800, 0x3800, with_number<subtract>},
-    {0xFFC0, 0x4000, with_register<bits_of_both>},               // 4: AND
-    {0xFFC0, 0x4040, with_register<bits_of_one>},                // EOR
-    {0xFFC0, 0x4080, with_register<shift_left>},                 // LSL
-    {0xFFC0, 0x40C0, with_register<shift_right>},                // LSR
-    {0xFFC0, 0x4100, with_register<shift_right_signed>},         // ASR
-    {0xFFC0, 0x4140, with_register<add_carry>},                  // ADC
-    {0xFFC0, 0x4180, with_register<subtract_carry>},             // SBC
-    {0xFFC0, 0x41C0, with_register<rotate_right>},               // ROR
-    {0xFFC0, 0x4200, only_flags<bits_of_both>},                  // TST
-    {0xFFC0, 0x4240, with_register<negate>},                     // NEG
-    {0xFFC0, 0x4280, only_flags<subtract>},                      // CMP
-    {0xFFC0, 0x42C0, only_flags<add>},                           // CMN
-    {0xFFC0, 0x4300, with_register<bits_of_either>},             // ORR
-    {0xFFC0, 0x4340, with_register<multiply>},                   // MUL
-    {0xFFC0, 0x4380, with_register<bits_cleared>},               // BIC
-    {0xFFC0, 0x43C0, with_register<take_inverted>},              // MVN
-    {0xFF00, 0x4400, add_any},                                   // 5
-    {0xFF00, 0x4500, compare_any},
-    {0xFF00, 0x4600, move_any},
-    {0xFF80, 0x4700, branch_exchange},
-    {0xF800, 0x4800, load_from<load_word, code_place, 8>},       // 6
-    {0xFE00, 0x5000, store_to<store<std::uint32_t>, indexed_place>},  // 7 and 8
-    {0xFE00, 0x5200, store_to<store<std::uint16_t>, indexed_place>},
-    {0xFE00, 0x5400, store_to<store<std::uint8_t>, indexed_place>},
-    {0xFE00, 0x5600, load_from<load<std::int8_t>, indexed_place>},
-    {0xFE00, 0x5800, load_from<load_word, indexed_place>},
-    {0xFE00, 0x5A00, load_from<load<std::uint16_t>, indexed_place>},
-    {0xFE00, 0x5C00, load_from<load<std::uint8_t>, indexed_place>},
-    {0xFE00, 0x5E00, load_from<load<std::int16_t>, indexed_place>},
-    {0xF800, 0x6000, store_to<store<std::uint32_t>, near_place<4>>},  // 9
-    {0xF800, 0x6800, load_from<load_word, near_place<4>>},
-    {0xF800, 0x7000, store_to<store<std::uint8_t>, near_place<1>>},
-    {0xF800, 0x7800, load_from<load<std::uint8_t>, near_place<1>>},
-    {0xF800, 0x8000, store_to<store<std::uint16_t>, near_place<2>>},  // 10
-    {0xF800, 0x8800, load_from<load<std::uint16_t>, near_place<2>>},
-    {0xF800, 0x9000, store_to<store<std::uint32_t>, stack_place, 8>},  // 11
-    {0xF800, 0x9800, load_from<load_word, stack_place, 8>},
-    {0xF800, 0xA000, take_address<code_place>},                  // 12
-    {0xF800, 0xA800, take_address<stack_place>},
-    {0xFF00, 0xB000, move_stack},                                // 13
-    {0xFE00, 0xB400, push},                                      // 14
-    {0xFE00, 0xBC00, pop},
-    {0xF800, 0xC000, store_multiple},                            // 15
-    {0xF800, 0xC800, load_multiple},
-    {0xFE00, 0xDE00, undefined},                                 // 17: SWI, and the condition before it
-    {0xF000, 0xD000, branch_if},                                 // 16
-    {0xF800, 0xE000, branch},                                    // 18
-    {0xF800, 0xF000, begin_call},                                // 19
-    {0xF800, 0xF800, end_call},
+    {0xF800, 0x0000, op_shift<lsl, 0>},                                     // 1: LSL
+    {0xF800, 0x0800, op_shift<lsr, 32>},                                    // LSR
+    {0xF800, 0x1000, op_shift<asr, 32>},                                    // ASR
+    {0xFE00, 0x1800, op_registers<add>},                                    // 2: ADD
+    {0xFE00, 0x1A00, op_registers<sub>},                                    // SUB
+    {0xFE00, 0x1C00, op_immediate_3<add>},                                  // ADD
+    {0xFE00, 0x1E00, op_immediate_3<sub>},                                  // SUB
+    {0xF800, 0x2000, op_immediate_8<mov>},                                  // 3: MOV
+    {0xF800, 0x2800, compare_immediate},                                    // CMP
+    {0xF800, 0x3000, op_immediate_8<add>},                                  // ADD
+    {0xF800, 0x3800, op_immediate_8<sub>},                                  // SUB
+    {0xFFC0, 0x4000, op_register<and_>},                                    // 4: AND
+    {0xFFC0, 0x4040, op_register<eor>},                                     // EOR
+    {0xFFC0, 0x4080, op_register<lsl>},                                     // LSL
+    {0xFFC0, 0x40C0, op_register<lsr>},                                     // LSR
+    {0xFFC0, 0x4100, op_register<asr>},                                     // ASR
+    {0xFFC0, 0x4140, op_register<adc>},                                     // ADC
+    {0xFFC0, 0x4180, op_register<sbc>},                                     // SBC
+    {0xFFC0, 0x41C0, op_register<ror>},                                     // ROR
+    {0xFFC0, 0x4200, op_flags<and_>},                                       // TST
+    {0xFFC0, 0x4240, op_register<neg>},                                     // NEG
+    {0xFFC0, 0x4280, op_flags<sub>},                                        // CMP
+    {0xFFC0, 0x42C0, op_flags<add>},                                        // CMN
+    {0xFFC0, 0x4300, op_register<orr>},                                     // ORR
+    {0xFFC0, 0x4340, op_register<mul>},                                     // MUL
+    {0xFFC0, 0x4380, op_register<bic>},                                     // BIC
+    {0xFFC0, 0x43C0, op_register<mvn>},                                     // MVN
+    {0xFF00, 0x4400, add_high},                                             // 5: ADD
+    {0xFF00, 0x4500, compare_high},                                         // CMP
+    {0xFF00, 0x4600, move_high},                                            // MOV
+    {0xFF80, 0x4700, branch_exchange},                                      // BX
+    {0xF800, 0x4800, load_from<load_word, pc_relative, 8>},                 // 6: LDR
+    {0xFE00, 0x5000, store_to<store<std::uint32_t>, register_offset>},      // 7: STR
+    {0xFE00, 0x5200, store_to<store<std::uint16_t>, register_offset>},      // 8: STRH
+    {0xFE00, 0x5400, store_to<store<std::uint8_t>, register_offset>},       // 7: STRB
+    {0xFE00, 0x5600, load_from<load<std::int8_t>, register_offset>},        // 8: LDRSB
+    {0xFE00, 0x5800, load_from<load_word, register_offset>},                // 7: LDR
+    {0xFE00, 0x5A00, load_from<load<std::uint16_t>, register_offset>},      // 8: LDRH
+    {0xFE00, 0x5C00, load_from<load<std::uint8_t>, register_offset>},       // 7: LDRB
+    {0xFE00, 0x5E00, load_from<load<std::int16_t>, register_offset>},       // 8: LDRSH
+    {0xF800, 0x6000, store_to<store<std::uint32_t>, immediate_offset<4>>},  // 9: STR
+    {0xF800, 0x6800, load_from<load_word, immediate_offset<4>>},            // LDR
+    {0xF800, 0x7000, store_to<store<std::uint8_t>, immediate_offset<1>>},   // STRB
+    {0xF800, 0x7800, load_from<load<std::uint8_t>, immediate_offset<1>>},   // LDRB
+    {0xF800, 0x8000, store_to<store<std::uint16_t>, immediate_offset<2>>},  // 10: STRH
+    {0xF800, 0x8800, load_from<load<std::uint16_t>, immediate_offset<2>>},  // LDRH
+    {0xF800, 0x9000, store_to<store<std::uint32_t>, sp_relative, 8>},       // 11: STR
+    {0xF800, 0x9800, load_from<load_word, sp_relative, 8>},                 // LDR
+    {0xF800, 0xA000, load_address<pc_relative>},                            // 12: ADD
+    {0xF800, 0xA800, load_address<sp_relative>},                            // ADD
+    {0xFF00, 0xB000, adjust_sp},                                            // 13: ADD
+    {0xFE00, 0xB400, push},                                                 // 14: PUSH
+    {0xFE00, 0xBC00, pop},                                                  // POP
+    {0xF800, 0xC000, store_multiple},                                       // 15: STMIA
+    {0xF800, 0xC800, load_multiple},                                        // LDMIA
+    {0xFE00, 0xDE00, undefined},                                            // 17: SWI, and an undefined condition
+    {0xF000, 0xD000, branch_if},                                            // 16: Bcc
+    {0xF800, 0xE000, branch},                                               // 18: B
+    {0xF800, 0xF000, bl_prefix},                                            // 19: BL, first half
+    {0xF800, 0xF800, bl_suffix},                                            // BL, second half
     {0x0000, 0x0000, undefined},
 };
 // clang-format on
 
-constexpr unsigned kUnusedBits = 6;  // no mask has one of the lower bits
+constexpr unsigned kUnusedBits = 6;  // all masks are 0 in these lower bits
 
 constexpr auto kHandlers = [] {
   std::array<Handler, (0x10000 >> kUnusedBits)> handlers{};

@@ -171,10 +171,11 @@ AbsoluteAccess absolute_access(std::uint8_t opcode) {
 
 bool accesses_no_hot_spot(const Rom& rom, const Scheme& scheme) {
   constexpr unsigned kCartridge = 0x1000, kDecoded = 0x1FFF;
-  if (scheme.hotspot == 0 || scheme.banks < 2) return false;
+  if (scheme.first_hot_spot == 0 || scheme.banks < 2) return false;
   for (std::size_t i = 0; i + 2 < rom.size(); ++i) {
     const AbsoluteAccess access = absolute_access(rom[i]);
-    const unsigned address = (rom[i + 1] | rom[i + 2] * 256U) & kDecoded, first = kCartridge + scheme.hotspot;
+    const unsigned address = (rom[i + 1] | rom[i + 2] * 256U) & kDecoded,
+                   first = kCartridge + scheme.first_hot_spot;
     const bool is_near = address + (access.is_indexed ? 1U : 0U) >= first && address < first + scheme.banks;
     if (access.is_one && is_near) return false;
   }

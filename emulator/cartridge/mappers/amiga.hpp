@@ -31,7 +31,8 @@ inline void touch(CartridgeSlot& slot, std::uint16_t address) {
 
 constexpr auto read = atari::read_after<touch>;
 
-// A high part that no bank has is the whole number.
+// A value written to kHigh is the upper part of the bank's number. If the image has no such bank, the value
+// replaces the whole number.
 inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
   const unsigned offset = address & 0xFFF;
   unsigned next = slot.state.bank[kNext];

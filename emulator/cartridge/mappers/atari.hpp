@@ -36,7 +36,7 @@ inline void reset_game(CartridgeSlot& slot) { slot.state.bank = {}; }
 
 // The scheme's initial bank, unless only others have vectors.
 inline unsigned start_bank(const CartridgeSlot& slot) {
-  const unsigned banks = slot.scheme.banks, initial = slot.scheme.initial;
+  const unsigned banks = slot.scheme.banks, initial = slot.scheme.initial_bank;
   for (unsigned turn = 0; banks > 1 && turn < banks; ++turn) {
     const unsigned number = (initial + turn) % banks;
     if (has_vectors(slot, number)) return number;
@@ -47,30 +47,30 @@ inline unsigned start_bank(const CartridgeSlot& slot) {
 inline void reset(CartridgeSlot& slot) { slot.state.bank[0] = static_cast<std::uint8_t>(start_bank(slot)); }
 
 inline void map_plain(CartridgeSlot& slot) {
-  const unsigned size = slot.scheme.image;  // 2K shows twice
+  const unsigned size = slot.scheme.least_image;  // 2K is visible twice
   for (unsigned offset = 0; offset < kBankSize; offset += size) slot.map.show(offset, slot.rom.data(), size);
-  slot.map.show(slot.scheme.ram, slot.ram.data(), slot.scheme.ram);
+  slot.map.show(slot.scheme.ram_bytes, slot.ram.data(), slot.scheme.ram_bytes);
 }
 
-// One of many games. One of 2K shows twice.
+// Maps one game of a cartridge with many. A game of 2K is visible twice.
 constexpr unsigned kLeastGame = 2048, kMostGame = 4096;
 
 inline void map_game(CartridgeSlot& slot) {
   const unsigned size = slot.rom.size() < kMostGame * slot.scheme.banks ? kLeastGame : kMostGame;
-  const std::uint8_t* const game = slot.rom.data() + size * slot.scheme.initial;
+  const std::uint8_t* const game = slot.rom.data() + size * slot.scheme.initial_bank;
   for (unsigned offset = 0; offset < kBankSize; offset += size) slot.map.show(offset, game, size);
 }
 
 // The hot spots are in one page. Where that is not the last page, they begin with it.
 inline void map(CartridgeSlot& slot) {
-  const unsigned quiet = slot.scheme.hotspot % MemoryMap::kPageSize;
+  const unsigned quiet = slot.scheme.first_hot_spot % MemoryMap::kPageSize;
   slot.map.show(0, bank(slot), kBankSize);
-  slot.map.show(slot.scheme.ram, slot.ram.data(), slot.scheme.ram);
-  slot.map.hide(slot.scheme.hotspot - quiet, MemoryMap::kPageSize, quiet);
+  slot.map.show(slot.scheme.ram_bytes, slot.ram.data(), slot.scheme.ram_bytes);
+  slot.map.hide(slot.scheme.first_hot_spot - quiet, MemoryMap::kPageSize, quiet);
 }
 
 inline void touch(CartridgeSlot& slot, std::uint16_t address) {
-  const unsigned selected = (address & 0xFFFU) - slot.scheme.hotspot;
+  const unsigned selected = (address & 0xFFFU) - slot.scheme.first_hot_spot;
   if (selected >= slot.scheme.banks || selected == slot.state.bank[0]) return;
   slot.state.bank[0] = static_cast<std::uint8_t>(selected);
   map(slot);
@@ -97,7 +97,7 @@ constexpr auto read = read_after<touch>;
 
 inline Delivery write_ram(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
   const unsigned offset = address & 0xFFF;
-  if (offset < slot.scheme.ram) slot.ram[offset] = value;
+  if (offset < slot.scheme.ram_bytes) slot.ram[offset] = value;
   return Delivery::kTaken;
 }
 

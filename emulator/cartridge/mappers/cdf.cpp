@@ -140,7 +140,7 @@ std::uint8_t target(CartridgeSlot& slot, std::uint16_t address, std::uint8_t val
   return read_jump(slot, chip.jump);
 }
 
-// `value` was read at `address`. Returns what the CPU gets.
+// Fast fetch: `value` was read at `address`. Returns the byte that the CPU gets instead.
 std::uint8_t follow(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value, std::int32_t cycle) {
   Chip& chip = chip_of(slot);
   if (!chip.follower.continues(address, value, bank(slot)[(address - 2U) % kBankSize])) {
@@ -153,7 +153,8 @@ std::uint8_t follow(CartridgeSlot& slot, std::uint16_t address, std::uint8_t val
 
 // Calls of the ARM.
 
-// What the driver leaves, and in CDF and CDFJ two instructions of ARM code at $800.
+// The registers at the start of a call: as the driver leaves them and, in CDF and CDFJ, as two instructions
+// of ARM code at $800 then change them.
 arm::Registers at_call(const CartridgeSlot& slot) {
   constexpr std::uint32_t kFlash = 0x3FFFC000, kNoThumb = ~std::uint32_t{1};
   arm::Registers registers;
@@ -174,7 +175,8 @@ arm::Registers at_call(const CartridgeSlot& slot) {
   return registers;
 }
 
-// The driver's functions are ARM code. Their arguments are in R2 and R3. They leave R4 as they find LR.
+// Does the work of the driver's functions, which are ARM code. Their arguments are in R2 and R3, and they
+// return with LR in R4. Returns false if PC is not at such a function.
 bool call_driver(CartridgeSlot& slot, arm::Registers& registers) {
   const std::uint32_t place = registers.r[arm::kPc] - variant_of(slot).functions;
   if (place >= 4 * kFunctions || place % 4 != 0) return false;
@@ -244,15 +246,15 @@ void write_register(CartridgeSlot& slot, unsigned number, std::uint8_t value) {
 void select(CartridgeSlot& slot, std::uint16_t address) {
   const unsigned spot = address & 0xFFFU;
   if (spot < kFirstSpot || spot > kFirstSpot + kBanks) return;
-  const unsigned selected = (spot + kBanks - slot.scheme.hotspot) % kBanks;
+  const unsigned selected = (spot + kBanks - slot.scheme.first_hot_spot) % kBanks;
   if (selected == slot.state.bank[kShown]) return;
   slot.state.bank[kShown] = static_cast<std::uint8_t>(selected);
   map(slot);
 }
 
-// The program's choices are in instructions of the driver: CMP R2, with an opcode of the 6507, and SUB R2,
-// with the number of the first stream.
-void find_choices(const CartridgeSlot& slot, Chip& chip) {
+// Reads the options that the driver was assembled with from two of its instructions: CMP R2 with an opcode of
+// the 6507, and SUB R2 with the number of the first stream.
+void find_options(const CartridgeSlot& slot, Chip& chip) {
   const auto begin = slot.rom.begin(), end = begin + kDriver;
   const auto has = [&](std::uint8_t opcode) {
     const std::uint8_t compares[] = {opcode, 0x00, 0x52, 0x13};
@@ -265,10 +267,10 @@ void find_choices(const CartridgeSlot& slot, Chip& chip) {
   chip.loads = static_cast<std::uint8_t>((has(kLoadX) ? kLoadsX : 0) | (has(kLoadY) ? kLoadsY : 0));
 }
 
-bool can_be(const Chip& chip) {
+bool is_valid(const Chip& chip) {
   const auto is_size = [](std::uint8_t size) { return size >= kLeastWave && size <= kMostWave; };
   const bool can_jump = chip.jump == 0 || chip.jump == kFirstJump || chip.jump == kFirstJump + 1;
-  return chip.clock.can_be() && chip.follower.can_be() && std::ranges::all_of(chip.wave, is_size) &&
+  return chip.clock.is_valid() && chip.follower.is_valid() && std::ranges::all_of(chip.wave, is_size) &&
          chip.plays_waves <= 1 && can_jump && chip.stopped <= 1 && chip.loads <= (kLoadsX | kLoadsY) &&
          chip.first_stream <= kMostFirstStream;
 }
@@ -278,11 +280,11 @@ bool can_be(const Chip& chip) {
 void reset(CartridgeSlot& slot) {
   Chip& chip = chip_of(slot) = Chip{};
   chip.wave.fill(kWaveOf32);
-  if (variant_of(slot).is_plus) find_choices(slot, chip);
-  slot.state.bank = {slot.scheme.initial};
+  if (variant_of(slot).is_plus) find_options(slot, chip);
+  slot.state.bank = {slot.scheme.initial_bank};
   const auto end = std::copy_n(slot.rom.begin(), kDriver, slot.ram.begin());
   std::fill(end, slot.ram.end(), std::uint8_t{0});
-  slot.machine.riot.ram.fill(0);  // the driver has cleared it, and found no 7800
+  slot.machine.riot.ram.fill(0);  // as the driver leaves it on a 2600
 }
 
 void map(CartridgeSlot& slot) {
@@ -295,7 +297,7 @@ void map(CartridgeSlot& slot) {
 bool admits(const CartridgeSlot&, const CartridgeState& state) {
   Chip chip;
   std::memcpy(&chip, state.ram.data(), sizeof chip);
-  return harmony::can_be(state, kBanks) && can_be(chip);
+  return harmony::is_valid(state, kBanks) && is_valid(chip);
 }
 
 std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycle) {

@@ -2,8 +2,8 @@
 // RAM, jumps through one or two of them, three voices or a sample, and an ARM, whose Thumb code the program
 // calls (docs/spec/cartridges.md, 15).
 //
-// While "fast fetch" is on, the cartridge follows each instruction. All its pages are then hidden, and while
-// a call of the ARM waits, too. In between, code is plain memory, as in other schemes.
+// While "fast fetch" is on, the cartridge follows each instruction. All its pages are then hidden, as they
+// are while a call of the ARM is pending. At other times code is plain memory, as in other schemes.
 #pragma once
 
 #include <array>
@@ -26,12 +26,12 @@ constexpr std::uint8_t kLeastWave = 20, kMostWave = 31;               // sizes
 struct Chip {
   harmony::Clock clock;
   harmony::Follower follower;
-  std::array<std::uint8_t, 3> wave;  // the bits of a phase after the byte of the wave
-  std::uint8_t plays_waves;          // else a sample
-  std::uint8_t jump;                 // the stream with the second byte of a jump's address; 0: none
-  std::uint8_t stopped;              // the ARM stands still
+  std::array<std::uint8_t, 3> wave;  // by voice: how many low bits of the phase are a fraction of a byte
+  std::uint8_t plays_waves;          // 1: three voices; 0: a sample
+  std::uint8_t jump;                 // the stream that gives the second byte of a jump's address; 0: none
+  std::uint8_t stopped;              // 1: a call did not return, and the ARM executes no more
   std::uint8_t loads;                // kLoadsX, kLoadsY: LDX # and LDY # read streams, too
-  std::uint8_t first_stream;         // its number
+  std::uint8_t first_stream;         // the operand of LDA # that reads stream 0
 };
 constexpr std::uint8_t kLoadsX = 1, kLoadsY = 2, kMostFirstStream = 220;
 static_assert(sizeof(Chip) <= kRamInState && std::has_unique_object_representations_v<Chip>);

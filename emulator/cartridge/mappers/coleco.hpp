@@ -7,7 +7,7 @@
 namespace racebeam::coleco {
 
 inline void touch(CartridgeSlot& slot, std::uint16_t address) {
-  if ((address & 0xFF6U) != slot.scheme.hotspot) return;
+  if ((address & 0xFF6U) != slot.scheme.first_hot_spot) return;
   slot.state.bank[0] = static_cast<std::uint8_t>((address >> 2 & 2) + (address & 1));
   atari::map(slot);
 }
@@ -19,7 +19,7 @@ inline void read_only(CartridgeSlot&, std::uint16_t) {}
 constexpr auto read_wf8 = atari::read_after<read_only>;
 
 inline Delivery write_wf8(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
-  if ((address & 0xFFFU) == slot.scheme.hotspot) {
+  if ((address & 0xFFFU) == slot.scheme.first_hot_spot) {
     slot.state.bank[0] = value >> 2 & 1;
     atari::map(slot);
   }

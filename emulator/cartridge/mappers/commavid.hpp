@@ -15,7 +15,7 @@ inline void reset_empty(CartridgeSlot&) {}
 inline void reset_filled(CartridgeSlot& slot) { std::copy_n(slot.rom.begin(), kRamSize, slot.ram.begin()); }
 
 inline void map(CartridgeSlot& slot) {
-  const std::uint8_t* rom = slot.rom.data() + slot.scheme.image - kRomSize;
+  const std::uint8_t* rom = slot.rom.data() + slot.scheme.least_image - kRomSize;
   slot.map.show(0, slot.ram.data(), kRamSize);
   slot.map.show(kRamSize, rom + kRamSize, kRamSize);
   slot.map.show(2 * kRamSize, rom, kRomSize);

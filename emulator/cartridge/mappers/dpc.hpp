@@ -34,7 +34,7 @@ struct Fetcher {
 
 // Stored and used in the bytes of the state in which other schemes have RAM.
 struct Chip {
-  [[gnu::packed]] double fraction;  // of a music clock, not yet counted
+  [[gnu::packed]] double fraction;  // of a music clock that has not ended
   std::array<Fetcher, kFetchers> fetcher;
   std::uint8_t random, spare[7];
 };
@@ -63,7 +63,7 @@ inline void map(CartridgeSlot& slot) {
 }
 
 inline void touch(CartridgeSlot& slot, std::uint16_t address) {
-  const unsigned selected = (address & 0xFFFU) - slot.scheme.hotspot;
+  const unsigned selected = (address & 0xFFFU) - slot.scheme.first_hot_spot;
   if (selected >= slot.scheme.banks) return;
   slot.state.bank[0] = static_cast<std::uint8_t>(selected);
   map(slot);
@@ -78,7 +78,8 @@ constexpr std::array<std::uint8_t, 256> kNextRandom = [] {
 
 inline void clock_random(Chip& chip) { chip.random = kNextRandom[chip.random]; }
 
-// All bits or none. Flags are set without branches: these would depend on the notes, and be predicted badly.
+// All bits set if the condition holds, otherwise none. Flags are computed without branches, which would
+// depend on the music and be predicted badly.
 constexpr unsigned mask_of(bool condition) { return 0U - static_cast<unsigned>(condition); }
 
 // A music fetcher wraps from 0 to its top. Its output is high from the top down to the bottom.
@@ -129,7 +130,7 @@ inline std::uint8_t amplitude(const Chip& chip) {
   return kLevels[voices];
 }
 
-// What each of the eight functions of a fetcher reads.
+// The functions of a fetcher: what a read at function (address >> 3 & 7) gives. The others give 0.
 enum Function : unsigned { kRandomOrSound, kDisplayed, kMasked, kFlag = 7 };
 
 template <unsigned kFunction>
@@ -212,8 +213,8 @@ inline bool admits(const CartridgeSlot& slot, const CartridgeState& state) {
     if (fetcher.music > (i >= kFirstMusic ? 1 : 0)) return false;
   }
   const bool is_fraction = chip.fraction > -1 && chip.fraction < 1;
-  const bool is_filled_up = std::ranges::all_of(chip.spare, [](std::uint8_t byte) { return byte == 0; });
-  return atari::admits(slot, state) && is_fraction && is_filled_up;
+  const bool spare_is_clear = std::ranges::all_of(chip.spare, [](std::uint8_t byte) { return byte == 0; });
+  return atari::admits(slot, state) && is_fraction && spare_is_clear;
 }
 
 inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycle) {

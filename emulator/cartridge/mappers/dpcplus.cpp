@@ -143,7 +143,7 @@ void finish_call(CartridgeSlot& slot) {
   chip.stopped = arm::run(memory, registers, chip.clock.instructions) != arm::Ending::kReturned;
 }
 
-// Copies bytes of the image, or one byte, to the display data.
+// Copies bytes of the image to the display data, or fills them with the first parameter.
 void copy(CartridgeSlot& slot, bool fills) {
   Chip& chip = chip_of(slot);
   const auto& given = chip.parameter;
@@ -179,7 +179,7 @@ void put_parameter(Chip& chip, std::uint8_t value) {
   if (chip.parameters < chip.parameter.size()) chip.parameter[chip.parameters++] = value;
 }
 
-// $1058-$105F
+// Writes to $1058-$105F: fast fetch, parameters, functions and waveforms.
 void control(CartridgeSlot& slot, unsigned index, std::uint8_t value) {
   Chip& chip = chip_of(slot);
   switch (index) {
@@ -193,7 +193,7 @@ void control(CartridgeSlot& slot, unsigned index, std::uint8_t value) {
   }
 }
 
-// $1070-$1077
+// Writes to $1070-$1077: the random number and the frequencies.
 void set_number(CartridgeSlot& slot, unsigned index, std::uint8_t value) {
   Chip& chip = chip_of(slot);
   if (index == 0)
@@ -231,29 +231,30 @@ void write_register(CartridgeSlot& slot, unsigned offset, std::uint8_t value) {
 }
 
 void select(CartridgeSlot& slot, std::uint16_t address) {
-  const unsigned selected = (address & 0xFFFU) - slot.scheme.hotspot;
+  const unsigned selected = (address & 0xFFFU) - slot.scheme.first_hot_spot;
   if (selected >= kBanks || selected == slot.state.bank[kShown]) return;
   slot.state.bank[kShown] = static_cast<std::uint8_t>(selected);
   map(slot);
 }
 
-bool can_be(const Chip& chip) {
+bool is_valid(const Chip& chip) {
   const auto has_pointer = [](const auto& fetcher) { return fetcher.pointer <= kMostPointer; };
   return std::ranges::all_of(chip.fetcher, has_pointer) &&
          std::ranges::all_of(chip.fractional, has_pointer) &&
          std::ranges::all_of(chip.waveform, [](std::uint8_t number) { return number <= 0x7F; }) &&
          std::ranges::all_of(chip.spare, [](std::uint8_t byte) { return byte == 0; }) &&
-         chip.clock.can_be() && chip.follower.can_be() && chip.parameters <= chip.parameter.size() &&
+         chip.clock.is_valid() && chip.follower.is_valid() && chip.parameters <= chip.parameter.size() &&
          chip.stopped <= 1;
 }
 
 }  // namespace
 
-// The RAM has what the image has but its banks. The part of the driver that is there comes first.
+// Loads the RAM with the parts of the image other than its banks: driver, display data and frequencies. The
+// image may contain only a part of the driver.
 void reset(CartridgeSlot& slot) {
   Chip& chip = chip_of(slot) = Chip{};
   chip.random = kFirstRandom;
-  slot.state.bank = {slot.scheme.initial};
+  slot.state.bank = {slot.scheme.initial_bank};
   const std::span image = slot.rom;
   const auto driver = image.first(image.size() - kLeastImage),
              others = image.last(kDisplaySize + kFrequencies);
@@ -266,13 +267,13 @@ void map(CartridgeSlot& slot) {
   slot.map.hide(0, kBankSize);
   if (slot.state.bank[kFastFetch] || slot.state.bank[kCalled]) return;
   slot.map.show(kPorts, bank(slot) + kPorts, kHotPage - kPorts);
-  slot.map.hide(kHotPage, MemoryMap::kPageSize, slot.scheme.hotspot - kHotPage);
+  slot.map.hide(kHotPage, MemoryMap::kPageSize, slot.scheme.first_hot_spot - kHotPage);
 }
 
 bool admits(const CartridgeSlot&, const CartridgeState& state) {
   Chip chip;
   std::memcpy(&chip, state.ram.data(), sizeof chip);
-  return harmony::can_be(state, kBanks) && can_be(chip);
+  return harmony::is_valid(state, kBanks) && is_valid(chip);
 }
 
 std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycle) {

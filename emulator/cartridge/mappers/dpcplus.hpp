@@ -2,8 +2,8 @@
 // in RAM, eight that read it in fractional steps, random numbers, three voices, and an ARM, whose Thumb code
 // the program calls (docs/spec/cartridges.md, 14).
 //
-// While "fast fetch" is on, the cartridge follows each instruction. All its pages are then hidden, and while
-// a call of the ARM waits, too. In between, code is plain memory, as in other schemes.
+// While "fast fetch" is on, the cartridge follows each instruction. All its pages are then hidden, as they
+// are while a call of the ARM is pending. At other times code is plain memory, as in other schemes.
 #pragma once
 
 #include <array>
@@ -37,9 +37,9 @@ struct Chip {
   std::uint32_t random;
   std::array<std::uint8_t, 8> parameter;
   std::array<std::uint8_t, 3> waveform;  // 7 bits
-  std::uint8_t parameters;               // that were written
+  std::uint8_t parameters;               // how many of them have been written
   harmony::Follower follower;            // of fast fetch
-  std::uint8_t stopped;                  // the ARM stands still
+  std::uint8_t stopped;                  // 1: a call did not return, and the ARM executes no more
   std::uint8_t spare[3];
 };
 static_assert(sizeof(Chip) <= kRamInState && std::has_unique_object_representations_v<Chip>);

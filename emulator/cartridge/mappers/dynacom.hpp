@@ -6,7 +6,7 @@
 namespace racebeam::dynacom {
 
 inline void touch(CartridgeSlot& slot, std::uint16_t address) {
-  if ((address & 0xFFF) != slot.scheme.hotspot) return;
+  if ((address & 0xFFF) != slot.scheme.first_hot_spot) return;
   slot.state.bank[0] = static_cast<std::uint8_t>((slot.state.bank[0] + 1U) % slot.scheme.banks);
   atari::map(slot);
 }

@@ -1,5 +1,5 @@
-// The common part of the schemes of the Harmony cartridge, whose ARM replaces a chip: DPC+ and CDFJ. With
-// time, the ARM is granted instructions, and three voices advance. A follower finds the opcodes among the
+// The common part of the schemes of the Harmony cartridge, whose ARM replaces a chip: DPC+ and CDFJ. Each CPU
+// cycle grants instructions to the ARM, and advances three voices. A follower finds the opcodes among the
 // bytes that the CPU fetches (docs/spec/cartridges.md, 14).
 #pragma once
 
@@ -12,19 +12,20 @@
 
 namespace racebeam::harmony {
 
-// The ARM's time. An endless call ends when all of it is used up. A frame that does not end grants no more.
+// The instructions that the ARM may execute. A call that does not return ends when they are used up. A frame
+// grants instructions for its first kCyclesOfFrame cycles only.
 constexpr std::int32_t kCyclesOfFrame = 32768;
 constexpr std::uint32_t kInstructionsPerCycle = 35,
                         kMostInstructions = kInstructionsPerCycle * kCyclesOfFrame;
 
-// 3579575 / 3 / 20000 cycles are a sample, or 143183 / 2400.
+// A sample lasts 3579575 / 3 / 20000 CPU cycles, which is 143183 / 2400.
 constexpr unsigned kSampleParts = 143183, kPartsPerCycle = 2400;
 
 constexpr std::uint16_t kAddressBits = 0x1FFF;
 
-enum Bank { kShown, kFastFetch, kCalled };  // among the state's banks
+enum Bank { kShown, kFastFetch, kCalled };  // indices of CartridgeState::bank
 
-inline bool can_be(const CartridgeState& state, unsigned banks) {
+inline bool is_valid(const CartridgeState& state, unsigned banks) {
   return state.bank[kShown] < banks && state.bank[kFastFetch] <= 1 && state.bank[kCalled] <= 1 &&
          banks_unused(state, kCalled + 1);
 }
@@ -35,10 +36,10 @@ struct Voice {
 
 struct Clock {
   std::array<Voice, 3> voice;
-  std::uint32_t instructions = kMostInstructions;  // that the ARM may execute
-  std::uint32_t into_sample;                       // kSampleParts are a sample
+  std::uint32_t instructions = kMostInstructions;  // that the ARM may still execute
+  std::uint32_t into_sample;                       // parts of the present sample that have passed
 
-  bool can_be() const { return instructions <= kMostInstructions && into_sample < kSampleParts; }
+  bool is_valid() const { return instructions <= kMostInstructions && into_sample < kSampleParts; }
 
   void pass(State& machine, std::int32_t cycle) {
     const auto before = static_cast<std::int32_t>(machine.frame.cartridge_clock);
@@ -58,17 +59,18 @@ struct Clock {
   }
 };
 
-// Bytes of one instruction follow each other. Any other byte that is read begins an instruction, but for the
-// third byte of JSR, which the CPU reads when it jumps, and again when it returns.
+// Tells opcodes from operands among the bytes that the CPU reads. The bytes of an instruction are read one
+// after the other. A byte elsewhere is an opcode, with one exception: the CPU reads the third byte of JSR
+// when it jumps, and again when it returns.
 struct Follower {
   std::uint16_t next;    // address of the byte after the last one
-  std::uint8_t missing;  // how many bytes the instruction has from there on
+  std::uint8_t missing;  // bytes of the instruction that have not been read yet
   std::uint8_t opcode;
 
-  bool can_be() const { return next <= kAddressBits && missing <= 2; }
+  bool is_valid() const { return next <= kAddressBits && missing <= 2; }
 
-  // Whether the byte at `address` belongs to the instruction that has begun, and is not its opcode. `before`
-  // is the byte two addresses in front of it.
+  // Follows a read. Returns whether the byte `value` at `address` is an operand of the instruction that has
+  // begun. before: the byte at `address` - 2.
   bool continues(std::uint16_t address, std::uint8_t value, std::uint8_t before) {
     const auto place = static_cast<std::uint16_t>(address & kAddressBits);
     const bool behind = place == next, continued = behind && missing > 0;
@@ -88,7 +90,7 @@ struct Follower {
  private:
   static constexpr std::uint8_t kCall = 0x20, kNothing = 0xEA, kJump = 0x4C, kJumpIndirect = 0x6C;
 
-  // JMP, and branches.
+  // Whether the instruction is JMP or a branch.
   bool jumps() const { return opcode == kJump || opcode == kJumpIndirect || (opcode & 0x1F) == 0x10; }
 };
 

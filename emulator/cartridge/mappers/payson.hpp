@@ -65,7 +65,8 @@ inline void select_block(CartridgeState& state, unsigned window, unsigned number
   state.bank[window] = static_cast<std::uint8_t>((in_ram ? kInRam : of_rom) | number % kBlocks);
 }
 
-// `low`: of an address at $7Fxx. The two banks of a picture have its even and its odd columns.
+// low: the low byte of an address $7Fxx. It selects a column of a picture. One bank has the even columns, and
+// another one the odd columns.
 inline void select_column(CartridgeState& state, unsigned low) {
   const unsigned column = (low >> 4 & 7) | (low & 8);
   state.bank[kUpper] = static_cast<std::uint8_t>((state.bank[kUpper] & 0xF0) | column);

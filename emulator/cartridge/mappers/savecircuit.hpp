@@ -15,15 +15,15 @@ constexpr unsigned kBytes = 2048, kPage = 256;
 constexpr unsigned kClock = 0xFF0, kData = 0xFF2, kDataRead = 0xFF4;
 constexpr std::uint8_t kControl = 0xA0, kByteBits = 8, kEmpty = 0xFF;
 
-// The meaning of the next bits.
+// The meaning of the bits that the 6507 transfers next.
 enum Phase : std::uint8_t { kIdle, kSelects, kAddresses, kWrites, kReads };
 
 // In the bytes of the state in which other schemes have RAM. The lines are 1 if nobody pulls them low.
 struct Eeprom {
   std::uint16_t pointer;
   std::uint8_t phase;
-  std::uint8_t bits;   // of the byte that have passed; the ninth one acknowledges it
-  std::uint8_t shift;  // these bits
+  std::uint8_t bits;   // bits of the present byte that have been transferred; the ninth acknowledges the byte
+  std::uint8_t shift;  // the transferred bits, the last one lowest
   std::uint8_t clock, data;
   std::uint8_t pulls;  // the EEPROM pulls the data line low
 };
@@ -41,9 +41,9 @@ inline void reset(CartridgeSlot& slot) {
 }
 
 inline void map(CartridgeSlot& slot) {
-  const unsigned quiet = slot.scheme.hotspot % MemoryMap::kPageSize;
+  const unsigned quiet = slot.scheme.first_hot_spot % MemoryMap::kPageSize;
   slot.map.show(0, atari::bank(slot), atari::kBankSize);
-  slot.map.hide(slot.scheme.hotspot - quiet, MemoryMap::kPageSize, quiet);
+  slot.map.hide(slot.scheme.first_hot_spot - quiet, MemoryMap::kPageSize, quiet);
 }
 
 inline bool admits(const CartridgeSlot& slot, const CartridgeState& state) {
@@ -53,7 +53,7 @@ inline bool admits(const CartridgeSlot& slot, const CartridgeState& state) {
          eeprom.bits <= kByteBits + 1 && eeprom.clock <= 1 && eeprom.data <= 1 && eeprom.pulls <= 1;
 }
 
-inline void move_on(Eeprom& eeprom) {
+inline void advance_pointer(Eeprom& eeprom) {
   eeprom.pointer = static_cast<std::uint16_t>((eeprom.pointer + 1) % kBytes);
 }
 
@@ -75,7 +75,7 @@ inline bool accept(CartridgeSlot& slot, Eeprom& eeprom) {
       break;
     default:
       slot.ram[eeprom.pointer] = byte;
-      move_on(eeprom);
+      advance_pointer(eeprom);
       break;
   }
   return true;
@@ -90,13 +90,13 @@ inline void rise(Eeprom& eeprom) {
   ++eeprom.bits;
 }
 
-// The EEPROM changes it when the clock falls.
+// The EEPROM changes the data line when the clock falls.
 inline void fall(CartridgeSlot& slot, Eeprom& eeprom) {
   const bool reads = eeprom.phase == kReads;
   eeprom.pulls = 0;
   if (eeprom.phase == kIdle) return;
   if (eeprom.bits == kByteBits && !reads) eeprom.pulls = accept(slot, eeprom);
-  if (eeprom.bits == kByteBits && reads) move_on(eeprom);
+  if (eeprom.bits == kByteBits && reads) advance_pointer(eeprom);
   if (eeprom.bits > kByteBits) eeprom.bits = 0;
   if (eeprom.phase == kReads && eeprom.bits < kByteBits)
     eeprom.pulls = (slot.ram[eeprom.pointer] << eeprom.bits & 0x80) == 0;
@@ -127,7 +127,7 @@ inline void select(CartridgeSlot& slot, unsigned bank) {
 
 inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   const unsigned spot = address & 0xFFFU;
-  select(slot, spot - slot.scheme.hotspot);
+  select(slot, spot - slot.scheme.first_hot_spot);
   if ((spot & 0xFFEU) == kClock) set_clock(slot, (spot & 1) != 0);
   if ((spot & 0xFFEU) == kData) set_data(slot, (spot & 1) != 0);
 }

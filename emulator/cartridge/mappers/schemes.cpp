@@ -94,7 +94,7 @@ constexpr Scheme cdf_of(std::string_view name, cdf::Version version) {
 constexpr unsigned kDpcPlusLeast = dpcplus::kLeastImage, kDpcPlusMost = dpcplus::kMostImage;
 
 constexpr Scheme kSchemes[] = {
-    // ops      name          image  hotspot banks init  ram  random  watch
+    // ops      name          image  hot spot banks init ram  random  watch
     {kPlain,    "2K",           2048, 0,        1, 0,     0, false},
     {kPlain,    "4K",           4096, 0,        1, 0,     0, false},
     {kPlainSc,  "4KSC",         4096, 0,        1, 0,   128, true},
@@ -163,7 +163,7 @@ const std::deque<GameOfMany>& games_of_many() {
         games.push_back({std::string(first.name) + ' ' + std::to_string(game + 1), first});
         GameOfMany& one = games.back();
         one.scheme.name = one.name;
-        one.scheme.initial = game;
+        one.scheme.initial_bank = game;
       }
     return games;
   }();
@@ -178,6 +178,34 @@ constexpr std::string_view kUnsupported[] = {"BUS", "CM", "CTY", "DEVC", "ELF", 
   throw InvalidInput(sentence);
 }
 
+std::string size_text(const Rom& rom) { return std::to_string(rom.size()) + " bytes"; }
+
+// scheme_name(), which must be that of an implemented scheme. An ARM program without a text could be for
+// several schemes.
+std::string_view detected_scheme(const Rom& rom) {
+  if (scheme_by_text(rom).empty() && has_arm_code(rom))
+    throw InvalidInput("the image of " + size_text(rom) +
+                       " has code for an ARM, and does not show its cartridge scheme; name it: DPC+, CDFJ or "
+                       "CDFJ+");
+  const std::string_view name = scheme_name(rom);
+  if (is_unsupported(name))
+    refuse_scheme("the image is for the cartridge scheme " + std::string(name) +
+                  ", which is not implemented");
+  if (name.empty())
+    throw InvalidInput("no cartridge scheme fits an image of " + size_text(rom) +
+                       "; usual sizes are 2048, 4096, 8192, 16384 and 32768 bytes");
+  return name;
+}
+
+void check_image_size(const Rom& rom, const Scheme& scheme) {
+  const auto refuse = [&](const char* bound, unsigned bytes) {
+    throw InvalidInput("the cartridge scheme " + std::string(scheme.name) + " needs an image of " + bound +
+                       " " + std::to_string(bytes) + " bytes; this one has " + size_text(rom));
+  };
+  if (rom.size() < scheme.least_image) refuse("at least", scheme.least_image);
+  if (scheme.most_image != 0 && rom.size() > scheme.most_image) refuse("at most", scheme.most_image);
+}
+
 }  // namespace
 
 const Scheme& scheme_named(std::string_view name) {
@@ -189,30 +217,9 @@ const Scheme& scheme_named(std::string_view name) {
                 std::string(name) + "'");
 }
 
-const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {
-  const std::string size = std::to_string(rom.size()) + " bytes";
-  if (asked_for.empty()) {
-    if (scheme_by_text(rom).empty() && has_arm_code(rom))
-      throw InvalidInput(
-          "the image of " + size +
-          " has code for an ARM, and does not show its cartridge scheme; name it: DPC+, CDFJ or "
-          "CDFJ+");
-    asked_for = scheme_name(rom);
-    if (is_unsupported(asked_for))
-      refuse_scheme("the image is for the cartridge scheme " + std::string(asked_for) +
-                    ", which is not implemented");
-  }
-  if (asked_for.empty()) {
-    throw InvalidInput("no cartridge scheme fits an image of " + size +
-                       "; usual sizes are 2048, 4096, 8192, 16384 and 32768 bytes");
-  }
-  const Scheme& scheme = scheme_named(asked_for);
-  const auto refuse_size = [&](const char* bound, unsigned bytes) {
-    throw InvalidInput("the cartridge scheme " + std::string(scheme.name) + " needs an image of " + bound +
-                       " " + std::to_string(bytes) + " bytes; this one has " + size);
-  };
-  if (rom.size() < scheme.image) refuse_size("at least", scheme.image);
-  if (scheme.most_image != 0 && rom.size() > scheme.most_image) refuse_size("at most", scheme.most_image);
+const Scheme& scheme_of(const Rom& rom, std::string_view requested) {
+  const Scheme& scheme = scheme_named(requested.empty() ? detected_scheme(rom) : requested);
+  check_image_size(rom, scheme);
   return scheme;
 }
 

@@ -27,7 +27,7 @@ inline void reset(CartridgeSlot& slot) { slot.state.bank[0] = 0; }
 inline void map(CartridgeSlot& slot) {
   constexpr unsigned kQuiet = kFlash % MemoryMap::kPageSize;
   slot.map.show(0, bank(slot), atari::kBankSize);
-  slot.map.show(slot.scheme.ram, slot.ram.data(), slot.scheme.ram);
+  slot.map.show(slot.scheme.ram_bytes, slot.ram.data(), slot.scheme.ram_bytes);
   slot.map.hide(kFlash - kQuiet, MemoryMap::kPageSize, kQuiet);
 }
 
@@ -36,7 +36,7 @@ inline bool admits(const CartridgeSlot& slot, const CartridgeState& state) {
 }
 
 inline void touch(CartridgeSlot& slot, std::uint16_t address) {
-  const unsigned selected = (address & 0xFFFU) - slot.scheme.hotspot;
+  const unsigned selected = (address & 0xFFFU) - slot.scheme.first_hot_spot;
   if (selected >= banks(slot)) return;
   slot.state.bank[0] = static_cast<std::uint8_t>(selected);
   map(slot);

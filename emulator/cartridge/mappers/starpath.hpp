@@ -47,7 +47,7 @@ inline constexpr std::array<std::uint8_t, kBank> kBiosRom = [] {
   return rom;
 }();
 
-enum Register { kConfiguration, kNoted, kPending };  // among the state's banks
+enum Register { kConfiguration, kNoted, kPending };  // indices of CartridgeState::bank
 
 inline unsigned bank_shown(const CartridgeSlot& slot, bool upper) {
   static constexpr std::uint8_t kBanks[8][2] = {{2, 3}, {0, 3}, {2, 0}, {0, 2},
@@ -72,15 +72,16 @@ inline void map(CartridgeSlot& slot) {
 }
 
 // The load that RIOT RAM $80 requests, or null.
-inline const std::uint8_t* wanted_load(const CartridgeSlot& slot) {
+inline const std::uint8_t* requested_load(const CartridgeSlot& slot) {
   for (std::size_t at = 0; at + kLoad <= slot.rom.size(); at += kLoad)
     if (slot.rom[at + kHeader + 5] == slot.machine.riot.ram[0]) return slot.rom.data() + at;
   return nullptr;
 }
 
-// Copies its pages to where the header says, then the start address and the configuration to RIOT RAM.
+// Copies the pages of the requested load to the places that its header lists, and the start address and the
+// configuration to RIOT RAM.
 inline void load(CartridgeSlot& slot) {
-  const std::uint8_t* from = wanted_load(slot);
+  const std::uint8_t* from = requested_load(slot);
   if (from == nullptr) return;
   const std::uint8_t* header = from + kHeader;
   const unsigned pages = std::min<unsigned>(header[3], kHeader / kPage);

@@ -28,7 +28,7 @@ inline std::uint8_t selected_by(const CartridgeSlot& slot, unsigned value) {
   return static_cast<std::uint8_t>(has_bank(slot, value) ? value : value % whole_banks(slot));
 }
 
-inline unsigned ram_banks(const CartridgeSlot& slot) { return slot.scheme.ram / kRamBankSize; }
+inline unsigned ram_banks(const CartridgeSlot& slot) { return slot.scheme.ram_bytes / kRamBankSize; }
 
 inline void reset(CartridgeSlot& slot) { slot.state.bank[0] = 0; }
 

@@ -53,8 +53,8 @@ inline void select(CartridgeSlot& slot, std::uint16_t address) {
   map(slot);
 }
 
-// After an access of the cartridge.
-inline void pass(CartridgeSlot& slot) {
+// Counts an access of the cartridge. The last one of the delay shows the selected arrangement.
+inline void count_access(CartridgeSlot& slot) {
   auto& bank = slot.state.bank;
   if (bank[kDelayLeft] == 0 || --bank[kDelayLeft] > 0) return;
   bank[kShown] = bank[kNext];
@@ -69,7 +69,7 @@ inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_
   const unsigned offset = address & 0xFFF;
   const std::uint8_t value =
       offset < kRam ? slot.ram[offset] : segment(slot, offset / kSlice)[offset % kSlice];
-  pass(slot);
+  count_access(slot);
   return value;
 }
 
@@ -78,7 +78,7 @@ inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t v
   if ((address & 0x1000) == 0) return Delivery::kToTia;
   const unsigned offset = address & 0xFFF;
   if (offset >= kRam && offset < 2 * kRam) slot.ram[offset - kRam] = value;
-  pass(slot);
+  count_access(slot);
   return Delivery::kTaken;
 }
 

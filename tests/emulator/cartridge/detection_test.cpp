@@ -481,7 +481,7 @@ TEST_CASE("Random bytes and random accesses have the scheme that the reference g
 TEST_CASE("A scheme that is asked for goes before the detected one, if the image has a size that fits") {
   for (const std::string_view name : scheme_names()) {
     INFO(name);
-    const unsigned least = scheme_named(name).image, most = scheme_named(name).most_image;
+    const unsigned least = scheme_named(name).least_image, most = scheme_named(name).most_image;
     const auto refused_size = [&](unsigned bound, unsigned size) {
       CHECK_THROWS_WITH(scheme_of(mixed(size), name),
                         Catch::Contains(std::string(name)) && Catch::Contains(std::to_string(bound)));
