@@ -58,26 +58,29 @@ enum class Action : std::uint8_t {
   kKeyHash
 };
 
-// More buttons than that of a joystick, which are pressed with it.
+// Buttons of a Genesis pad (kC) and of a booster grip, which a joystick does not have.
 enum class Buttons : std::uint8_t { kC = 64, kTrigger = 96, kBooster = 128, kTriggerAndBooster = 160 };
 
-// An action of a joystick, and more buttons: a Genesis pad's C, or those of a booster grip.
+// Returns the action that presses these buttons together with an action of a joystick, one of the first 18.
 constexpr Action with(Action joystick, Buttons more) noexcept {
   return static_cast<Action>(static_cast<unsigned>(joystick) + static_cast<unsigned>(more));
 }
 
-inline constexpr int kActions = 18;         // of a joystick
-inline constexpr int kConsoleActions = 26;  // with those of the console
+inline constexpr int kActions = 18;         // how many a joystick has, its button included
+inline constexpr int kConsoleActions = 26;  // how many a joystick and the console have
 
-RACEBEAM_API std::string_view name_of(Action action) noexcept;                    // "UPFIRE"
-RACEBEAM_API std::optional<Action> action_named(std::string_view name) noexcept;  // nothing: an unknown name
+// Returns the name of an action, such as "UPFIRE"; empty for a number that is not an action.
+RACEBEAM_API std::string_view name_of(Action action) noexcept;
 
-// The actions of both players in one step. Those of the console are player A's. Those of other controllers
-// need a game whose file has the controller, such as left = "keyboard".
+// Returns the action with this name, in upper case; nothing if the name is unknown.
+RACEBEAM_API std::optional<Action> action_named(std::string_view name) noexcept;
+
+// The actions of both players in one step. Only player A can use those of the console. Those of other
+// controllers need a game whose file has the controller, such as left = "keyboard".
 struct Controls {
   Action a = Action::kNoop, b = Action::kNoop;
-  float strength_a = 1, strength_b = 0;  // how far a paddle is turned: 1 is its usual step
-  int frames = 0;                        // how long; 0: Settings::frame_skip
+  float strength_a = 1, strength_b = 0;  // how far a paddle turns in a frame; 1: its usual step
+  int frames = 0;                        // of the step; 0: Settings::frame_skip
 };
 
 }  // namespace RACEBEAM_NAMESPACE

@@ -25,9 +25,10 @@ class RACEBEAM_API Error : public std::runtime_error {
     kGame,      // an unknown name of a game, or a game file with an error
     kSettings,  // settings that this game or this computer cannot have
     kSnapshot,  // bytes that are not a snapshot, or a snapshot of another image, game or console
-    kArgument   // an action, a mode, the number of a machine, the size of an array
+    kArgument   // an action, a mode, the number of a machine, or the size of an array that is not accepted
   };
 
+  // sentence: what() returns it.
   Error(Cause cause, const std::string& sentence);
   ~Error() override;
   Error(const Error&) = default;

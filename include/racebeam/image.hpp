@@ -20,12 +20,13 @@ namespace RACEBEAM_NAMESPACE {
 
 class RACEBEAM_API Image {
  public:
-  // Reads a file. One that ends in .gz is inflated, and a zip archive must have one image. builtin:NAME is an
-  // image that is part of the library. Throws Error for what cannot be read or is not an image.
+  // Reads a file, or an image that is part of the library: `where` is a path, or "builtin:" and one of
+  // built_in(). A file in gzip's format is inflated; a zip archive must contain one image. Throws Error if
+  // the file cannot be read, or is not an image.
   static Image load(const std::string& where);
 
-  // Makes an image of a file's bytes. `name` is the name that the file would have, without its extension.
-  // Throws Error if `bytes` is empty or has more than 512 KiB.
+  // Makes an image of a copy of `bytes`. name: the name that a file of them would have, without its
+  // extension. Throws Error if `bytes` is empty or has more than 512 KiB.
   static Image from_bytes(std::span<const std::uint8_t> bytes, const std::string& name);
 
   static std::vector<std::string> built_in();  // the names that load() takes after "builtin:"

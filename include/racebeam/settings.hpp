@@ -39,19 +39,19 @@ enum class Cpu {
 
 struct Settings {
   // The game. The defaults are those of the Arcade Learning Environment.
-  std::uint32_t seed = 0;               // of sticky actions
-  std::uint32_t system_seed = 4753849;  // of RAM and timer at power-on
+  std::uint32_t seed = 0;               // of sticky actions and other random numbers in play
+  std::uint32_t system_seed = 4753849;  // of the contents of RAM and timer at power-on
   int frame_skip = 1;                   // frames of a step
   int frame_skip_max = 0;               // above frame_skip: each step draws its frames from this range
   float sticky = 0.25F;                 // probability that a frame repeats the action of the frame before
   Rules rules = Rules::kAle012;
-  int paddle_min = -1, paddle_max = -1;  // how far paddles turn; -1: the game's own limits
+  int paddle_min = -1, paddle_max = -1;  // how far paddles turn, in ohms; -1: the game's own limits
 
   // When an episode is truncated.
-  int max_episode_frames = 0;  // 0: no limit
-  bool truncate_on_life_loss = false;
+  int max_episode_frames = 0;          // frames of an episode; 0: no limit
+  bool truncate_on_life_loss = false;  // a lost life truncates the episode, too
 
-  // Observations.
+  // Observations. The reward of a step is clamped to these limits.
   int reward_min = std::numeric_limits<int>::min(), reward_max = std::numeric_limits<int>::max();
   bool color_averaging = false;  // a screen blends the last two frames
   bool sound = false;            // each step generates audio()

@@ -22,12 +22,13 @@ namespace RACEBEAM_NAMESPACE {
 
 class RACEBEAM_API Snapshot {
  public:
-  // The portable form, which environments of this version restore on any computer (docs/states.md). Takes
-  // some milliseconds, and 70 KB; the snapshot itself takes 4 KB, and shares its pictures.
+  // Returns the portable form, which environments of this version restore on any computer (docs/states.md).
+  // Takes some milliseconds, and about 70 KB. The snapshot itself takes 4 KB, and shares its pictures.
   std::vector<std::uint8_t> to_bytes() const;
 
-  // Accepts any bytes. restore() checks them later. It throws Error if they were truncated or altered, are of
-  // another version, or have a value that no machine can have.
+  // Returns a snapshot of a copy of `bytes`, whatever they are. Environment::restore() checks them: it throws
+  // Error if they were truncated or altered, are of another version, or have a value that no machine can
+  // have.
   static Snapshot from_bytes(std::span<const std::uint8_t> bytes);
 
  private:

@@ -53,8 +53,8 @@ struct VectorSettings {
   bool minimal_actions = true;          // false: all 18
   LifeLoss life_loss = LifeLoss::kIgnored;
   Autoreset autoreset = Autoreset::kNextStep;
-  int noop_max = 30;          // an episode begins with fewer frames of NOOP than this, at random
-  bool fire_at_reset = true;  // and with FIRE, if the game has it
+  int noop_max = 30;          // an episode begins with 0 to noop_max - 1 frames of NOOP, at random
+  bool fire_at_reset = true;  // and with FIRE, if the action set has it
 
   // Observations: the last screens, oldest first.
   int stack = 4;                // 0: no observations
@@ -67,8 +67,8 @@ struct VectorSettings {
   unsigned threads = 0;        // 0: one for each processor that the process may use
 };
 
-// Memory of the caller, into which results are written. The machines follow each other in every array. Empty
-// arrays are not written.
+// Memory of the caller, into which results are written. In every array, the machines follow each other, in
+// the order of their numbers or, from receive(), in that of `machines`. An empty array is not written.
 struct VectorArrays {
   std::span<std::uint8_t> observations{};        // observation_size() bytes for each machine
   std::span<std::uint8_t> final_observations{};  // with Autoreset::kSameStep, of the episodes that ended
@@ -91,10 +91,12 @@ struct VectorResults {
   }
 };
 
+// Functions that throw Error for their arguments have done nothing then.
 class RACEBEAM_API VectorEnvironment {
  public:
-  // Powers machines on: `count` of one game, or one for each cartridge. Machine n has the seed of the
-  // settings plus n. Throws Error for settings or an image that cannot be used.
+  // Powers machines on: `count` of one game, or one for each cartridge. The seed of machine n is that of the
+  // settings plus n. Throws Error for images or settings that cannot be used, and if the machines would take
+  // more memory than the process may use.
   VectorEnvironment(const Image& image, const Game& game, std::size_t count,
                     const VectorSettings& settings = {});
   explicit VectorEnvironment(std::span<const Cartridge> cartridges, const VectorSettings& settings = {});
@@ -102,30 +104,43 @@ class RACEBEAM_API VectorEnvironment {
   VectorEnvironment(VectorEnvironment&&) noexcept;
   VectorEnvironment& operator=(VectorEnvironment&&) noexcept;
 
-  std::size_t size() const;
-  std::size_t batch_size() const;
-  std::size_t observation_size() const;                    // bytes: stack x height x width [x 3]
-  std::vector<Action> actions(std::size_t machine) const;  // what the indices of step() mean
-  VectorResults make_results() const;                      // of batch_size() machines
+  std::size_t size() const;              // machines
+  std::size_t batch_size() const;        // machines of which receive() returns the results
+  std::size_t observation_size() const;  // bytes of a machine: stack x height x width [x 3]
 
-  // Steps every machine: actions[n] is an index into actions(n). Throws Error, before anything is run, for an
-  // index or an array of another size.
+  // The action set of a machine: step() and send() take indices into it. Throws Error unless `machine` is
+  // less than size().
+  std::vector<Action> actions(std::size_t machine) const;
+
+  // Allocates results for batch_size() machines.
+  VectorResults make_results() const;
+
+  // Steps every machine, and writes the results of all. actions[n] is an index into actions(n). Throws Error
+  // for an index or an array that does not fit.
   void step(std::span<const int> actions, const VectorArrays& out);
 
-  // Begins new episodes of all machines, or of those whose byte in `reset_mask` is not 0. A seed of 0 or more
-  // powers its machine on anew; with a negative one, or none, the random numbers continue.
+  // Begins new episodes of the machines whose byte in `reset_mask` is not 0; of all if the mask is empty. A
+  // seed of 0 or more powers its machine on anew. With a negative seed, or without seeds, the random numbers
+  // continue. Writes what all machines show. Only the low 32 bits of a seed count. Throws Error for arrays
+  // that do not fit.
   void reset(const VectorArrays& out, std::span<const std::int64_t> seeds = {},
              std::span<const std::uint8_t> reset_mask = {});
 
-  // Writes what the machines show now, for example after a restore.
+  // Writes what all machines show now, for example after a restore. Throws Error for arrays that do not fit,
+  // and between send() and receive().
   void observe(const VectorArrays& out);
 
-  // A step in two halves, so that the caller works with some machines while others play. send() begins a step
-  // of the machines that it names, and receive() waits for the batch_size() that finish first.
+  // A step in two halves, so that the caller can use the results of some machines while others play. send()
+  // begins a step of the machines that it names, and returns at once: actions[i] is for machines[i]. Throws
+  // Error for a machine that is playing already, or an index that does not fit.
   void send(std::span<const int> actions, std::span<const std::int32_t> machines);
+
+  // Waits for the batch_size() machines that finish first, and writes their results; VectorArrays::machines
+  // names them. Throws Error if fewer are playing.
   void receive(const VectorArrays& out);
 
-  // They work like those of Environment. A snapshot has the stack of screens, too.
+  // Like Environment::save() and restore(), for one machine that is not playing. A snapshot contains the
+  // stack of screens, too.
   Snapshot save(std::size_t machine, bool with_random = false);
   void restore(std::size_t machine, const Snapshot& snapshot);
 
