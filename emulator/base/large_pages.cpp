@@ -25,17 +25,17 @@ std::atomic<std::size_t> pages_in_use = 0;
 
 struct Page;
 
-// What is before each block.
+// Precedes each block.
 struct alignas(kAlignment) Header {
   Page* page;  // null: the block is in no large page
   std::size_t size;
-  Header* next = nullptr;  // of the free ones of this size
+  Header* next = nullptr;  // of a free block: the next free one of its size
 };
 
 struct alignas(kAlignment) Page {
   explicit Page(Pages from) : mapping(std::move(from)) {}
 
-  Pages mapping;           // what the page is a part of
+  Pages mapping;           // the mapping that contains the page
   std::size_t blocks = 0;  // in use
   std::size_t used = 0;    // bytes of `memory` that were given out
   alignas(kAlignment) std::array<std::byte, kPage - kAlignment> memory;
@@ -46,7 +46,7 @@ std::size_t size_with_header(std::size_t size) {
   return sizeof(Header) + (size + kAlignment - 1) / kAlignment * kAlignment;
 }
 
-// Blocks are used again for blocks of the same size, since machines of a vector need the same sizes.
+// An allocator with free lists, one for each size: the machines of a vector need blocks of the same sizes.
 class LargePages {
  public:
   // `size` includes the header.
@@ -73,7 +73,8 @@ class LargePages {
     return new (place) Header{newest_, size};
   }
 
-  // A mapping of twice the size holds a whole page. What is beside it takes no memory, since nobody uses it.
+  // A mapping of twice the size contains an aligned page. The rest takes no memory, since it is never
+  // touched.
   static Page* new_page() {
     Pages mapping = map(2 * kPage);
     void* memory = mapping.data();
@@ -113,22 +114,22 @@ LargePages* large_pages = new LargePages;
 
 }  // namespace
 
-ManyMachines::ManyMachines(std::size_t machines)
+LargePageScope::LargePageScope(std::size_t machines)
     : counted_(can_prefer_large_pages() && machines >= kFewestMachines ? 1 : 0) {
   vectors_of_many += counted_;
 }
-ManyMachines::~ManyMachines() { vectors_of_many -= counted_; }
+LargePageScope::~LargePageScope() { vectors_of_many -= counted_; }
 
 std::size_t large_pages_in_use() { return pages_in_use; }
 
-void* take_machine_memory(std::size_t size, Paging paging) {
+void* allocate_machine_memory(std::size_t size, Paging paging) {
   const std::size_t all = size_with_header(size);
   if (paging == Paging::kLarge && all <= kLargestBlock && vectors_of_many > 0)
     return large_pages->take(all) + 1;
   return new (::operator new (all, std::align_val_t{kAlignment})) Header{nullptr, all} + 1;
 }
 
-void give_back_machine_memory(void* memory) noexcept {
+void free_machine_memory(void* memory) noexcept {
   Header* const header = static_cast<Header*>(memory) - 1;
   if (header->page == nullptr) return ::operator delete (header, std::align_val_t{kAlignment});
   large_pages->give_back(header);

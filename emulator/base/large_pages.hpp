@@ -8,27 +8,27 @@
 
 namespace racebeam {
 
-// While one of these exists for enough machines, MachineVector takes its memory from large pages. The blocks
-// may outlive it.
-class ManyMachines {
+// While an object for enough machines exists, MachineVector allocates from large pages. Its blocks may
+// outlive the object. Thread-safe, as are the functions below.
+class LargePageScope {
  public:
-  explicit ManyMachines(std::size_t machines);
-  ~ManyMachines();
-  ManyMachines(const ManyMachines&) = delete;
-  ManyMachines& operator=(const ManyMachines&) = delete;
+  explicit LargePageScope(std::size_t machines);
+  ~LargePageScope();
+  LargePageScope(const LargePageScope&) = delete;
+  LargePageScope& operator=(const LargePageScope&) = delete;
 
  private:
-  const int counted_;  // 1, or 0 for few machines
+  const int counted_;  // 1: large pages are in use for it; 0: it has too few machines
 };
 
-// Large pages that hold a block.
+// The number of large pages that hold at least one block.
 std::size_t large_pages_in_use();
 
-// Usual paging is for what may outlive a vector of machines, and would keep a whole large page.
+// kUsual is for memory that may outlive a vector of machines: a block in a large page keeps that whole page.
 enum class Paging { kLarge, kUsual };
 
-void* take_machine_memory(std::size_t size, Paging paging);  // aligned to 64 bytes; or std::bad_alloc
-void give_back_machine_memory(void* memory) noexcept;
+void* allocate_machine_memory(std::size_t size, Paging paging);  // aligned to 64 bytes; or std::bad_alloc
+void free_machine_memory(void* memory) noexcept;
 
 template <typename T>
 class MachineAllocator {
@@ -39,8 +39,10 @@ class MachineAllocator {
   template <typename Other>
   explicit MachineAllocator(const MachineAllocator<Other>& other) : paging_(other.paging()) {}
 
-  T* allocate(std::size_t count) { return static_cast<T*>(take_machine_memory(count * sizeof(T), paging_)); }
-  void deallocate(T* memory, std::size_t) noexcept { give_back_machine_memory(memory); }
+  T* allocate(std::size_t count) {
+    return static_cast<T*>(allocate_machine_memory(count * sizeof(T), paging_));
+  }
+  void deallocate(T* memory, std::size_t) noexcept { free_machine_memory(memory); }
   Paging paging() const { return paging_; }
   bool operator==(const MachineAllocator&) const { return true; }  // each gives back the memory of the other
 

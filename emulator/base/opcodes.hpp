@@ -110,7 +110,8 @@ enum class Operation : std::uint8_t {
 enum class Access : std::uint8_t { Read, Immediate, Write, Modify, Accumulator, Implied, Jump, Branch };
 // NOLINTEND(readability-identifier-naming)
 
-// In bytes that are fetched in order. JSR counts two: it reads the high byte of its operand after its pushes.
+// Bytes of an instruction that are fetched in order. JSR has two: it reads the high byte of its operand after
+// its pushes.
 constexpr std::uint8_t length(Operation operation, Mode mode) {
   if (operation == Operation::jsr) return 2;
   switch (mode) {

@@ -24,7 +24,7 @@ inline void check_range(const char* what, std::int64_t value, std::int64_t least
 
 inline void check_flag(const char* what, std::int64_t value) { check_range(what, value, 0, 1); }
 
-// unused: bits that no machine ever sets.
+// Refuses a value with a bit of `unused`, the bits that a machine never sets.
 inline void check_clear(const char* what, unsigned value, unsigned unused) {
   if ((value & unused) != 0) refuse_field(what, value, "without the bits " + std::to_string(unused));
 }

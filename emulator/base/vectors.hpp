@@ -22,7 +22,7 @@ RACEBEAM_INLINE Vector load(const void* from) {
 
 RACEBEAM_INLINE bool is_zero(TwoWords words) { return (words[0] | words[1]) == 0; }
 
-// The uppermost bit of each byte, as a mask.
+// Returns a bit for each byte: its uppermost bit.
 RACEBEAM_INLINE std::uint32_t top_bits(TwoWords words) {
 #ifdef __SSE2__
   using Bytes [[gnu::vector_size(16)]] = char;

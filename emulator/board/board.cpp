@@ -35,7 +35,7 @@ Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
       tia(state.tia, state.frame, video),
       slot{*rom, scheme_of(*rom, properties.scheme), state, {}, map},
       cartridge_ram(ram_beside_state(slot.scheme)),
-      ram_bits(slot.scheme.watches(Scheme::Watch::kMirrors) ? kRamBits | kMirrorBit : kRamBits),
+      ram_select_bits(slot.scheme.watches(Scheme::Watch::kMirrors) ? kRamBits | kMirrorBit : kRamBits),
       rom_(std::move(rom)),
       ports_(properties),
       unwatched_(slot.scheme.watches(Scheme::Watch::kRiot) ? 0 : kRiot) {
@@ -49,12 +49,13 @@ Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
 void Board::map_memory() {
   for (std::size_t page = 0; page < map.page.size(); ++page) {
     const std::size_t address = page * MemoryMap::kPageSize;
-    map.page[page] = (address & ram_bits) == kRiot ? state.riot.ram.data() + (address & 0x40) : nullptr;
+    map.page[page] =
+        (address & ram_select_bits) == kRiot ? state.riot.ram.data() + (address & 0x40) : nullptr;
   }
   slot.scheme.map(slot);
   code = {};
   known_windows_.fill({});
-  tia.forget();
+  tia.rebuild();
   set_format_limits();
 }
 
@@ -66,7 +67,7 @@ void Board::restore(const State& other) {
     slot.scheme.map(slot);
     code = {};
   }
-  tia.forget();
+  tia.rebuild();
   set_format_limits();
 }
 
@@ -141,7 +142,7 @@ class Board::PresentState {
   ~PresentState() {
     board_.state.tia = tia_;
     board_.state.frame.lines = lines_;
-    board_.tia.forget();
+    board_.tia.rebuild();
   }
   PresentState(const PresentState&) = delete;
   PresentState& operator=(const PresentState&) = delete;
@@ -158,7 +159,7 @@ Collisions Board::replay(const RecordedStep& step, FrameBuffer& picture, const F
   const PresentState present(*this);
   state.tia = step.start;
   state.frame.lines = step.lines;
-  tia.forget();
+  tia.rebuild();
   replayed.rewind(step.base);
   tia.begin_step(picture, other, replayed, mode, kAllPairs);
   replayed.next = std::ranges::copy(step.writes, replayed.entry.data()).out;

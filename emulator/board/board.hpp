@@ -35,12 +35,13 @@ class Board {
   Tia tia;
   Sound sound;
   CartridgeSlot slot;
-  std::vector<std::uint8_t> cartridge_ram;  // what does not fit into the state; empty for most schemes
-  WriteLog* log = nullptr;                  // of the step that runs
+  std::vector<std::uint8_t> cartridge_ram;  // RAM that does not fit into the state; empty for most schemes
+  WriteLog* log = nullptr;                  // of the step in progress
   CodeWindow code;    // where the CPU fetches; empty after the map has changed or the frame has closed
   bool stop = false;  // the CPU stops after this instruction: the frame has closed, or must be run again
 
-  // A read of the CPU, and one outside of plain memory. `latch` is the data bus before the access.
+  // Read a byte for the CPU: from any address, and from an address that the memory map does not show. latch:
+  // the byte on the data bus before the access. cycle: that of the access, as in all functions here.
   std::uint8_t read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
   std::uint8_t read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
 
@@ -85,17 +86,20 @@ class Board {
   // closes the frame.
   std::uint64_t plain_registers() const;
   std::int32_t overlong_cycle() const { return overlong_cycle_; }
-  translator::Context translated;
+  translator::Context translator_context;
 
   void open_frame();  // docs/spec/tia.md, 2: action 1 of a step; the pictures have been exchanged already
   void turn_back_clocks(std::int32_t cycles);
   // A step is begin_step(), then the CPU, then end_step(), which draws as far as the reference does. If
-  // needs_exact_step(), pixels are visible that the reference draws ahead of the beam. The caller must then
-  // repeat the step from the state before it, with RenderMode::kExact.
+  // needs_exact_step() then returns true, pixels are visible that the reference draws ahead of the beam. The
+  // caller must repeat the step from the state before it, with RenderMode::kExact. picture: receives the
+  // pixels. other: the other frame buffer, whose rows may be copied, or null. scratch: the log to use.
+  // sought: with RenderMode::kNone, the pairs whose collisions are computed.
   void begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& scratch,
                   RenderMode mode = RenderMode::kDrawn, Collisions sought = kAllPairs);
   void end_step();
-  // The step that has ended, for replay(). start: the TIA before it. Only if is_recorded().
+  // Whether the log has all writes of the step that has ended. record_step(), which requires that, stores
+  // them for replay(). start, lines: the TIA, and FrameState::lines, before the step.
   bool is_recorded() const { return log->is_whole; }
   void record_step(RecordedStep& step, const TiaState& start, std::int32_t lines) const;
   // Replays the writes of a step on its `picture`, as described at begin_step(). Returns the collisions at
@@ -114,8 +118,8 @@ class Board {
   // For a cartridge that sees all accesses to operands.
   void observe(const Access& access);
 
-  // RAM that no cartridge watches is where only bit 7 of these is set.
-  const std::uint16_t ram_bits;
+  // An address is in RAM, and no cartridge watches it, if `address & ram_select_bits` is $80.
+  const std::uint16_t ram_select_bits;
 
   void map_memory();                 // rebuilds everything that is derived from the state, after a reset
   void restore(const State& other);  // replaces the state
@@ -152,11 +156,12 @@ class Board {
   const std::uint8_t* fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
   const std::uint8_t* give_up_step(std::uint16_t pc);
 
-  struct KnownWindow {  // in three words
+  // An entry of the cache of find_code(). 24 bytes.
+  struct KnownWindow {
     std::uint64_t banks = 0;
     const std::uint8_t* memory = nullptr;
     std::uint16_t first = 0, span = 0;
-    unsigned slice = ~0U;
+    unsigned slice = ~0U;  // the address divided by 1K; no address has ~0
   };
 
   std::shared_ptr<const Rom> rom_;
@@ -165,17 +170,17 @@ class Board {
   const bool has_gun_ = ports_.has_light_gun();
   const bool has_plain_pins_ = !has_gun_ && !slot.scheme.watches(Scheme::Watch::kTia);
   const std::uint32_t unwatched_;  // the bit of addresses that only the RIOT sees; 0 if the cartridge watches
-  // From which cycle on each of INPT0-5 reads high, and the two addresses after them, which never do.
+  // The first cycle in which each of INPT0-5 reads high. The two addresses after them never do.
   std::array<std::uint32_t, 8> pin_high_from_{};
   std::uint64_t plain_registers_ = 0;
   // The first cycle, at a line's start, from which a TIA write closes the frame.
   std::int32_t overlong_cycle_ = 0;
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
-  // Cycle of the last TIA access that was not a plain write. The picture is drawn so far.
+  // The cycle of the last TIA access that was not a plain write: the picture is drawn up to there.
   std::int32_t last_access_ = 0;
   bool exact_mode_ = false;       // each access is played on its own
   bool picture_is_exact_ = true;  // of the last step, even if it ran in another mode
-  bool fetched_latches_ = false;  // an opcode was to be read from a collision register, and the step ended
+  bool fetched_latches_ = false;  // an opcode was to be fetched from a collision register, and ended the step
 };
 
 }  // namespace racebeam

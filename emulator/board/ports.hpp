@@ -1,5 +1,5 @@
-// The two controller ports: which pin reads what (docs/spec/riot.md, 5; docs/spec/console.md, 5;
-// docs/spec/tia.md, 11; docs/spec/controllers.md).
+// The two controller ports: the levels that a program reads from their pins (docs/spec/riot.md, 5;
+// docs/spec/console.md, 5; docs/spec/tia.md, 11; docs/spec/controllers.md).
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ class Ports {
 
   std::uint8_t swcha(const State& state, std::int32_t cycle) const;
 
-  // The first cycle in which INPT0-5 read high: as soon as a capacitor is charged, or a button released.
+  // The first cycle in which a pin, one of INPT0-5, reads high: when its capacitor is charged, or its button
+  // is released.
   static constexpr unsigned kPins = 6;
   static constexpr std::uint32_t kAlways = 0, kNever = ~0U;
   std::uint32_t high_from(unsigned pin, const State& state) const;

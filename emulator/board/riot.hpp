@@ -15,7 +15,7 @@ class Timer {
       : state_(state), now_(static_cast<std::uint32_t>(cycle)), elapsed_(now_ - 1 - state.timer_set) {}
 
   std::uint8_t intim() {
-    const std::int32_t count = counted();
+    const std::int32_t count = intervals_left();
     if (count >= 0) return static_cast<std::uint8_t>(count);
     const std::uint32_t expiry = std::uint32_t{state_.timer} << state_.shift;
     if (!state_.late) {
@@ -28,7 +28,7 @@ class Timer {
                                      (state_.late_read - (state_.timer_set + expiry)));
   }
 
-  std::uint8_t instat() const { return counted() < 0 && !state_.late ? 0x80 : 0x00; }
+  std::uint8_t instat() const { return intervals_left() < 0 && !state_.late ? 0x80 : 0x00; }
 
   void set(std::uint8_t value, std::uint8_t shift) {
     state_.timer = value;
@@ -38,7 +38,8 @@ class Timer {
   }
 
  private:
-  std::int32_t counted() const {
+  // The count of INTIM, negative once the timer has expired.
+  std::int32_t intervals_left() const {
     return static_cast<std::int32_t>(state_.timer - (elapsed_ >> state_.shift) - 1);
   }
 

@@ -60,7 +60,7 @@ struct Core {
     set_status(on.state.cpu.P);
   }
 
-  // T. At the end of an instruction, from its second bus access on (docs/spec/cpu.md, 3).
+  // T in docs/spec/cpu.md, 3. From an instruction's second bus access on, it is the cycle at its end.
   RACEBEAM_INLINE std::int32_t cycle() const { return static_cast<std::int32_t>(clock >> kCycleBit); }
 
   // Adds a cycle if bit 8 of `carry` is set.
@@ -86,7 +86,7 @@ struct Core {
   RACEBEAM_INLINE std::uint16_t PC() const { return static_cast<std::uint16_t>(at - origin); }
   RACEBEAM_INLINE void jump(std::uint16_t target) {
     at = start + static_cast<std::uint16_t>(target - static_cast<std::uint16_t>(start - origin));
-    look_at_budget();
+    check_budget();
   }
 
   // Returns the cycles beyond those of a branch that is not taken.
@@ -99,17 +99,17 @@ struct Core {
     add_penalty(crosses);
     if (at < start) [[unlikely]]
       end = 0;
-    look_at_budget();
+    check_budget();
     return crosses == 0 ? 1 : 2;
   }
 
-  RACEBEAM_INLINE void look_at_budget() {
+  RACEBEAM_INLINE void check_budget() {
     if (clock & kAlarm) [[unlikely]]
       end = 0;
   }
 
   // After an access to a device: the window may have changed, or the frame may have closed.
-  RACEBEAM_INLINE void look_at_window() {
+  RACEBEAM_INLINE void check_window() {
     if (board.code.end == nullptr) end = 0;
   }
 
@@ -176,7 +176,7 @@ struct Core {
 
   RACEBEAM_INLINE std::uint8_t read_device(std::uint16_t address) {
     latch = board.read_device(address, latch, cycle());
-    look_at_window();
+    check_window();
     return latch;
   }
 
@@ -187,11 +187,11 @@ struct Core {
     clock += base_cycles * kCycle + 1;
   }
 
-  // Its operand, a byte.
+  // Returns the operand of the instruction, if it is one byte; fetch_word(), if it is two.
   RACEBEAM_INLINE std::uint8_t fetch() { return latch = byte_at(at)[-1]; }
   RACEBEAM_INLINE std::uint16_t fetch_word() { return word(byte_at(at) - 2); }
 
-  // Two consecutive bytes.
+  // Returns two consecutive bytes as a number. The second one stays on the data bus.
   RACEBEAM_INLINE std::uint16_t word(const std::uint8_t* bytes) {
     const auto both = static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8);
     latch = static_cast<std::uint8_t>(both >> 8);
@@ -211,7 +211,7 @@ struct Core {
     const std::int32_t most = (budget - executed()) / 2 - 1;
     const std::int32_t turns = sure < most ? sure : most;
     clock += turns * (period * kCycle + 2);
-    look_at_budget();
+    check_budget();
   }
 
   RACEBEAM_INLINE void write(ZeroPage address, std::uint8_t value) {
@@ -224,7 +224,7 @@ struct Core {
   }
 
   RACEBEAM_INLINE void write(std::uint16_t address, std::uint8_t value) {
-    if ((address & board.ram_bits) == 0x0080) {
+    if ((address & board.ram_select_bits) == 0x0080) {
       board.state.riot.ram[address & 0x7F] = value;
     } else {
       write_device(address, value);
@@ -243,7 +243,7 @@ struct Core {
 
   RACEBEAM_INLINE void write_slowly(std::uint16_t address, std::uint8_t value, bool after_read) {
     set_cycle(board.write_device(address, value, cycle(), after_read));
-    look_at_window();
+    check_window();
   }
 
   // Where the stack pointer is in the TIA, games write registers this way.

@@ -28,7 +28,7 @@ class Operand {
     if (code != nullptr && low != nullptr && high != nullptr) find(kOpcodes[*code], *low, *high, cpu);
   }
 
-  // last: the byte on the bus behind the instruction.
+  // Passes the accesses to the board. last: the byte on the data bus after the instruction.
   void show(Board& board, std::uint8_t last) {
     if (count_ != 0) all_[count_ - 1].value = last;
     for (std::size_t i = 0; i < count_; ++i) board.observe(all_[i]);
@@ -41,7 +41,7 @@ class Operand {
     all_[count_++] = {static_cast<std::uint16_t>(address), value, before, writes};
   }
 
-  // Behind the byte that an instruction reads, nothing is read before it writes.
+  // Adds the accesses to the operand itself. An instruction that modifies it writes right after the read.
   void use(unsigned address, std::uint8_t before) {
     if (kind_ != Kind::Write) add(address, before, false);
     if (kind_ != Kind::Read) add(address, kind_ == Kind::Write ? before : std::uint8_t{0}, true);
@@ -65,7 +65,8 @@ class Operand {
     }
   }
 
-  // A pointer, and what it points to. Pointers in the TIA are not followed.
+  // Adds the accesses to a pointer, and to the operand that it points to. Pointers in the TIA are not
+  // followed.
   void follow(unsigned place, std::uint8_t before, unsigned index) {
     const std::uint8_t *low = byte_at(board_, place), *high = byte_at(board_, place + 1);
     if (low != nullptr) add(place, before, false);

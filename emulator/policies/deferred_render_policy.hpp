@@ -48,7 +48,7 @@ class DeferredRenderPolicy {
   // never need.
   unsigned number_ = 2 * kProbe;  // of the frame that is not observed, in its period
   unsigned period_;
-  unsigned observed_ = 0;  // frames that were observed since
+  unsigned observed_ = 0;  // observed frames since the last one that was not
   bool choice_ = false, draws_ = false;
   std::array<std::int64_t, 2> times_{};  // followed, drawn
 };

@@ -90,7 +90,7 @@ struct FrameState {
   std::int32_t lines = 0;                   // of the last completed frame
   std::uint8_t dumping = 0;                 // VBLANK bit 7
   std::uint8_t open = 0;                    // the last step ended without closing its frame
-  std::uint8_t greyed = 0;                  // and its undrawn rows have been greyed
+  std::uint8_t greyed = 0;                  // the undrawn rows of that frame have been greyed
   std::uint8_t swcha = 0;                   // what was written to SWCHA; 0 unless a keyboard needs it
   std::uint32_t cartridge_clock = 0;        // cycle of the last access to a cartridge with a clock (DPC)
 };

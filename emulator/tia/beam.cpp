@@ -74,7 +74,7 @@ void Beam::aim(FrameBuffer& picture, const FrameBuffer* other, RenderMode mode, 
   sought_objects_ = draws_pixels() ? kAllObjects : objects_of(sought);
   cleared_ = false;
   collided_ = tia_.cursor;
-  look_afresh();
+  reset_observations();
   if (!draws_pixels()) meetings_ = unsought_ | tia_.collisions;
 }
 
@@ -84,9 +84,9 @@ std::size_t Beam::rows_needed() const {
   return row() + static_cast<std::size_t>(to_come / kLineClocks);
 }
 
-void Beam::forget() {
+void Beam::rebuild() {
   find_window();
-  look_afresh();
+  reset_observations();
   tia_.enabled = enabled_objects(tia_);
   stale_ = 0xFF;
 }
@@ -213,8 +213,8 @@ RACEBEAM_INLINE void Beam::draw_visible(std::uint8_t* row, int first, int last, 
 
 RACEBEAM_INLINE void Beam::collide(int first, int last) {
   if (!draws_pixels() && !can_meet(tia_.enabled, meetings_)) return;
-  if (lost_track_) stale_ |= line_.outdated(tia_);
-  lost_track_ = false;
+  if (tracking_is_suspended_) stale_ |= line_.outdated(tia_);
+  tracking_is_suspended_ = false;
   if (const std::uint8_t stale = stale_ & sought_objects_; stale != 0) {
     line_.refresh(tia_, stale);
     stale_ ^= stale;

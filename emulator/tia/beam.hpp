@@ -38,14 +38,15 @@ class Beam {
  public:
   Beam(TiaState& state, const Video& video);
 
-  void begin_frame();  // the cursor goes to the window's start
+  void begin_frame();  // moves the cursor to the start of the window
 
-  // picture: receives the pixels. other: may have rows to copy, or null. sought: without pixels, the pairs
-  // whose collisions are computed.
+  // Sets the target of the next part of a frame. picture: receives the pixels. other: the other frame buffer,
+  // whose rows may be copied, or null. sought: with RenderMode::kNone, the pairs whose collisions are
+  // computed.
   void aim(FrameBuffer& picture, const FrameBuffer* other, RenderMode mode, Collisions sought);
 
   // Rebuilds everything that is derived from the registers, after a reset or a restored state.
-  void forget();
+  void rebuild();
 
   // Draws up to `clock` with the current registers. Does nothing if the beam has passed it.
   RACEBEAM_INLINE void draw_to(std::int32_t clock) {
@@ -54,7 +55,7 @@ class Beam {
 
   // Draws before a change of `part` only: nothing if the beam has not passed a pixel of it.
   RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart& part) {
-    if (clock > tia_.cursor && !pass_blank(clock) && !passes_none(clock, part)) draw_beyond(clock);
+    if (clock > tia_.cursor && !pass_blank(clock) && !passes_no_pixel_of(clock, part)) draw_beyond(clock);
   }
 
   // The same on the cursor's line, after enter_line().
@@ -81,10 +82,10 @@ class Beam {
   // objects: those whose registers have changed (bit n: Object n).
   void changed(std::uint8_t objects) { stale_ |= objects; }
 
-  // The registers are about to change, without calls of changed().
-  void lose_track() {
-    if (!lost_track_) line_.shown = tia_.registers();
-    lost_track_ = true;
+  // Called before the registers change without calls of changed(): the masks are compared with them later.
+  void suspend_tracking() {
+    if (!tracking_is_suspended_) line_.shown = tia_.registers();
+    tracking_is_suspended_ = true;
   }
 
   // For lines that are drawn as a whole:
@@ -126,8 +127,9 @@ class Beam {
     if (((tia_.reflect ^ reflect) | p0.skip | p1.skip | tia_.cosmic) != 0) act_on_line_end();
   }
 
-  // Since look_afresh(): LineDependencies::seen, and the pairs that met after the last CXCLR, and before it.
-  void look_afresh() { seen_ = meetings_ = cleared_meetings_ = 0; }
+  // What the beam has drawn since reset_observations(): LineDependencies::seen, the pairs that met after the
+  // last CXCLR, and the pairs that met before it.
+  void reset_observations() { seen_ = meetings_ = cleared_meetings_ = 0; }
   std::uint16_t seen() const { return seen_; }
   Collisions meetings() const { return meetings_; }
   Collisions cleared_meetings() const { return cleared_meetings_; }
@@ -156,7 +158,7 @@ class Beam {
     return true;
   }
 
-  bool passes_none(std::int32_t clock, const PlayfieldPart& part) {
+  bool passes_no_pixel_of(std::int32_t clock, const PlayfieldPart& part) {
     return !exact_spans() && tia_.cursor >= start_ && clock <= line_end() && clock <= end_ &&
            misses(clock, part);
   }
@@ -172,7 +174,7 @@ class Beam {
     return true;
   }
 
-  // Whether the clock is after the last HMOVE, whose effect ends there.
+  // Whether the last HMOVE was before this clock.
   bool is_since_hmove(std::int32_t clock) const {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(clock) - tia_.hmove_clock) > 0;
   }
@@ -203,14 +205,14 @@ class Beam {
   std::int32_t start_ = 0, end_ = 0;
   alignas(64) Line line_;
   std::uint8_t stale_ = 0xFF;  // masks to rebuild, bit n: Object n
-  bool lost_track_ = false;
+  bool tracking_is_suspended_ = false;
   std::uint16_t seen_ = 0;
   Collisions meetings_ = 0;  // pairs that have met: they need not be computed
   Collisions cleared_meetings_ = 0;
   Collisions unsought_ = 0;  // pairs that are not sought
   std::uint8_t sought_objects_ = 0;
   bool cleared_ = false;
-  std::int32_t collided_ = 0;   // up to this clock, or the cursor, the collisions are known
+  std::int32_t collided_ = 0;   // collisions are known up to this clock, or to the cursor if that is later
   std::int32_t forgotten_ = 0;  // up to this pixel, forget_row() has been called
   RenderMode mode_ = RenderMode::kDrawn;
 };

@@ -20,7 +20,7 @@ namespace racebeam {
 class FrameBuffer {
  public:
   FrameBuffer() = default;
-  // A copy with this paging.
+  // Copies a buffer into memory of this paging.
   FrameBuffer(const FrameBuffer& other, Paging paging)
       : undrawn(other.undrawn),
         is_undrawn(other.is_undrawn),
@@ -63,7 +63,7 @@ class FrameBuffer {
   // Call it after another writer has changed pixels.
   void forget_lines() { std::ranges::fill(shows_, kAnyLine); }
 
-  // The last frame on this buffer, if that was run without its pixels. Playing it again fills all rows.
+  // The frame that this buffer shows, if it was run without its pixels. Replaying it fills all rows.
   RecordedStep undrawn;
   bool is_undrawn = false;
 

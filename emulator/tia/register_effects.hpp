@@ -23,13 +23,13 @@ concept ChangePolicy = requires(const T& policy, std::int32_t clock, std::uint8_
   policy.reach(clock);
   policy.draw_to(clock, objects);
   policy.draw_before(clock, part);
-  policy.come_to(clock);
+  policy.advance_to(clock);
   policy.collide_to(clock);
   policy.changed(objects);
-  policy.enabled();
+  policy.enabled_changed();
   policy.clear_collisions();
-  { policy.looks() } -> std::same_as<bool>;
-  { policy.minds(objects) } -> std::same_as<bool>;
+  { policy.is_active() } -> std::same_as<bool>;
+  { policy.tracks(objects) } -> std::same_as<bool>;
 };
 
 template <ChangePolicy Policy>
@@ -74,11 +74,11 @@ class RegisterEffects {
 
   // Updates which of these objects are enabled, after a write that may change it.
   RACEBEAM_INLINE void control(unsigned objects) {
-    if (!policy_.minds(objects)) return;
+    if (!policy_.tracks(objects)) return;
     const auto enabled = static_cast<std::uint8_t>((tia_.enabled & ~objects) | enabled_among(tia_, objects));
     if (enabled == tia_.enabled) return;
     tia_.enabled = enabled;
-    policy_.enabled();
+    policy_.enabled_changed();
   }
 
   template <class T>
@@ -111,7 +111,7 @@ template <ChangePolicy Policy>
 template <class T>
 RACEBEAM_INLINE bool RegisterEffects<Policy>::assign(T& reg, T value, std::int32_t clock,
                                                      std::uint8_t objects) {
-  if (policy_.looks() && reg == value) {
+  if (policy_.is_active() && reg == value) {
     policy_.reach(clock);
     return false;
   }
@@ -142,7 +142,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::play(TiaWrite write, std::int32_t 
   const auto motion = [value] { return static_cast<std::uint8_t>(value >> 4); };
   // clang-format off
   switch (write.reg()) {
-    case VBLANK: assign(tia_.vblank, flag(1), after(VBLANK), kAllObjects); policy_.enabled(); break;
+    case VBLANK: assign(tia_.vblank, flag(1), after(VBLANK), kAllObjects); policy_.enabled_changed(); break;
     case NUSIZ0: write_nusiz(0, value, after(NUSIZ0)); break;
     case NUSIZ1: write_nusiz(1, value, after(NUSIZ1)); break;
     case COLUP0: case COLUP1: case COLUPF: case COLUBK: write_color(write.reg() - COLUP0, value, clock); break;
@@ -190,7 +190,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::write_nusiz(unsigned which, std::u
   PlayerState& player = tia_.player[which];
   const bool reselects = player.skip || (which == 0 && tia_.cosmic);
   value &= 0x37;
-  if (policy_.looks() && player.nusiz == value && !reselects) return policy_.reach(clock);
+  if (policy_.is_active() && player.nusiz == value && !reselects) return policy_.reach(clock);
   policy_.draw_to(clock, object(kP0, which) | object(kM0, which));
   player.nusiz = value;
   player.skip = 0;
@@ -204,11 +204,11 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::write_ctrlpf(std::uint8_t value, s
   const bool latches = line_cycle(clock / 3) < 49;
   const std::uint8_t reflect = latches ? value & 1 : tia_.reflect;
   value &= 0x37;
-  if (policy_.looks() && tia_.ctrlpf == value && tia_.reflect == reflect) return policy_.reach(clock);
+  if (policy_.is_active() && tia_.ctrlpf == value && tia_.reflect == reflect) return policy_.reach(clock);
   if (latches)
     policy_.draw_to(clock, kBallBit | kPlayfieldBit);
   else
-    policy_.come_to(clock);
+    policy_.advance_to(clock);
   // Drawing may have passed the end of a line, where the latch changes: read it again.
   tia_.reflect = latches ? value & 1 : tia_.reflect;
   tia_.ctrlpf = value;
@@ -222,7 +222,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::write_playfield(unsigned which, st
   static_assert(kLineCycles % 4 == 0 && std::ranges::max(kDelay) == kRegisters[PF0].delay);
   const std::int32_t clock = 3 * cycle + kDelay[static_cast<std::size_t>(cycle - first_cycle_) % 4];
   std::uint8_t& reg = tia_.pf[which];
-  if (policy_.looks() && reg == value) {
+  if (policy_.is_active() && reg == value) {
     policy_.reach(clock);
   } else {
     policy_.draw_before(clock, kPlayfieldParts[tia_.reflect][which]);
@@ -239,7 +239,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::write_graphics(unsigned which, std
   PlayerState& written = tia_.player[which];
   PlayerState& other = tia_.player[1 - which];
   std::uint8_t objects = kBallBit | object(kP0, 0) | object(kP0, 1);
-  if (policy_.looks()) {
+  if (policy_.is_active()) {
     objects = 0;
     if (!written.vdel && written.grp != value) objects |= object(kP0, which);
     if (other.vdel && other.old_grp != other.grp) objects |= object(kP0, 1 - which);
@@ -268,7 +268,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::write_ball(std::uint8_t enabled, s
                                                          std::uint8_t vdel, std::int32_t clock) {
   BallState& ball = tia_.ball;
   const bool is_visible = vdel ? old_enabled != 0 : enabled != 0;
-  if (!policy_.looks() || is_visible != ball_enabled(ball)) {
+  if (!policy_.is_active() || is_visible != ball_enabled(ball)) {
     policy_.draw_to(clock, kBallBit);
     policy_.changed(kBallBit);
   } else {
@@ -300,7 +300,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::write_hmm0(std::uint8_t motion, st
   const bool enters =
       static_cast<std::uint32_t>(clock) == tia_.hmove_clock + 63 && missile.motion == 7 && motion == 6;
   if (enters) {
-    policy_.come_to(clock);
+    policy_.advance_to(clock);
     tia_.cosmic = 1;
     tia_.cosmic_count = 0;
     policy_.changed(object(kM0, 0));
@@ -352,7 +352,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::strobe_player(unsigned which, std:
     // The old copy is being drawn, and is finished first.
     if (into >= 4 && into <= 3 + width) policy_.draw_to(clock + kRegisters[RESP0].delay, object(kP0, which));
   }
-  if (skip) policy_.come_to(clock);
+  if (skip) policy_.advance_to(clock);
   player.position = position;
   player.skip = skip;
   policy_.changed(object(kP0, which));
@@ -381,7 +381,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::strobe_hmove(std::int32_t cycle) {
   if (arms)
     policy_.draw_to(clock, kAllObjects);
   else
-    policy_.come_to(clock);
+    policy_.advance_to(clock);
   const auto& movement = kMovement[static_cast<std::size_t>(x)];
   const auto move = [&](std::uint8_t& position, std::uint8_t motion, std::uint8_t objects) {
     if (movement[motion] == 0) return;

@@ -97,8 +97,8 @@ void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& l
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
 
-void Tia::forget() {
-  beam_.forget();
+void Tia::rebuild() {
+  beam_.rebuild();
   recorded_ = nullptr;
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
@@ -147,7 +147,7 @@ bool Tia::is_settled(Collisions latches) {
 bool Tia::follow_log() {
   skip(end_of_unseen());
   const TrackPolicy policy{beam_, tia_, reached_, watches_};
-  policy.enabled();
+  policy.enabled_changed();
   RegisterEffects(tia_, frame_, video_, policy).play(played_, log_->next, log_->base);
   played_ = log_->next;
   return true;
@@ -176,9 +176,9 @@ void Tia::find_collisions(std::int32_t cycle, Collisions latches) {
 
 void Tia::touch(std::int32_t cycle) {
   if (beam_.draws_pixels())
-    RenderPolicy{beam_, reached_}.come_to(3 * cycle);
+    RenderPolicy{beam_, reached_}.advance_to(3 * cycle);
   else
-    TrackPolicy{beam_, tia_, reached_, watches_}.come_to(3 * cycle);
+    TrackPolicy{beam_, tia_, reached_, watches_}.advance_to(3 * cycle);
 }
 
 bool Tia::end_picture(std::int32_t cycle) {
@@ -303,7 +303,7 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions latches) {
         tia_.hmove_clock = static_cast<std::uint32_t>(cursor + record->hmove_clock);
       if (record->view.seen & kClears) beam_.clear_collisions();
     } else {
-      beam_.lose_track();
+      beam_.suspend_tracking();
       registers.write(tia_);
       play_recalled(next, *record);
       registers.read(tia_);
@@ -316,7 +316,7 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions latches) {
     origin += static_cast<std::uint32_t>(repetitions) * kLineOfWrites;
   }
   if (record == first) return enough;
-  beam_.lose_track();
+  beam_.suspend_tracking();
   registers.write(tia_);
   beam_.pass_lines(static_cast<int>(record - first));
   return enough;
@@ -335,7 +335,7 @@ void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
 bool Tia::draw_line(std::uint32_t origin) {
   if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr) {
     recorded_ = &beam_.open_record();
-    beam_.look_afresh();
+    beam_.reset_observations();
   }
   const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;
   if (recorded_ == nullptr)

@@ -28,14 +28,14 @@ class Tia {
   void catch_up(std::int32_t cycle);   // plays all writes, and draws up to `cycle`
   void find_collisions(std::int32_t cycle, Collisions latches);  // computes these latches as of `cycle`
   Collisions latches_read() const { return latches_read_; }      // latches that have been read in this step
-  bool cleared() const { return beam_.cleared(); }              // whether all latches have been, in this step
-  bool drew_all() const { return tia_.cursor >= beam_.end(); }  // whether the window is complete
-  // catch_up() at the end of a picture. Returns false if an access that is not in the log may have left
+  bool cleared() const { return beam_.cleared(); }               // whether CXCLR was written in this step
+  bool drew_all() const { return tia_.cursor >= beam_.end(); }   // whether the window is complete
+  // Like catch_up(), at the end of a picture. Returns false if an access that is not in the log may have left
   // visible pixels.
   bool end_picture(std::int32_t cycle);
-  // Whether pixels that were drawn ahead are visible in a picture that stops here.
+  // Whether a picture that stops at `cycle` would show pixels that were drawn ahead of the beam.
   bool stopped_inside(std::int32_t cycle) const;
-  void forget();  // the registers were replaced as a whole
+  void rebuild();  // called after the registers were replaced: recomputes what is derived from them
   void forget_lines() { beam_.forget_lines(); }
   // Greys the rows that were not drawn when a step ended open.
   void grey(FrameBuffer& picture, std::int32_t cycle) const;

@@ -57,7 +57,7 @@ std::uint32_t RACEBEAM_SYSV_ABI add_decimal(std::uint32_t a, std::uint32_t m, st
 std::int32_t RACEBEAM_SYSV_ABI skip_timer_loop(Board* board, const std::uint8_t* branch, std::int32_t cycle,
                                                std::int32_t period) {
   const std::int32_t skipped = period * sure_timer_turns(branch, board->state.riot, cycle + 4, period);
-  board->translated.waited += static_cast<std::uint32_t>(skipped);
+  board->translator_context.waited += static_cast<std::uint32_t>(skipped);
   return cycle + skipped;
 }
 

@@ -64,7 +64,7 @@ class Host : private target::Processor {
   void bind(Label& label);
   void jump(Label& label);
   void jump(const void* code);
-  void jump_through(const void* const* entry, Label& none);  // to `none` if *entry is null
+  void jump_through(const void* const* entry, Label& absent);  // to `absent` if *entry is null
   void jump_at_limit(Label& reached, Distance distance);
   void branch(Operation operation, NzHome nz, Label& taken);  // for BCC and BCS, the carry is a number
   void leave(std::uint32_t exit);
@@ -78,7 +78,7 @@ class Host : private target::Processor {
   void load_return_address(Label& interpret);
   void drop_return_address();
   void load_jump_address(unsigned pointer);
-  void find_block(Label& none);  // jumps to `none` without a block, or at the limit
+  void find_block(Label& absent);  // jumps to `absent` if there is no block, or at the limit
   void jump_to_found_block(int cycles);
   void leave_to_return_address(int cycles, Label& interpret);  // jumps if that is not in the cartridge
 

@@ -26,14 +26,14 @@ Layout::Layout(Board& board) {
   sound = at(board.sound.registers);
   pins = at(board.pin_high_from_);
   cartridge_ram = at(state.cartridge.ram);
-  limit = at(board.translated.limit);
-  first_line = at(board.translated.first_line);
-  waited = at(board.translated.waited);
-  nz = at(board.translated.nz);
-  carry = at(board.translated.carry);
-  overflow = at(board.translated.V);
-  decimal = at(board.translated.D);
-  interrupt = at(board.translated.I);
+  limit = at(board.translator_context.limit);
+  first_line = at(board.translator_context.first_line);
+  waited = at(board.translator_context.waited);
+  nz = at(board.translator_context.nz);
+  carry = at(board.translator_context.carry);
+  overflow = at(board.translator_context.V);
+  decimal = at(board.translator_context.D);
+  interrupt = at(board.translator_context.I);
 }
 
 std::int32_t Layout::in_fetcher(std::uint16_t address, std::size_t member) const {

@@ -166,7 +166,7 @@ Translator::Impl::Entry Translator::Impl::find_entry(Board& board) {
 
 // Returns whether the interpreter must execute the next instruction.
 bool Translator::Impl::enter(Board& board, const void* start) {
-  translator::Context& context = board.translated;
+  translator::Context& context = board.translator_context;
   unpack_status(context, board.state.cpu.P);
   const std::uint32_t exit = code->enter()(start, &board, board.log);
   board.state.cpu.PC = static_cast<std::uint16_t>(exit);
@@ -179,9 +179,9 @@ bool Translator::Impl::enter(Board& board, const void* start) {
 std::int32_t Translator::Impl::run_block(Board& board, const void* start) {
   if (!budget.is_unlimited() && profitability.is_unprofitable()) return interpreted_run.next(1);
   const std::int32_t first = board.state.cycle;
-  const std::uint32_t waited_before = board.translated.waited;
+  const std::uint32_t waited_before = board.translator_context.waited;
   const bool interpret_next = enter(board, start);
-  const auto waited = static_cast<std::int32_t>(board.translated.waited - waited_before);
+  const auto waited = static_cast<std::int32_t>(board.translator_context.waited - waited_before);
   const std::int32_t cycles = board.state.cycle - first - waited;
   if (!board.stop) profitability.record(cycles);
   if (cycles >= tuning::kBreakEvenCycles) interpreted_run.reset();
@@ -225,8 +225,8 @@ bool Translator::run(Board& board, std::int32_t instructions) {
 bool Translator::run_blocks(Board& board, std::int32_t instructions) {
   board.stop = false;
   const std::int32_t first_cycle = board.state.cycle;
-  const std::int32_t limit = board.translated.limit = board.overlong_cycle() - kMargin;
-  board.translated.first_line = board.state.tia.origin / 3;
+  const std::int32_t limit = board.translator_context.limit = board.overlong_cycle() - kMargin;
+  board.translator_context.first_line = board.state.tia.origin / 3;
   while (!board.stop && !board.state.cpu.jammed) {
     const std::int32_t remaining = instructions - (board.state.cycle - first_cycle) / kFewestCycles;
     if (board.state.cycle >= limit || remaining <= 0) {

@@ -159,7 +159,7 @@ struct Batch::Impl final : VectorHost {
   const BatchSettings settings;
   Watch watch;
   const std::size_t batch_size;
-  const ManyMachines many;
+  const LargePageScope many;
   ThreadPool pool;
   const BatchArrays* out = nullptr;  // of the request that runs; null between send() and receive()
   ResultLayout layout;

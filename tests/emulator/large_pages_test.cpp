@@ -18,8 +18,8 @@
 #include "system/pages.hpp"
 
 using racebeam::large_pages_in_use;
+using racebeam::LargePageScope;
 using racebeam::MachineVector;
-using racebeam::ManyMachines;
 using racebeam::Paging;
 
 namespace {
@@ -41,12 +41,12 @@ TEST_CASE("Memory is in large pages while there are many machines") {
   REQUIRE(large_pages_in_use() == 0);
   CHECK((Bytes(kKiB), large_pages_in_use() == 0));
   {
-    const ManyMachines few(7);
+    const LargePageScope few(7);
     CHECK((Bytes(kKiB), large_pages_in_use() == 0));
     const Bytes small(kKiB);
     CHECK(large_pages_in_use() == 0);
   }
-  std::optional<ManyMachines> many(8), more(64);
+  std::optional<LargePageScope> many(8), more(64);
   const Bytes block(kKiB);
   CHECK(large_pages_in_use() == pages(1));
   many.reset();
@@ -58,7 +58,7 @@ TEST_CASE("Memory is in large pages while there are many machines") {
 }
 
 TEST_CASE("A large page is given back with its last block, after the machines too") {
-  std::optional<ManyMachines> many(8);
+  std::optional<LargePageScope> many(8);
   std::vector<Bytes> blocks;
   for (int i = 0; i < 50; ++i) blocks.emplace_back(100 * kKiB);
   CHECK(large_pages_in_use() == pages(3));  // 20 blocks each
@@ -72,7 +72,7 @@ TEST_CASE("A large page is given back with its last block, after the machines to
 }
 
 TEST_CASE("A free block is used again for one of its size") {
-  const ManyMachines many(8);
+  const LargePageScope many(8);
   const Bytes first(kKiB);
   std::optional freed = Bytes(kMiB / 2, std::uint8_t{1});
   const std::uint8_t* const place = freed->data();
@@ -84,7 +84,7 @@ TEST_CASE("A free block is used again for one of its size") {
 }
 
 TEST_CASE("Free blocks of a page that is given back are forgotten") {
-  const ManyMachines many(8);
+  const LargePageScope many(8);
   for (int round = 0; round < 3; ++round) {
     std::vector<Bytes> blocks;
     for (int i = 0; i < 40; ++i) blocks.emplace_back(100 * kKiB, std::uint8_t(i));
@@ -97,7 +97,7 @@ TEST_CASE("Free blocks of a page that is given back are forgotten") {
 }
 
 TEST_CASE("Large blocks and those with the usual paging are in no large page") {
-  const ManyMachines many(8);
+  const LargePageScope many(8);
   const Bytes large(kMiB), usual(kKiB, Paging::kUsual);
   CHECK(large_pages_in_use() == 0);
   const Bytes largest(kMiB - 2 * kKiB);
@@ -108,7 +108,7 @@ TEST_CASE("Large blocks and those with the usual paging are in no large page") {
 }
 
 TEST_CASE("Blocks are aligned and apart") {
-  const ManyMachines many(8);
+  const LargePageScope many(8);
   std::vector<Bytes> blocks;
   for (std::size_t size = 1; size < 300; ++size) blocks.emplace_back(size, static_cast<std::uint8_t>(size));
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -118,7 +118,7 @@ TEST_CASE("Blocks are aligned and apart") {
 }
 
 TEST_CASE("Threads allocate and give back at the same time") {
-  const ManyMachines many(8);
+  const LargePageScope many(8);
   std::vector<std::thread> threads;
   std::vector<int> wrong(4);
   for (int number = 0; number < 4; ++number)
@@ -137,7 +137,7 @@ TEST_CASE("Threads allocate and give back at the same time") {
 
 #ifdef __linux__
 TEST_CASE("A copy of the process allocates and gives back while a thread of the first one did") {
-  const ManyMachines many(8);
+  const LargePageScope many(8);
   std::atomic<int> rounds = 0;
   std::atomic<bool> is_over = false;
   std::thread thread([&] {

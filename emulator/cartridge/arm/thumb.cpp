@@ -367,7 +367,7 @@ constexpr Format kFormats[] = {
     {0xFE00, 0xBC00, pop},                                                  // POP
     {0xF800, 0xC000, store_multiple},                                       // 15: STMIA
     {0xF800, 0xC800, load_multiple},                                        // LDMIA
-    {0xFE00, 0xDE00, undefined},                                            // 17: SWI, and an undefined condition
+    {0xFE00, 0xDE00, undefined},                                            // 17: SWI, undefined Bcc
     {0xF000, 0xD000, branch_if},                                            // 16: Bcc
     {0xF800, 0xE000, branch},                                               // 18: B
     {0xF800, 0xF000, bl_prefix},                                            // 19: BL, first half

@@ -23,12 +23,13 @@ class FlickerDetector {
   void count(LineRecord& record);
 
  private:
-  // of the frames with one set: the last two are compared
+  // The frames of a try, by their number in the period: rows are hashed from kFirst on, and compared with
+  // those of two frames before from kAgain to kLast.
   static constexpr int kFirst = 2, kAgain = 4, kLast = 5;
 
   void judge();
 
-  // frames since the last try, and between two tries
+  // The frames since the last try, and those between two tries.
   int frame_ = 0, period_ = tuning::kShortestFlickerPeriod / 4;
   int alike_ = 0;                                // rows that were drawn again with the same content
   int drawn_with_one_ = 0, drawn_with_two_ = 0;  // rows, in two frames

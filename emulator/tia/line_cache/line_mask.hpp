@@ -1,5 +1,5 @@
-// Which bytes of the registers a line reads and sets. A game has few kinds of lines, so that records share
-// these masks.
+// Masks of the bytes of TiaRegisters that a line reads and sets. A game has few kinds of lines, so that many
+// records share a mask.
 #pragma once
 
 #include "emulator/state/state.hpp"
@@ -7,10 +7,10 @@
 
 namespace racebeam {
 
-// $FF for each byte that
+// Byte masks: $FF selects a byte of the registers.
 struct LineMask {
-  TiaRegisters counts;  // pixels, collisions or the registers at the end depend on
-  TiaRegisters sets;    // is known at the end: those that count, and those that are written
+  TiaRegisters counts;  // bytes at the line's start that its pixels, collisions or final registers depend on
+  TiaRegisters sets;    // bytes whose values at the line's end are known: `counts`, and the written ones
 
   static const LineMask kWhole;  // all bytes count, and are set
 

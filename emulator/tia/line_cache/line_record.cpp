@@ -57,9 +57,10 @@ ByteSet moved_positions(int cycle, const std::array<std::uint8_t, 5>& motion) {
   return moved;
 }
 
-// LineDependencies::seen after a line that ended so. An object in the colour of the background is not seen,
-// and where it is the only one, it meets nothing. Its shape does not count then, but the colours do: they
-// also do where a playfield is shown, or one in the players' colours.
+// Returns `seen` without an object that cannot be told from the background: the only object of the line, in
+// its colour. It meets nothing, so that its shape does not count. The colours do, so that the line is marked
+// as one with a playfield, which has the same colours, or with a playfield in the players' colours. tia: at
+// the end of the line.
 std::uint16_t without_hidden_object(unsigned seen, const TiaRegisters& tia) {
   static constexpr std::array<std::uint8_t, kObjects> kColor = {0, 1, 0, 1, 2, 2};
   const unsigned objects = seen & kAllObjects;

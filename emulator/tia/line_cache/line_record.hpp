@@ -63,9 +63,9 @@ struct alignas(64) LineRecord {
   const LineMask* mask = &LineMask::kWhole;
   Collisions meetings;    // pairs that met on the line, after the last CXCLR
   Collisions cleared;     // pairs that met before it
-  LineDependencies view;  // why bytes count
+  LineDependencies view;  // what the line depends on, from which `mask` is computed
   LineNumber number = kNoLine;
-  std::uint8_t count;        // of events
+  std::uint8_t count;        // how many elements of `event` are used
   std::int16_t hmove_clock;  // of the last HMOVE, from the line's first clock, if the line kMoves
   // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp).
   std::array<std::uint8_t, 2> hashes{};
@@ -105,8 +105,8 @@ struct alignas(64) LineRecord {
     return is_zero(difference);
   }
 
-  // Whether, where the line of the record of the row before exists, this one does too: it is the same line,
-  // without a write, and changes no register that counts.
+  // Whether a row that follows a row with the line of `before` needs no check of its own: both lines are the
+  // same, have no writes, and change no register that counts.
   bool is_repetition_of(const LineRecord& before) const;
 
   // Compares only the bytes that pixels depend on. The registers may end differently.

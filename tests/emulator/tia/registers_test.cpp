@@ -37,12 +37,12 @@ struct Listener {
   void reach(std::int32_t clock) const { effects.clock = std::max(effects.clock, clock); }
   void draw_to(std::int32_t clock, unsigned) const { reach(clock); }
   void draw_before(std::int32_t clock, const PlayfieldPart&) const { reach(clock); }
-  void come_to(std::int32_t clock) const { reach(clock); }
+  void advance_to(std::int32_t clock) const { reach(clock); }
   void collide_to(std::int32_t clock) const { reach(clock); }
-  bool looks() const { return compares; }
-  static bool minds(unsigned) { return false; }
+  bool is_active() const { return compares; }
+  static bool tracks(unsigned) { return false; }
   void changed(std::uint8_t) const {}
-  void enabled() const {}
+  void enabled_changed() const {}
   void clear_collisions() const { effects.cleared = true; }
 };
 
