@@ -29,15 +29,15 @@ local function session(connection, options)
     longest = options.longest_reply or LONGEST_REPLY, unanswered = {}, first = 1, last = 0, ahead = 0, arrived = {} }, Session)
 end
 
--- A session of the server at `address`; without one, at that of the variable RACEBEAM_ADDRESS.
+-- Opens a session with the server at `address`, by default that in the environment variable RACEBEAM_ADDRESS.
 --
 -- address: tcp://HOST:PORT, tls://HOST:PORT and unix:PATH (with LuaSocket and LuaSec), pipes:PREFIX (named pipes), stdio, or
 -- file:PATH (the first address in the server's ready file or announce file; file:PATH?wait=SECONDS waits for the server, and
 -- needs LuaSocket). options:
---   token          for servers that require one; nil: that of the announce file
+--   token          the token for servers that require one; default: that of the announce file
 --   timeout        seconds to wait for a connection and for each reply, on sockets
 --   tls            a file of certificates to trust, or parameters of LuaSec
---   longest_reply  bytes
+--   longest_reply  the most bytes of a line of a reply; a longer one ends the session
 --   arrays         true: fields observed with :delta are given as the array that the client keeps, whose first byte is [0]
 function racebeam.connect(address, options)
   options = options or {}
@@ -58,8 +58,9 @@ function racebeam.connect(address, options)
   return made
 end
 
--- A session with a server that it starts, and that ends with it. options: as of connect; `program` (default:
--- RACEBEAM_PROGRAM, or racebeam of the PATH). The other arguments are those of `racebeam serve`. Needs no module.
+-- Starts a server, and opens a session with it. The server stops when the session ends. options: those of connect, and
+-- `program` (default: RACEBEAM_PROGRAM, or racebeam of the PATH). The other arguments are those of `racebeam serve`. Needs
+-- no module.
 function racebeam.launch(options, ...)
   options = options or {}
   local program = options.program or os.getenv("RACEBEAM_PROGRAM") or "racebeam"
@@ -103,8 +104,8 @@ local function line_of(...)
   return (table.concat(words, " "):gsub(" +$", ""))
 end
 
--- A request without waiting for its reply; receive() gives the replies in their order. Words are joined by blanks, and a table
--- stands for settings.
+-- Sends a request without waiting for its reply; receive() returns the replies in their order. Blanks join the words, and a
+-- table stands for settings.
 function Session:send(...)
   local line = line_of(...)
   if line:find("\n", 1, true) or line:find("^ *#") then
@@ -183,12 +184,13 @@ local function granted(outcome)
   return outcome.groups, outcome.line
 end
 
--- The groups of the next reply to a request that was sent ahead, and its line.
+-- Receives the next reply to a request that was sent ahead. Returns its groups, and its line.
 function Session:receive()
   return granted(table.remove(self.arrived, 1) or self:outcome())
 end
 
--- A request and its reply: groups, and the line. Replies of requests that were sent ahead stay to be received.
+-- Sends a request. Returns the groups of its reply, and its line. Replies of requests that were sent ahead stay to be
+-- received.
 function Session:request(...)
   self:send(...)
   while self.first < self.last do
@@ -209,7 +211,7 @@ local function split(text)
   return found
 end
 
--- A value of the reply as it was sent.
+-- Returns a value of the reply as it was sent.
 function Session:request_text(key, ...)
   local _, line = self:request(...)
   return (line .. " "):match(" " .. key .. "=(%S*) ")
@@ -230,7 +232,7 @@ function Session:game(name)
   return first(self, "games", name)
 end
 
--- settings.image: the bytes of a cartridge, when `game` is "inline".
+-- Powers on with an image and begins an episode. settings.image: the bytes of a cartridge, if `game` is "inline".
 function Session:load(game, settings)
   if settings ~= nil and type(settings) ~= "table" then
     fault("invalid", ("the settings are of type %s; load takes a table"):format(type(settings)))
@@ -246,7 +248,7 @@ function Session:names()
   return first(self, "names")
 end
 
--- Names by number.
+-- Lists the actions that act accepts. Returns their names by number.
 function Session:actions()
   local found = {}
   for _, pair in ipairs(split(first(self, "actions").actions)) do
@@ -256,7 +258,7 @@ function Session:actions()
   return found
 end
 
--- { red, green, blue } of each value of a pixel, the first of them at 0.
+-- Reads the colours of the field screen. Returns { red, green, blue } for each value of a pixel, from 0.
 function Session:palette()
   local bytes, colours = self:look("palette").palette, {}
   for value = 0, 255 do
@@ -278,7 +280,8 @@ function Session:poke(index, bytes)
   end)))
 end
 
--- settings: { episode = 1 } for the score, the progress of the episode and the stack of screens, too.
+-- Exports a state, for later or for another process. settings: { episode = 1 } includes the score, the progress of the
+-- episode and the stack of screens.
 function Session:export_state(name, settings)
   return decode.base64(self:request_text("data", "export", name, settings or ""))
 end
@@ -299,7 +302,8 @@ local function rewards(text)
   return found
 end
 
--- lists: of actions. Returns a table for each, in which `rewards` is a list.
+-- Plays lists of actions from a state; the session itself does not change. Returns a table for each list, in which
+-- `rewards` is a list.
 function Session:branch(name, lists, settings)
   local words = {}
   for at, actions in ipairs(lists) do
@@ -319,7 +323,7 @@ function Session:close()
   self:close_machines()
 end
 
--- Saves a picture of the screen as a PNG file. machine: one of those of open, 0 the first.
+-- Saves a picture of the screen as a PNG file. machine: the index of a machine of open, from 0.
 function Session:save_png(path, machine)
   if type(path) ~= "string" then
     fault("invalid", ("the path is of type %s; save_png takes a string"):format(type(path)))

@@ -22,9 +22,9 @@ struct Address {
   enum class Kind { kTcp, kTls, kUnix, kPipes, kStdio };
   Kind kind = Kind::kStdio;
   std::string place;        ///< host, path or prefix
-  std::uint16_t port = 0;   ///< of kTcp and kTls
-  std::string token = {};   ///< of an announce file
-  std::string source = {};  ///< the address that a file names, and the file, for people
+  std::uint16_t port = 0;   ///< port of kTcp and kTls
+  std::string token = {};   ///< token of an announce file
+  std::string source = {};  ///< for error messages: the address that a file names, and the file
 };
 
 [[noreturn]] inline void refuse_address(std::string_view text) {

@@ -49,7 +49,7 @@ class AsyncSession : public Commands<AsyncSession> {
   /// Sends a request without waiting for its reply.
   boost::asio::awaitable<void> send(std::string_view line) { return put_alone(std::string(line)); }
 
-  /// The next reply to a request that was sent ahead.
+  /// Receives the next reply to a request that was sent ahead.
   boost::asio::awaitable<Reply> receive() {
     const Turn turn(busy_);
     if (arrived_.empty()) arrived_.push_back(co_await outcome());
@@ -267,9 +267,10 @@ inline boost::asio::awaitable<AsyncSession> async_connect(std::string_view addre
       address.empty() ? detail::environment_variable("RACEBEAM_ADDRESS", "") : std::string(address), options);
 }
 
-/// Starts its own server, which ends with the session.
-/// @param program by default that of the environment variable RACEBEAM_PROGRAM, else `racebeam`
-/// @param arguments of `racebeam serve`
+/// Starts a server, and opens a session with it. The server stops when the session ends.
+/// @param program path of the program; default: that of the environment variable RACEBEAM_PROGRAM, else
+/// `racebeam`
+/// @param arguments options of `racebeam serve`
 /// @param options `token` has no effect
 inline boost::asio::awaitable<AsyncSession> async_launch(std::string_view program = {},
                                                          const std::vector<std::string>& arguments = {},

@@ -36,33 +36,35 @@ class Commands : public CommandMethods<Derived> {
   using Base::first;
 
  public:
-  /// Explains a command, setting, field, preset, encoding or error code to people: std::string.
+  /// Explains a command, setting, field, preset, encoding or error code. Returns a text for people,
+  /// std::string.
   template <class... Words>
   auto help(const Words&... topic) {
     return ask([](const Reply& reply) { return reply.line().substr(std::string_view("ok ").size()); }, "help",
                topic...);
   }
 
-  /// What the server knows about a game: Group.
+  /// Describes a game. Returns Group.
   auto game(std::string_view name) { return ask(first, "games", name); }
 
-  /// Powers on and begins an episode: the settings in effect, Group.
+  /// Powers on and begins an episode. Returns the settings in effect, Group.
   /// @param game its name, or the MD5 of its image
   /// @param settings such as `Setting("seed", 7), "preset=dqn2015"`
   template <class... Settings>
   auto load(std::string_view game, const Settings&... settings) {
     return ask(first, "load", game, settings...);
   }
-  /// Loads an image of the client's. The setting `as` names the game whose rules apply.
+  /// Loads an image that the client sends. Returns the settings in effect, Group. The setting `as` names the
+  /// game whose rules apply.
   template <class... Settings>
   auto load_image(std::span<const std::uint8_t> image, const Settings&... settings) {
     return ask(first, "load inline", Setting("image", to_base64(image)), settings...);
   }
 
-  /// Names for bytes of the fields `ram` and `tia`: ram_names, pairs of index and name, and tia_names, in
-  /// order. Group.
+  /// Names bytes of the fields `ram` and `tia`. Returns Group: `ram_names` has pairs of index and name, and
+  /// `tia_names` the names in order.
   auto names() { return ask(first, "names"); }
-  /// The actions that `act` accepts: names by number.
+  /// Lists the actions that `act` accepts. Returns their names by number.
   auto actions() {
     return ask(
         [](const Reply& reply) {
@@ -78,12 +80,12 @@ class Commands : public CommandMethods<Derived> {
         "actions");
   }
 
-  /// The colours of the field `screen`: Palette.
+  /// Reads the colours of the field `screen`. Returns Palette.
   auto palette() {
     return ask([](const Reply& reply) { return Palette(reply.first().bytes("palette")); }, "look palette");
   }
 
-  /// Reads bytes of RAM: Bytes.
+  /// Reads bytes of RAM. Returns Bytes.
   auto peek(int index, int count = 1) {
     return ask([](const Reply& reply) { return from_hex(reply.first().text("bytes")); }, "peek", index,
                count);
@@ -93,9 +95,9 @@ class Commands : public CommandMethods<Derived> {
     return ask(first, "poke", index, to_hex(bytes));
   }
 
-  /// A state for later, or for another process: Bytes.
-  /// @param name of the state
-  /// @param settings `"episode=1"` for the score, the progress of the episode and the stack of screens, too
+  /// Exports a state, for later or for another process. Returns Bytes.
+  /// @param name the name of the state
+  /// @param settings `"episode=1"`: also the score, the progress of the episode and the stack of screens
   template <class... Settings>
   auto export_state(std::string_view name, const Settings&... settings) {
     return ask([](const Reply& reply) { return from_base64(reply.first().text("data")); }, "export", name,
@@ -106,10 +108,10 @@ class Commands : public CommandMethods<Derived> {
     return ask(first, "import", name, to_base64(state));
   }
 
-  /// Plays lists of actions from a state; the session itself does not change: a Branch for each list.
-  /// @param state its name
+  /// Plays lists of actions from a state; the session itself does not change. Returns a Branch for each list.
+  /// @param state the name of the state
   /// @param lists actions, such as `"FIRE*3", "UP"`
-  /// @param keep the beginning of the names of the states in which the lists ended, which are then kept
+  /// @param keep the prefix of names under which the states at the ends of the lists are saved
   auto branch(std::string_view state, const std::vector<std::vector<std::string>>& lists,
               std::string_view keep = {}) {
     std::vector<std::string> words;
@@ -122,15 +124,15 @@ class Commands : public CommandMethods<Derived> {
   }
 
   /// Saves a picture of the screen as a PNG file. Throws std::runtime_error if it cannot be written.
-  /// @param path of the file, on this computer
-  /// @param settings `Setting("machine", N)` for one of the machines of `open`, 0 the first
+  /// @param path the path of the file, on this computer
+  /// @param settings `Setting("machine", N)`: the index of a machine of `open`, from 0
   template <class... Settings>
   auto save_png(const std::filesystem::path& path, const Settings&... settings) {
     return ask([path](const Reply& reply) { write_file(path, from_base64(reply.first().text("data"))); },
                "shot", settings...);
   }
 
-  /// Ends the recording: what was kept, Group.
+  /// Ends the recording. Returns what was kept, Group.
   auto stop_recording() { return ask(first, "record stop"); }
 
  protected:

@@ -3,7 +3,7 @@ package racebeam;
 import java.util.List;
 
 /**
- * What a list of actions of {@code branch} led to.
+ * The result of a list of actions of {@code branch}.
  *
  * @param rewards the reward of each act
  * @param rewardsB the rewards of player B; empty if the game's rules have only one player
@@ -15,7 +15,7 @@ public record Branch(List<Long> rewards, List<Long> rewardsB, Group group) {
   }
 
   /**
-   * The sum of the rewards.
+   * Returns the sum of the rewards.
    *
    * @return the field reward
    */

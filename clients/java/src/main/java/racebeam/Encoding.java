@@ -36,7 +36,7 @@ public enum Encoding {
       return decoded;
     }
   },
-  /** What changed since the reply before; {@link #applyDelta} needs the array of that reply. */
+  /** The changes since the previous reply; {@link #applyDelta} needs the array of that reply. */
   DELTA {
     @Override
     public byte[] decode(String text) {
@@ -63,7 +63,7 @@ public enum Encoding {
       }
     }
   },
-  /** As they are, after the line of the reply, which has only their number. */
+  /** Unencoded bytes, after the line of the reply, which has only their number. */
   RAW {
     @Override
     public byte[] decode(String text) {
@@ -81,10 +81,10 @@ public enum Encoding {
   }
 
   /**
-   * The bytes of a text.
+   * Decodes a text.
    *
    * @param text a value of a reply
-   * @return its bytes
+   * @return the bytes of the field
    * @throws IllegalArgumentException if the text has another form
    */
   public abstract byte[] decode(String text);
@@ -92,7 +92,7 @@ public enum Encoding {
   /**
    * Changes an array by a delta.
    *
-   * @param array what the reply before made of it; zeros at first
+   * @param array the field as of the previous reply; zeros at first
    * @param text a value of a reply
    * @throws IllegalArgumentException if the text has another form, or reaches beyond the array
    */

@@ -12,17 +12,17 @@ import java.util.NoSuchElementException;
  */
 public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
   /**
-   * Whether the group has a key. Some, such as {@code over}, are not always there.
+   * Returns whether the group has a key. Some keys, such as {@code over}, are not always there.
    *
    * @param key the key
-   * @return whether it is there
+   * @return whether the group has it
    */
   public boolean has(String key) {
     return texts.containsKey(key) || bytes.containsKey(key);
   }
 
   /**
-   * A value as it was sent.
+   * Returns a value as it was sent.
    *
    * @param key the key
    * @return its value
@@ -33,7 +33,7 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
   }
 
   /**
-   * A whole number.
+   * Returns a value as a whole number.
    *
    * @param key the key
    * @return its value
@@ -43,7 +43,7 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
   }
 
   /**
-   * A number, such as the setting sticky.
+   * Returns a value as a number that may have a fraction, such as the setting sticky.
    *
    * @param key the key
    * @return its value
@@ -53,7 +53,7 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
   }
 
   /**
-   * A list whose elements are separated by commas.
+   * Returns a list, whose elements commas separate in the reply.
    *
    * @param key the key
    * @return its elements
@@ -64,7 +64,7 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
   }
 
   /**
-   * A field that consists of bytes. The array belongs to the caller.
+   * Returns a field that consists of bytes. The array belongs to the caller.
    *
    * @param field the field
    * @return its bytes
@@ -74,7 +74,7 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
   }
 
   /**
-   * The field reward.
+   * Returns the field reward.
    *
    * @return the sum of the request's rewards
    */
@@ -83,16 +83,16 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
   }
 
   /**
-   * The field lives.
+   * Returns the field lives.
    *
-   * @return the lives that are left
+   * @return the remaining lives
    */
   public int lives() {
     return (int) number("lives");
   }
 
   /**
-   * The fields terminated and truncated together.
+   * Returns whether the field terminated or truncated is 1.
    *
    * @return whether the episode has ended
    */

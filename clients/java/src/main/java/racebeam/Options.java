@@ -6,10 +6,10 @@ import javax.net.ssl.SSLContext;
 /**
  * How to connect.
  *
- * @param token for servers that require one, or null
- * @param timeout the longest wait for a connection and for each reply, on sockets; null: for ever
- * @param tls what decides which certificates are trusted; null: the JDK's default
- * @param longestReply bytes; a server that sends a longer line is taken for broken
+ * @param token the token for servers that require one, or null
+ * @param timeout the longest wait for a connection and for each reply, on sockets; null for no limit
+ * @param tls the context that decides which certificates are trusted; null for the JDK's default
+ * @param longestReply the most bytes of a line of a reply; a longer one ends the session
  */
 public record Options(String token, Duration timeout, SSLContext tls, int longestReply) {
   /** No token, no time limit, the default certificates, replies of at most 256 MiB. */
@@ -36,9 +36,9 @@ public record Options(String token, Duration timeout, SSLContext tls, int longes
   }
 
   /**
-   * Returns these options with other trust.
+   * Returns these options with another context for TLS.
    *
-   * @param value what decides which certificates are trusted
+   * @param value the context that decides which certificates are trusted
    * @return changed options
    */
   public Options withTls(SSLContext value) {
@@ -48,7 +48,7 @@ public record Options(String token, Duration timeout, SSLContext tls, int longes
   /**
    * Returns these options with another limit of replies.
    *
-   * @param value bytes
+   * @param value the most bytes of a line of a reply
    * @return changed options
    */
   public Options withLongestReply(int value) {

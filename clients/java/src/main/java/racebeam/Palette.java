@@ -5,7 +5,7 @@ public final class Palette {
   private final int[] packed = new int[256];
 
   /**
-   * A palette.
+   * Makes a palette.
    *
    * @param bytes the field palette: red, green and blue of each value
    */
@@ -16,9 +16,9 @@ public final class Palette {
   }
 
   /**
-   * The colour of a value.
+   * Returns the colour of a value.
    *
-   * @param value of a pixel, 0 to 255
+   * @param value the value of a pixel, 0 to 255
    * @return 0xFFRRGGBB
    */
   public int colour(int value) {
@@ -26,7 +26,7 @@ public final class Palette {
   }
 
   /**
-   * A screen in colours, as {@code java.awt.image.BufferedImage.setRGB} takes it.
+   * Converts a screen to colours, as {@code java.awt.image.BufferedImage.setRGB} takes them.
    *
    * @param screen the field screen
    * @return 0xFFRRGGBB of each pixel, row by row

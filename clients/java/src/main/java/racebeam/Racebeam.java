@@ -13,7 +13,7 @@ public final class Racebeam {
   private Racebeam() {}
 
   /**
-   * A session of the server at the address in the variable RACEBEAM_ADDRESS.
+   * Opens a session with the server at the address in the environment variable RACEBEAM_ADDRESS.
    *
    * @return the session
    * @throws IOException if no server answers there
@@ -23,7 +23,7 @@ public final class Racebeam {
   }
 
   /**
-   * A session of the server at an address.
+   * Opens a session with the server at an address.
    *
    * @param address {@code tcp://HOST:PORT}, {@code tls://HOST:PORT}, {@code unix:PATH}, {@code pipes:PREFIX} (named pipes),
    *     {@code stdio} (the streams of this process), or {@code file:PATH} (the first address in the server's ready file or
@@ -37,9 +37,9 @@ public final class Racebeam {
   }
 
   /**
-   * A session of the server at an address.
+   * Opens a session with the server at an address.
    *
-   * @param address as of {@link #connect(String)}
+   * @param address an address, as {@link #connect(String)} takes it
    * @param options token, time limit, certificates
    * @return the session
    * @throws IOException if no server answers there, or its certificate is not trusted
@@ -61,10 +61,10 @@ public final class Racebeam {
   }
 
   /**
-   * A session with a server that it starts, and that ends with it. The program is that of the variable RACEBEAM_PROGRAM,
-   * or {@code racebeam} of the PATH.
+   * Starts a server, and opens a session with it. The server stops when the session ends. The program is that of the
+   * environment variable RACEBEAM_PROGRAM, or else {@code racebeam} of the PATH.
    *
-   * @param options of {@code racebeam serve}, such as "--roms", DIR
+   * @param options options of {@code racebeam serve}, such as "--roms", DIR
    * @return the session
    * @throws IOException if the program does not start
    */
@@ -73,10 +73,10 @@ public final class Racebeam {
   }
 
   /**
-   * A session with a server that it starts.
+   * Starts a server, and opens a session with it. The server stops when the session ends.
    *
-   * @param program the program racebeam
-   * @param options of {@code racebeam serve}
+   * @param program the path of the program racebeam
+   * @param options options of {@code racebeam serve}
    * @return the session
    * @throws IOException if the program does not start
    */

@@ -13,7 +13,7 @@ public final class RefusedException extends RuntimeException {
   }
 
   /**
-   * For programs; the message is for people.
+   * Returns the error code, which is for programs; the message is for people.
    *
    * @return a code of the protocol, such as {@code bad-action}
    */

@@ -12,9 +12,9 @@ public final class ScreenStack {
   private byte[] stack = {};
 
   /**
-   * An empty stack.
+   * Makes a stack without screens.
    *
-   * @param depth screens
+   * @param depth the number of screens
    */
   public ScreenStack(int depth) {
     this.depth = depth;
@@ -28,7 +28,7 @@ public final class ScreenStack {
   /**
    * Adds a screen.
    *
-   * @param screen of the same size each time
+   * @param screen a screen, of the same size in each call
    * @return the stack, a copy
    */
   public byte[] push(byte[] screen) {

@@ -38,7 +38,7 @@ public final class Session extends Commands implements AutoCloseable {
   /**
    * Sends a request without waiting for its reply.
    *
-   * @param line such as {@code act FIRE}
+   * @param line the request, such as {@code act FIRE}
    * @throws IOException if the session has ended
    */
   public void send(String line) throws IOException {
@@ -46,7 +46,7 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * The next reply to a request that was sent ahead.
+   * Receives the next reply to a request that was sent ahead.
    *
    * @return the reply
    * @throws IOException if the session has ended
@@ -62,10 +62,10 @@ public final class Session extends Commands implements AutoCloseable {
   // Commands that need more than their words
 
   /**
-   * One game.
+   * Describes a game.
    *
-   * @param name its name
-   * @return what the server knows about it
+   * @param name the name of the game
+   * @return what the server knows about the game
    * @throws IOException if the session has ended
    */
   public Group game(String name) throws IOException {
@@ -96,10 +96,10 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * Powers on with an image of the client's.
+   * Powers on with an image that the client sends, and begins an episode.
    *
    * @param image the bytes of a cartridge
-   * @param settings as of {@link #load(String, Map)}; {@code as} names the game whose rules apply
+   * @param settings the settings of {@link #load(String, Map)}, and {@code as}, which names the game whose rules apply
    * @return the settings in effect
    * @throws IOException if the session has ended
    */
@@ -108,7 +108,7 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * Names for bytes of the fields ram and tia.
+   * Names bytes of the fields ram and tia.
    *
    * @return ram_names: pairs of index and name; tia_names: the names in order
    * @throws IOException if the session has ended
@@ -118,9 +118,9 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * The actions that {@code act} accepts.
+   * Lists the actions that {@code act} accepts.
    *
-   * @return names by number
+   * @return their names by number
    * @throws IOException if the session has ended
    */
   public Map<Integer, String> actions() throws IOException {
@@ -132,9 +132,9 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * The colours of the field screen.
+   * Reads the colours of the field screen.
    *
-   * @return a palette
+   * @return the palette
    * @throws IOException if the session has ended
    */
   public Palette palette() throws IOException {
@@ -144,8 +144,8 @@ public final class Session extends Commands implements AutoCloseable {
   /**
    * Plays an action.
    *
-   * @param action its number
-   * @return the chosen fields
+   * @param action the number of the action
+   * @return the selected fields
    * @throws IOException if the session has ended
    */
   public Group act(int action) throws IOException {
@@ -153,10 +153,10 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * Reads RAM.
+   * Reads bytes of RAM.
    *
-   * @param index of the first byte, 0 to 127
-   * @param count bytes
+   * @param index the index of the first byte, 0 to 127
+   * @param count the number of bytes
    * @return the bytes
    * @throws IOException if the session has ended
    */
@@ -165,10 +165,10 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * Writes RAM.
+   * Writes bytes of RAM.
    *
-   * @param index of the first byte
-   * @param bytes to write
+   * @param index the index of the first byte, 0 to 127
+   * @param bytes the bytes to write
    * @throws IOException if the session has ended
    */
   public void poke(int index, byte... bytes) throws IOException {
@@ -180,9 +180,9 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * Keeps the state with the generator of what is random.
+   * Saves the state with the random generator.
    *
-   * @param name of the state
+   * @param name a name for the state
    * @throws IOException if the session has ended
    */
   public void saveWithRandom(String name) throws IOException {
@@ -190,10 +190,10 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * A state for later, or for another process.
+   * Exports a state, for later or for another process.
    *
-   * @param name of the state
-   * @return its bytes
+   * @param name the name of the state
+   * @return the bytes of the state
    * @throws IOException if the session has ended
    */
   public byte[] exportState(String name) throws IOException {
@@ -201,10 +201,10 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * Exports the state with the score, the progress of the episode and the stack of screens.
+   * Exports a state with the score, the progress of the episode and the stack of screens.
    *
-   * @param name of the state
-   * @return its bytes
+   * @param name the name of the state
+   * @return the bytes of the state
    * @throws IOException if the session has ended
    */
   public byte[] exportEpisode(String name) throws IOException {
@@ -212,10 +212,10 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * Keeps a state that was exported.
+   * Saves a state that was exported.
    *
-   * @param name for it
-   * @param state its bytes
+   * @param name a name for the state
+   * @param state the bytes of the state
    * @throws IOException if the session has ended
    */
   public void importState(String name, byte[] state) throws IOException {
@@ -223,11 +223,11 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * Plays lists of actions from a state. The session stays where it is.
+   * Plays lists of actions from a state; the session itself does not change.
    *
-   * @param state its name
-   * @param lists of actions
-   * @return what each list led to
+   * @param state the name of the state
+   * @param lists lists of actions
+   * @return the result of each list
    * @throws IOException if the session has ended
    */
   public List<Branch> branch(String state, List<List<String>> lists) throws IOException {
@@ -235,12 +235,12 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * Plays the lists, and keeps the states in which they ended.
+   * Plays lists of actions from a state, and saves the states in which they end.
    *
-   * @param state its name
-   * @param keep the beginning of the new names, which end in 0, 1 and so on
-   * @param lists of actions
-   * @return what each list led to
+   * @param state the name of the state
+   * @param keep the prefix of the new names, which end in 0, 1 and so on
+   * @param lists lists of actions
+   * @return the result of each list
    * @throws IOException if the session has ended
    */
   public List<Branch> branch(String state, String keep, List<List<String>> lists) throws IOException {
@@ -253,10 +253,10 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * Actions by their numbers.
+   * Plays one act on each machine, with actions by their numbers.
    *
-   * @param actions one for each machine, or one for all
-   * @return the chosen fields of each machine
+   * @param actions an action for each machine, or one for all
+   * @return the selected fields of each machine
    * @throws IOException if the session has ended
    */
   public List<Group> step(int... actions) throws IOException {
@@ -266,7 +266,7 @@ public final class Session extends Commands implements AutoCloseable {
   /**
    * Saves a picture of the screen as a PNG file.
    *
-   * @param path of the file, on this computer
+   * @param path the path of the file, on this computer
    * @throws IOException if the session has ended, or the file cannot be written
    */
   public void savePng(Path path) throws IOException {
@@ -276,8 +276,8 @@ public final class Session extends Commands implements AutoCloseable {
   /**
    * Saves a picture of the screen of one of the machines of {@code open} as a PNG file.
    *
-   * @param path of the file, on this computer
-   * @param machine 0 for the first
+   * @param path the path of the file, on this computer
+   * @param machine the index of the machine, from 0
    * @throws IOException if the session has ended, or the file cannot be written
    */
   public void savePng(Path path, long machine) throws IOException {
@@ -295,10 +295,10 @@ public final class Session extends Commands implements AutoCloseable {
   }
 
   /**
-   * Explains a command, setting, field, preset, encoding or error code, for people.
+   * Explains a command, setting, field, preset, encoding or error code.
    *
-   * @param word to explain, or nothing
-   * @return a sentence
+   * @param word the word to explain, or nothing
+   * @return a text for people
    * @throws IOException if the session has ended
    */
   public String help(String... word) throws IOException {
