@@ -226,5 +226,9 @@ class TestProgram:
             ),
             PATH="/nowhere",
         )
-        reason = "does not run on Windows" if os.name == "nt" else "is neither beside this package nor on the PATH"
+        reason = (
+            "is not on the PATH, and wheels for Windows lack it"
+            if os.name == "nt"
+            else "is neither beside this package nor on the PATH"
+        )
         assert f"the program racebeam {reason}" in done.stdout

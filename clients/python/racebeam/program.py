@@ -13,8 +13,8 @@ NOT_FOUND = (
     ".tar.gz of racebeam, or set RACEBEAM_PROGRAM to the program; connect() needs no program here"
 )
 NOT_FOR_WINDOWS = (
-    "the program racebeam does not run on Windows; start it in WSL 2 or on another machine, and use connect(); "
-    "AtariEnv and AtariVectorEnv need no program"
+    "the program racebeam is not on the PATH, and wheels for Windows lack it; start a server in WSL 2 or on another "
+    "machine, and use connect(); AtariEnv and AtariVectorEnv need no program"
 )
 
 

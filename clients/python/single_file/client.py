@@ -1832,7 +1832,7 @@ class Session(Commands):
             OSError: If no server answers.
         """
         if self.again is None:
-            raise ValueError("this session cannot be opened again: connect() did not make it")
+            raise ValueError("reconnect() is not possible, because connect() did not open this session")
         self.close_connection()
         return self.again()
 
@@ -1968,7 +1968,9 @@ def not_serving(command: Iterable[str], error: ConnectionError) -> ConnectionErr
         command: Command that started the program.
         error: Error of the session.
     """
-    return ConnectionError(f"this program does not serve: {shlex.join(command)}; standard error may say why; {error}")
+    return ConnectionError(
+        f"the program did not start to serve: {shlex.join(command)}; see its standard error; {error}"
+    )
 
 
 def _find_program() -> str:

@@ -42,7 +42,7 @@ class TestReset:
         ale = interface()
         with pytest.raises(RuntimeError, match="reset_mask chooses 2 of 3; the first reset"):
             ale.reset([0, 2], [1, 2])
-        with pytest.raises(RuntimeError, match="not reset yet"):
+        with pytest.raises(RuntimeError, match="have not been reset yet"):
             ale.send([0, 0, 0], [1.0, 1.0, 1.0])
         ale.reset([2, 1, 0], [1, 2, 3])
         ale.reset([0, 2], [1, 2])

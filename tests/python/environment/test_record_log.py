@@ -125,7 +125,7 @@ class TestSubmissions:
     def test_seeds_follow_from_a_phrase(self):
         self.record(phrase="a headline of tomorrow")
         assert self.verify()[0] == 0
-        with pytest.raises(InvalidInput, match="with a phrase, reset takes none"):
+        with pytest.raises(InvalidInput, match="with a phrase, reset\\(\\) takes no seed"):
             self.env.reset(seed=1)
 
     @pytest.mark.needs_program

@@ -32,7 +32,7 @@ PATIENCE = 120  # seconds
 LONGEST = 200  # frames of an act
 DOCUMENTED = (TypeError, IndexError, racebeam.InvalidInput, Error, ClosedEnvironmentError, *fuzz_servers.DOCUMENTED)
 DELIBERATE = re.compile(
-    "can't be provided for|each must be -1, 0 or 1|not reset yet|must reset every|seeds? (for|is)|seeds have the "
+    "can't be provided for|each must be -1, 0 or 1|not been reset yet|must reset every|seeds? (for|is)|seeds have the "
     "shape|must have shape|"
     "duplicate env_id|needs batch_size|is given for one array|receive (it|them) first|send some first|must be a "
     "float32 array|"

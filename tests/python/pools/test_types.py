@@ -56,7 +56,7 @@ class TestOthers:
         ids = np.arange(3, dtype=np.int32)
         envs.step(np.ones(3))
         envs.step({"env_id": ids, "players.env_id": ids, "action": np.ones(3, np.int32)})
-        with pytest.raises(RuntimeError, match="action of the action has the type int64; it must be int32"):
+        with pytest.raises(RuntimeError, match="the part 'action' of the action has the type int64; it must be int32"):
             envs.step({"env_id": ids, "players.env_id": ids, "action": np.ones(3, np.int64)})
         envs.step({"action": np.ones(3, np.int32), "players": {"env_id": ids}, "env_id": ids, "more": np.ones(3)})
         for actions in (np.full(3, np.nan), [1e30] * 3, np.full(3, -1.5)):
@@ -141,7 +141,7 @@ class TestOthers:
             envs.step(np.full(3, 99))
         with pytest.raises(InvalidInput, match=r"actions have the shape \(2,\); they must have \(1,\)"):
             envs.step(np.zeros(2, int), env_id=np.array([1]))
-        with pytest.raises(InvalidInput, match="each environment is named once"):
+        with pytest.raises(InvalidInput, match="each index may occur once"):
             envs.step(np.zeros(2, int), env_id=np.array([1, 1]))
         envs.send(np.zeros(1, int), np.array([1]))
         with pytest.raises(InvalidInput, match="environment 1 plays already; receive it first"):
@@ -210,5 +210,5 @@ class TestFound:
     def test_an_action_without_its_part(self):
         envs = make()
         envs.reset()
-        with pytest.raises(InvalidInput, match="one must be 'action'"):
+        with pytest.raises(InvalidInput, match="it needs the part 'action'"):
             envs.step({"env_id": np.arange(3, dtype=np.int32)})

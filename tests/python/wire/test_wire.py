@@ -399,7 +399,7 @@ class TestSessions:
 
     def test_a_program_that_refuses_its_arguments_is_a_ConnectionError(self):
         for options in (("--nope",), ("--classic", "--rom", "builtin:beamfall")):
-            with pytest.raises(ConnectionError, match=f"does not serve: .* serve --stdio .*{options[0]}"):
+            with pytest.raises(ConnectionError, match=f"did not start to serve: .* serve --stdio .*{options[0]}"):
                 racebeam.launch(*options)
 
     def test_a_server_with_another_address_ends_with_its_session(self, tmp_path):

@@ -127,7 +127,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
     def _check_reset(self) -> None:
         self._check_open()
         if not self._was_reset:
-            raise RuntimeError("these environments were not reset yet; call reset() first")
+            raise RuntimeError("these environments have not been reset yet; call reset() first")
 
     def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
         """Makes functions that programs compiled by JAX call, as racebeam.AtariVectorEnv does."""

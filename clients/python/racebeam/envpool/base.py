@@ -250,7 +250,9 @@ def _checked_parts(action: dict[str, Any]) -> dict[str, Any]:
     parts = parts_of(action)
     for name in ("action", "env_id"):
         if name in parts and np.asarray(parts[name]).dtype != np.int32:
-            raise InvalidInput(f"{name} of the action has the type {np.asarray(parts[name]).dtype}; it must be int32")
+            raise InvalidInput(
+                f"the part {name!r} of the action has the type {np.asarray(parts[name]).dtype}; it must be int32"
+            )
     return parts
 
 

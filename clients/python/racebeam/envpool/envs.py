@@ -200,7 +200,7 @@ class Envs(AtariVectorEnv):
                 f"env_id is {env_id!r}; it takes whole numbers from 0 to {self.num_envs - 1}, in one row"
             )
         if len(np.unique(ids)) < len(ids):
-            raise InvalidInput(f"env_id is {env_id!r}; each environment is named once")
+            raise InvalidInput(f"env_id is {env_id!r}; each index may occur once")
         return np.ascontiguousarray(ids, np.int32)
 
 
@@ -220,7 +220,7 @@ def parts_of(action: dict[str, Any]) -> dict[str, Any]:
     for name, part in action.items():
         parts |= {f"{name}.{key}": value for key, value in part.items()} if isinstance(part, dict) else {name: part}
     if "action" not in parts:
-        raise InvalidInput(f"the parts of the action are {', '.join(map(str, parts))}; one must be 'action'")
+        raise InvalidInput(f"the action has the parts {', '.join(map(str, parts))}; it needs the part 'action'")
     return parts
 
 

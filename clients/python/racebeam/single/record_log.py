@@ -113,7 +113,7 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
             InvalidInput: If a seed is given where the phrase gives it.
         """
         if seed is not None and self._phrase is not None:
-            raise InvalidInput(f"the seed is {seed}; with a phrase, reset takes none")
+            raise InvalidInput(f"the seed is {seed}; with a phrase, reset() takes no seed")
         if self._start is not None and seed is None and self._base._life_loss.continues:
             return self.env.reset(options=options)  # the next life of the same game
         self._leave()

@@ -76,7 +76,7 @@ def seeds_of(seed: Any, count: int) -> Seeds:
         InvalidInput: If a seed is out of range, or their number is wrong.
     """
     is_array = isinstance(seed, np.ndarray) and seed.ndim > 0
-    if not is_array and not isinstance(seed, Sequence):
+    if isinstance(seed, (str, bytes)) or not (is_array or isinstance(seed, Sequence)):
         return _seed(seed) + np.arange(count, dtype=np.int64)
     if is_array and seed.dtype.kind not in "iuO":
         raise TypeError(f"the seeds have the type {seed.dtype}; they must be integers")
@@ -109,7 +109,7 @@ def mask_of(mask: Any, count: int) -> Bools | None:
     if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_:
         raise TypeError(f"reset_mask is {mask!r}; it must be a boolean numpy array")
     if mask.shape != (count,):
-        raise InvalidInput(f"reset_mask has the shape {mask.shape}; it must have shape {(count,)}")
+        raise InvalidInput(f"reset_mask has the shape {mask.shape}; it must have the shape {(count,)}")
     return np.ascontiguousarray(mask)
 
 

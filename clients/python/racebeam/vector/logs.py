@@ -183,13 +183,16 @@ def _wrong(arguments: Any) -> WrongType:
 def _check(options: VectorOptions, games: Sequence[str | None]) -> None:
     for wrong, sentence in (
         (None in games, "game is None; a log takes the name of a game"),
-        (options.autoreset_mode is AutoresetMode.SAME_STEP, "autoreset_mode is SameStep; a log takes the others"),
+        (
+            options.autoreset_mode is AutoresetMode.SAME_STEP,
+            "autoreset_mode is SameStep; a log takes NextStep or Disabled",
+        ),
         (not options.is_sync, f"batch_size is {options.batch_size}; a log takes {options.num_envs}, num_envs"),
         (options.noop_max > 1, f"noop_max is {options.noop_max}; a log takes 0, and the no-ops as actions"),
         (options.use_fire_reset, "use_fire_reset is True; a log takes False, and FIRE as an action"),
         (
             options.life_loss == "end",
-            "life_loss is 'end', with which a step stops at a lost life; a log takes the others",
+            "life_loss is 'end', which stops a step at a lost life; a log takes ignored, reported or restart",
         ),
         (options.start != "fire-noops", f"start is {options.start!r}; a log takes 'fire-noops'"),
     ):

@@ -46,7 +46,9 @@ def parse_games(
     if not isinstance(game, Sequence):
         raise WrongType(f"game is {game!r}; it takes a name, or a list of names")
     if num_envs is not None and num_envs != len(game):
-        raise WrongValue(f"game has {len(game)} names, but num_envs is {num_envs!r}")
+        raise WrongValue(
+            f"num_envs is {num_envs!r}; with a list of games, it must be the length of the list, {len(game)}"
+        )
     integer("num_envs", len(game), 1, MOST_ENVS)
     for name in game:
         if not isinstance(name, str):
@@ -81,7 +83,7 @@ def make_local_machines(
         MissingImage: If no image of a game is found.
     """
     if len(names) > 1 and rom is not None:
-        raise WrongValue(f"there are {len(names)} games; rom and server take one")
+        raise WrongValue(f"there are {len(names)} games; rom and server require a single game")
     found = [(images.find(str(name)) if rom is None else rom, name) for name in names]
     return _core.VectorMachines(found, game_of_env, options._core_settings(), game_file, options._console())
 
@@ -113,7 +115,7 @@ def make_remote_machines(
         ConnectionError: If no server answers.
     """
     if len(names) > 1:
-        raise WrongValue(f"there are {len(names)} games; rom and server take one")
+        raise WrongValue(f"there are {len(names)} games; rom and server require a single game")
     game = str(names[0])  # a server needs the name of the game
     if isinstance(server, str):
         return RemoteMachines(server, token, timeout, game, rom, options)

@@ -187,7 +187,7 @@ class PlayedVector(VectorOfEach):
     def _last_received(self) -> Numbers:
         """Returns the environments that the last call returned. Before the first call, those are all."""
         if len(self._received_ids) != self.batch_size:
-            raise InvalidInput("no environment was received yet; call reset() first")
+            raise InvalidInput("send() steps environments that reset() or recv() returned; call reset() first")
         return self._received_ids
 
     def show(self) -> tuple[Any, Info]:

@@ -247,7 +247,7 @@ class AsyncSession:
             ValueError: If `connect` did not make this session.
         """
         if self.again is None:
-            raise ValueError("this session cannot be opened again: connect() did not make it")
+            raise ValueError("reconnect() is not possible, because connect() did not open this session")
         await self.close()
         return await self.again()
 

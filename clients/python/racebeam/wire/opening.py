@@ -108,7 +108,9 @@ def not_serving(command: Iterable[str], error: ConnectionError) -> ConnectionErr
         command: Command that started the program.
         error: Error of the session.
     """
-    return ConnectionError(f"this program does not serve: {shlex.join(command)}; standard error may say why; {error}")
+    return ConnectionError(
+        f"the program did not start to serve: {shlex.join(command)}; see its standard error; {error}"
+    )
 
 
 def _find_program() -> str:

@@ -93,7 +93,9 @@ class RemoteMachines(Halves):
 
     def _open(self, settings: VectorSettings) -> None:
         if not settings.fire and settings.start is not ResetOrder.FIRE_NOOPS:
-            raise InvalidInput(f"start is {_word(settings.start)!r} without FIRE, which a server does not play")
+            raise InvalidInput(
+                f"start is {_word(settings.start)!r} and use_fire_reset is False; with this start, a server takes True"
+            )
         self.last.values = self._machine.ask(
             self._session.open,
             self._count,

@@ -143,6 +143,6 @@ class Session(Commands):
             OSError: If no server answers.
         """
         if self.again is None:
-            raise ValueError("this session cannot be opened again: connect() did not make it")
+            raise ValueError("reconnect() is not possible, because connect() did not open this session")
         self.close_connection()
         return self.again()
