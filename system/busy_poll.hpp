@@ -41,8 +41,8 @@ class BusyPoll {
 
  private:
   const std::chrono::microseconds longest_;
-  Clock::time_point until_{};      // the end of polling; 0: it does not poll
-  int backoff_ = 0, to_skip_ = 0;  // polls to skip: after the last time, and from now on
+  Clock::time_point until_{};      // when polling ends; 0: it does not poll
+  int backoff_ = 0, to_skip_ = 0;  // polls to skip: after the last vain one, and those that are left of them
 };
 
 }  // namespace racebeam

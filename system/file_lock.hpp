@@ -11,7 +11,7 @@ namespace racebeam {
 // and leaves the reason in errno.
 enum class Waiting { kNo, kYes };
 bool lock_file(int file, Waiting waiting);
-bool is_locked_elsewhere(int error);  // whether that was the reason
+bool is_locked_elsewhere(int error);  // whether lock_file() failed with this errno because of another lock
 bool is_locked(int file);             // whether another descriptor of the file has locked it
 
 int open_lock(const std::string& path);            // makes the file; returns -1 if that fails

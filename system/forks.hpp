@@ -1,9 +1,9 @@
-// Copies of the process.
+// Notices copies of the process, as fork() makes them.
 #pragma once
 
 namespace racebeam {
 
-// The system calls `function` in each process that begins as a copy of this one, before fork() returns there.
-void call_in_forks(void (*function)());
+// Registers a function that the system calls in each child of fork(), before fork() returns there.
+void call_in_forked_children(void (*function)());
 
 }  // namespace racebeam

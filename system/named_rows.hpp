@@ -18,7 +18,7 @@ std::vector<std::string_view> names_of(const Rows& rows) {
   return names;
 }
 
-// Like names_of, for a constant.
+// Returns what names_of() does, as a constant.
 template <typename Row, std::size_t kRows>
 constexpr std::array<std::string_view, kRows> name_array(const std::array<Row, kRows>& rows) {
   std::array<std::string_view, kRows> names;
@@ -26,9 +26,9 @@ constexpr std::array<std::string_view, kRows> name_array(const std::array<Row, k
   return names;
 }
 
-// The row of this name, for a constant: if it is missing, the program does not compile. It is not consteval
-// because of a fault in Clang 14: a captureless lambda that is passed to an immediate function loses its
-// arguments.
+// Returns the row of this name. If a constant is made of it, a missing row is an error of compilation. It is
+// not consteval because of a fault in Clang 14: a captureless lambda that is passed to an immediate function
+// loses its arguments.
 template <typename Rows>
 constexpr const auto& row_named(const Rows& rows, std::string_view name) {
   for (const auto& row : rows)

@@ -25,7 +25,7 @@ int open_own_file(const std::string& path);   // to read; follows no link
 
 bool set_readers(int file, Readers readers);
 bool write_at(int file, std::size_t place, std::string_view bytes);  // all bytes
-bool append(int file, std::string_view bytes);                       // if it fails, some may be written
+bool append(int file, std::string_view bytes);                       // if it fails, it may have written some
 std::int64_t size_of_file(int file);
 bool cut_file(int file, std::size_t size);  // truncates it to this size
 bool sync_file(int file);                   // waits until its bytes are on the disk
@@ -41,7 +41,7 @@ bool rename_anew(const std::string& from, const std::string& to);  // fails if `
 bool rename_over(const std::string& from, const std::string& to);
 bool remove_file(const std::string& path);
 
-// Distinguishes a file from one that has replaced it.
+// The identity of a file, which distinguishes it from another file that has replaced it.
 struct FileMark {
   std::uint64_t number = 0;  // of the file in its file system; 0 if the file does not exist
   std::int64_t seconds = 0, nanoseconds = 0;

@@ -19,10 +19,10 @@ OpenedFile open_regular_file(const std::string& path);
 // reason.
 std::ptrdiff_t read_from(int descriptor, std::span<char> bytes);
 
-int another_number(int descriptor);  // a duplicate of it; -1: failed, and errno has the reason
+int duplicate_descriptor(int descriptor);  // returns -1 if it fails, and errno has the reason
 void close_file(int descriptor);
 
-// Returns "the file cannot be read", with the reason.
+// Returns "the file cannot be read", with the reason that errno has.
 std::string read_refusal(int error);
 
 }  // namespace racebeam

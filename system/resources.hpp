@@ -22,8 +22,8 @@ struct Allowance {
 // may run (sched_getaffinity) and the CPU quota, rounded up; at least 1.
 Allowance usable_processors(const std::string& root = "");
 
-// In bytes: the smallest of the physical memory, the limits of the control groups and the limit of the
-// address space.
+// The bytes of memory that the process may use: the smallest of the physical memory, the limits of the
+// control groups and the limit of the address space.
 Allowance usable_memory(const std::string& root = "");
 
 // Raises the limit of open files as far as the system allows. Returns how many the process may have open.

@@ -27,9 +27,9 @@ namespace {
 std::string contents(const std::string& path) {
   const auto close = [](gzFile file) { gzclose(file); };
   const std::unique_ptr<gzFile_s, decltype(close)> file{
-      gzdopen(
-          path == "-" ? another_number(kStandardInput) : open_input_file("cannot read actions from", path),
-          "rb"),
+      gzdopen(path == "-" ? duplicate_descriptor(kStandardInput)
+                          : open_input_file("cannot read actions from", path),
+              "rb"),
       close};
   if (!file) refuse(path, std::strerror(errno));
 

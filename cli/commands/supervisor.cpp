@@ -132,7 +132,7 @@ void Supervisor::stop_server() {
   }
 }
 
-AwaitedSignals::Came Supervisor::next_signal(int milliseconds) {
+AwaitedSignals::Signal Supervisor::next_signal(int milliseconds) {
   const auto signal = signals_.next(milliseconds);
   reap();
   return signal;

@@ -70,7 +70,7 @@ class Supervisor {
   };
 
   pid_t fork_child() const;  // returns 0 in the child
-  AwaitedSignals::Came next_signal(int milliseconds = -1);
+  AwaitedSignals::Signal next_signal(int milliseconds = -1);
   void reap();
 
   AwaitedSignals signals_;

@@ -110,7 +110,8 @@ class LargePages {
 // Never destroyed, since blocks may be given back while the process ends. A copy of the process begins with
 // new lists: another thread may have held the lock.
 LargePages* large_pages = new LargePages;
-[[maybe_unused]] const bool forks_begin_anew = (call_in_forks([] { large_pages = new LargePages; }), true);
+[[maybe_unused]] const bool forks_begin_anew =
+    (call_in_forked_children([] { large_pages = new LargePages; }), true);
 
 }  // namespace
 

@@ -38,9 +38,9 @@ int client_gone(const Halt& halt) {
 
 // Returns whether there is a pipe.
 bool refuse_other_file(const std::string& path) {
-  const Found found = look_for_pipe(path);
-  if (found == Found::kOther) throw AddressError(path + " exists, but is not a named pipe");
-  return found == Found::kPipe;
+  const PathKind found = kind_of_path(path);
+  if (found == PathKind::kOther) throw AddressError(path + " exists, but is not a named pipe");
+  return found == PathKind::kPipe;
 }
 
 // The warning also appears if a client in the same step has made the pipe itself, which is not slow. The

@@ -48,7 +48,7 @@ AwaitedSignals::AwaitedSignals(std::span<const int> numbers) : sets_(std::make_u
 
 AwaitedSignals::~AwaitedSignals() = default;
 
-AwaitedSignals::Came AwaitedSignals::next(int milliseconds) const {
+AwaitedSignals::Signal AwaitedSignals::next(int milliseconds) const {
   if (milliseconds >= 0 && !sets_->come_within(milliseconds)) return {};
   int number = 0;
   if (::sigwait(&sets_->awaited, &number) != 0) return {};

@@ -18,7 +18,7 @@ AwaitedSignals::AwaitedSignals(std::span<const int> numbers) : sets_(std::make_u
 
 AwaitedSignals::~AwaitedSignals() = default;
 
-AwaitedSignals::Came AwaitedSignals::next(int milliseconds) const {
+AwaitedSignals::Signal AwaitedSignals::next(int milliseconds) const {
   siginfo_t signal{};
   const timespec limit{0, milliseconds * 1'000'000L};
   const int number = milliseconds < 0 ? ::sigwaitinfo(&sets_->awaited, &signal)

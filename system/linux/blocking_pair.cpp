@@ -25,10 +25,10 @@ void wait_until(int descriptor, short ready) {
 
 }  // namespace
 
-Found look_for_pipe(const std::string& path) {
+PathKind kind_of_path(const std::string& path) {
   struct stat found {};
-  if (::stat(path.c_str(), &found) != 0) return Found::kNothing;
-  return S_ISFIFO(found.st_mode) ? Found::kPipe : Found::kOther;
+  if (::stat(path.c_str(), &found) != 0) return PathKind::kMissing;
+  return S_ISFIFO(found.st_mode) ? PathKind::kPipe : PathKind::kOther;
 }
 
 bool make_pipe(const std::string& path) { return ::mkfifo(path.c_str(), 0600) == 0; }

@@ -4,6 +4,6 @@
 
 namespace racebeam {
 
-void call_in_forks(void (*function)()) { ::pthread_atfork(nullptr, nullptr, function); }
+void call_in_forked_children(void (*function)()) { ::pthread_atfork(nullptr, nullptr, function); }
 
 }  // namespace racebeam

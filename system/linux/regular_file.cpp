@@ -50,7 +50,7 @@ std::ptrdiff_t read_from(int descriptor, std::span<char> bytes) {
   }
 }
 
-int another_number(int descriptor) { return ::dup(descriptor); }
+int duplicate_descriptor(int descriptor) { return ::dup(descriptor); }
 void close_file(int descriptor) { ::close(descriptor); }
 
 }  // namespace racebeam

@@ -8,9 +8,9 @@ namespace racebeam {
 
 class AwaitedSignals {
  public:
-  struct Came {
-    int number = 0;              // 0: no signal came
-    bool from_terminal = false;  // the terminal sends it to the other processes in its foreground, too
+  struct Signal {
+    int number = 0;              // 0: no signal came in time
+    bool from_terminal = false;  // the terminal has sent it, also to the other processes in its foreground
   };
 
   explicit AwaitedSignals(std::span<const int> numbers);  // blocks these signals from now on
@@ -18,7 +18,7 @@ class AwaitedSignals {
   AwaitedSignals(const AwaitedSignals&) = delete;
   AwaitedSignals& operator=(const AwaitedSignals&) = delete;
 
-  Came next(int milliseconds = -1) const;  // waits at most for this time; -1: for ever
+  Signal next(int milliseconds = -1) const;  // waits at most this long; -1: until a signal comes
 
   void handle_as_before() const;  // in a child: handles the signals as before
 

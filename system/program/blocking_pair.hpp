@@ -1,5 +1,5 @@
-// Two descriptors, one to read from and one to write to, for a thread that does nothing else. Another thread
-// can wake it up.
+// Blocking input and output for a thread that does nothing else: a descriptor to read from, and one to write
+// to. Another thread can wake it up.
 #pragma once
 
 #include <atomic>
@@ -15,11 +15,12 @@
 
 namespace racebeam {
 
-// Named pipes that are files. Windows does not have them.
-enum class Found { kNothing, kPipe, kOther };
-Found look_for_pipe(const std::string& path);
-bool make_pipe(const std::string& path);  // for this user; if it fails, errno has the reason
-bool is_pipe(int descriptor);             // whether it is a pipe or a socket
+// Named pipes, which are files. Windows does not have them.
+enum class PathKind { kMissing, kPipe, kOther };
+PathKind kind_of_path(const std::string& path);
+bool make_pipe(
+    const std::string& path);  // for this user; returns false if it fails, and errno has the reason
+bool is_pipe(int descriptor);  // also true for a socket
 
 // How another thread stops the one that uses a BlockingPair.
 struct Halt {
@@ -41,8 +42,8 @@ class BlockingPair {
 
   void use(int in, int out);
   // Both open a named pipe, and wait until the client opens its other end. They return false if they were
-  // halted, and throw std::runtime_error.
-  // makes_file: without such a pipe, open_out() makes a file, or empties the one that is there.
+  // halted, and throw std::runtime_error if that fails. makes_file: if `path` is not a pipe, open_out()
+  // creates a file, or empties the one that exists.
   bool open_out(const std::string& path, bool makes_file);
   bool open_in(const std::string& path);
 
@@ -61,7 +62,7 @@ class BlockingPair {
 
   const Halt& halt_;
   BusyPoll busy_;
-  bool quick_ = false;  // the last time, the other end wrote at once
+  bool quick_ = false;  // the last input came soon after read() had begun to wait
   int in_ = -1, out_ = -1;
 };
 

@@ -2,6 +2,6 @@
 
 namespace racebeam {
 
-void call_in_forks(void (*)()) {}  // a process cannot be copied
+void call_in_forked_children(void (*)()) {}  // a process cannot be copied
 
 }  // namespace racebeam

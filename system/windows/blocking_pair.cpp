@@ -77,7 +77,7 @@ Reader& reader() {
 
 }  // namespace
 
-Found look_for_pipe(const std::string&) { return Found::kNothing; }
+PathKind kind_of_path(const std::string&) { return PathKind::kMissing; }
 
 bool make_pipe(const std::string&) {
   errno = ENOSYS;

@@ -47,7 +47,7 @@ std::ptrdiff_t read_from(int descriptor, std::span<char> bytes) {
   return _read(descriptor, bytes.data(), static_cast<unsigned>(bytes.size()));
 }
 
-int another_number(int descriptor) { return _dup(descriptor); }
+int duplicate_descriptor(int descriptor) { return _dup(descriptor); }
 void close_file(int descriptor) { _close(descriptor); }
 
 }  // namespace racebeam

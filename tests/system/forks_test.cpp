@@ -12,7 +12,7 @@ int forks = 0;
 }  // namespace
 
 TEST_CASE("a function is called in the copies of the process only") {
-  racebeam::call_in_forks([] { ++forks; });
+  racebeam::call_in_forked_children([] { ++forks; });
   const pid_t child = ::fork();
   if (child == 0) ::_exit(forks);
   int status = 0;

@@ -9,7 +9,7 @@ namespace {
 
 std::atomic<unsigned> generation{1};
 
-[[maybe_unused]] const bool forks_are_counted = (call_in_forks([] { ++generation; }), true);
+[[maybe_unused]] const bool forks_are_counted = (call_in_forked_children([] { ++generation; }), true);
 
 }  // namespace
 
