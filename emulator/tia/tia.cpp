@@ -13,44 +13,46 @@ namespace {
 
 constexpr std::uint32_t kLineOfWrites = TiaWrite(kLineCycles, 0, 0).packed();
 
-constexpr std::array<std::uint32_t, 8> kFirstOfFour = {~0U, ~0U, ~0U, ~0U, 0, 0, 0, 0};
+constexpr std::array<std::uint32_t, 8> kLanesThatCount = {~0U, ~0U, ~0U, ~0U, 0, 0, 0, 0};
 
-// Whether the next writes are those of the record. origin: the line's first cycle, as in a write of the log.
-RACEBEAM_INLINE bool meets_the_same(const std::uint32_t* entry, std::uint32_t origin,
-                                    const LineRecord& record) {
+// Whether the writes from `entry` on are those of the record. origin: the line's first cycle, in the form of
+// a write of the log.
+RACEBEAM_INLINE bool has_same_writes(const std::uint32_t* entry, std::uint32_t origin,
+                                     const LineRecord& record) {
   FourWords difference{};
   int remaining = record.count;
   for (const std::uint32_t* event = record.event.data(); remaining > 0;
        event += 4, entry += 4, remaining -= 4) {
     const auto counted =
-        load<FourWords>(&kFirstOfFour[static_cast<unsigned>(remaining < 4 ? 4 - remaining : 0)]);
+        load<FourWords>(&kLanesThatCount[static_cast<unsigned>(remaining < 4 ? 4 - remaining : 0)]);
     difference |= ((load<FourWords>(entry) - origin) ^ load<FourWords>(event)) & counted;
   }
   return is_zero(load<TwoWords>(&difference));
 }
 
-// kLooks: the pixels are the same, but the registers may end differently
-enum class Likeness { kOther, kBegins, kLooks, kIsSame };
+// How alike two lines are. kStartsAlike: only their beginnings are known to be equal. kLooksAlike: their
+// pixels are equal, but the registers may end differently.
+enum class Likeness { kOther, kStartsAlike, kLooksAlike, kSame };
 
 // Whether the end of the line may have a further effect: the Cosmic Ark mode moves missile 0.
 bool may_be_cosmic(const RegisterVectors& registers, const LineRecord& record) {
   return (record.view.seen & kMayBeCosmic) != 0 || std::bit_cast<TiaRegisters>(registers.part).cosmic != 0;
 }
 
-// How far a line that starts with `registers` and has the writes from `entry` on equals a recorded one.
+// Compares a line that starts with `registers` and has the writes from `entry` on with a recorded one.
 RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::uint32_t* entry,
                                  std::uint32_t origin, const LineRecord& record) {
   const bool same = record.starts_with(registers);
   if (!same && !record.looks_like(registers)) return Likeness::kOther;
   const LineWrite next(entry[record.count], origin);
   if (next.is_of_line() && !(next.is_late() && (same || !may_be_cosmic(registers, record))))
-    return Likeness::kBegins;
-  if (!meets_the_same(entry, origin, record)) return Likeness::kBegins;
-  return same ? Likeness::kIsSame : Likeness::kLooks;
+    return Likeness::kStartsAlike;
+  if (!has_same_writes(entry, origin, record)) return Likeness::kStartsAlike;
+  return same ? Likeness::kSame : Likeness::kLooksAlike;
 }
 
-// How many rows after `record`, whose line has just been recalled, show that line again. write: the next one,
-// counted from that line.
+// Returns how many rows after `record`, whose line has just been recalled, show that line again. write: the
+// next write of the log, with its cycle counted from that line's first one.
 RACEBEAM_INLINE int repeated_rows(LineRecord* record, const LineRecord* last, const LineNumber* lines,
                                   std::uint32_t write) {
   int rows = 0;
@@ -62,14 +64,14 @@ RACEBEAM_INLINE int repeated_rows(LineRecord* record, const LineRecord* last, co
 }
 
 // Whether the writes from `entry` to `end` are those of the record up to the cycle of the word at `end`.
-bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::uint32_t origin,
-                     const LineRecord& record) {
+bool has_same_writes_so_far(const std::uint32_t* entry, const std::uint32_t* end, std::uint32_t origin,
+                            const LineRecord& record) {
   const auto count = static_cast<std::size_t>(end - entry);
   if (count > record.count) return false;
-  const bool lacks_none =
+  const bool is_complete =
       count == record.count || LineWrite(record.event[count]).cycle() >= LineWrite(*end, origin).cycle();
-  return lacks_none && std::equal(entry, end, record.event.begin(),
-                                  [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
+  return is_complete && std::equal(entry, end, record.event.begin(),
+                                   [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
 }
 
 bool has_clear(const std::uint32_t* entry, const std::uint32_t* end) {
@@ -103,8 +105,9 @@ void Tia::rebuild() {
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
 
-// The word behind the last write tells the cycle before which no other write is. On the line of that cycle,
-// only writes that affect the `latches` need be played. Returns false if that line was left.
+// A sentinel after the last write holds the cycle before which there is no other write. On the line of that
+// cycle, only the writes that affect `latches` must be played. Returns false if the rest of that line was not
+// played.
 bool Tia::play_log(std::int32_t cycle, Collisions latches) {
   const bool empty = log_->size() == 0;
   if (empty && cycle < log_->base) return true;
@@ -221,7 +224,7 @@ void Tia::skip(const std::uint32_t* next) {
   tia_.enabled = enabled_objects(tia_);
 }
 
-// The end of the writes before the window, or after it is full, which cannot be seen.
+// Returns the end of the writes that cannot be seen: those before the window, or all once the window is full.
 const std::uint32_t* Tia::end_of_unseen() const {
   if (tia_.cursor >= beam_.end()) return log_->next;
   const std::uint32_t* at = played_;
@@ -234,8 +237,8 @@ std::uint32_t Tia::line_origin() const {
   return TiaWrite(beam_.line_end() / 3 - kLineCycles - log_->base, 0, 0).packed();
 }
 
-// Whether the next write is on the cursor's line or after it, and the line can be taken as a whole. The beam
-// must not have reached what lies behind that.
+// Whether the cursor's line can be taken as a whole: the next write is on this line or after it, and the beam
+// has not been drawn beyond the place where the line is taken up.
 bool Tia::at_line() const {
   if (beam_.exact_spans() || tia_.cursor < beam_.start() || !beam_.line_can_end()) return false;
   const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles - log_->base;
@@ -260,8 +263,8 @@ bool Tia::take_lines(Collisions latches) {
   return false;
 }
 
-// Whether the record of the cursor's row may be of a line that begins like this one. For most lines that do
-// not recur, it is not, and that is soon found.
+// Whether the record of the cursor's row may be of a line that begins like this one. A quick check, which
+// most lines that do not recur fail.
 RACEBEAM_INLINE bool Tia::may_recur(std::uint32_t origin) {
   if (!beam_.has_record()) return false;
   const LineRecord& record = beam_.record();
@@ -275,12 +278,12 @@ bool Tia::keeps_latches(const LineRecord& record, std::uint32_t origin, Collisio
   const Collisions met = record.meetings | record.cleared;
   if (record.is_open() || (met & latches & ~tia_.collisions) != 0) return false;
   if ((record.view.seen & kClears) != 0 && has_clear(played_, log_->next)) return false;
-  return begins_the_same(played_, log_->next, origin, record);
+  return has_same_writes_so_far(played_, log_->next, origin, record);
 }
 
 // Recalls lines that start with the same relevant registers and have the same writes as when these rows were
-// last drawn. Returns true if it stops at a line whose writes are not complete, but equal so far, and leave
-// these latches as they are.
+// last drawn. Returns true if it stops at a line of which only the first writes are known, if these are equal
+// so far and do not change `latches`.
 bool Tia::recall_lines(std::uint32_t& origin, Collisions latches) {
   RegisterVectors registers(tia_);
   std::int32_t cursor = tia_.cursor;
@@ -291,13 +294,14 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions latches) {
   bool enough = false;
   for (; record != last; ++record, ++lines, origin += kLineOfWrites, cursor += kLineClocks) {
     const Likeness likeness = compare(registers, played_, origin, *record);
-    if (likeness < Likeness::kLooks || (*lines != record->number && !beam_.can_copy(lines, record->number))) {
-      enough = likeness == Likeness::kBegins && latches != kWholePicture &&
+    if (likeness < Likeness::kLooksAlike ||
+        (*lines != record->number && !beam_.can_copy(lines, record->number))) {
+      enough = likeness == Likeness::kStartsAlike && latches != kWholePicture &&
                keeps_latches(*record, origin, latches);
       break;
     }
     const std::uint32_t* next = played_ + record->count;
-    if (likeness == Likeness::kIsSame) {
+    if (likeness == Likeness::kSame) {
       record->pass(registers);
       if (record->view.seen & kMoves)
         tia_.hmove_clock = static_cast<std::uint32_t>(cursor + record->hmove_clock);
@@ -310,7 +314,7 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions latches) {
     }
     played_ = next;
     tia_.collisions |= record->meetings;
-    if (likeness != Likeness::kIsSame || record->count != 0) continue;
+    if (likeness != Likeness::kSame || record->count != 0) continue;
     const int repetitions = repeated_rows(record, last, lines, *played_ - origin);
     record += repetitions, lines += repetitions, cursor += repetitions * kLineClocks;
     origin += static_cast<std::uint32_t>(repetitions) * kLineOfWrites;
@@ -350,8 +354,8 @@ bool Tia::draw_line(std::uint32_t origin) {
   return true;
 }
 
-// Whether only late writes of the line are left. Otherwise writes that act on two lines, or are too many, are
-// left, and the line is not recorded.
+// Whether only late writes of the line remain. If others remain, which act on two lines or are too many for a
+// record, the line is not recorded.
 bool Tia::ends_early(const std::uint32_t* next, std::uint32_t origin) {
   // In Cosmic Ark mode, the end of a line has a further effect, and it matters whether that comes before a
   // late write.
@@ -370,7 +374,7 @@ void Tia::close_record() {
   recorded_ = nullptr;
 }
 
-// docs/spec/tia.md, "Greying": what is seen if the processor stops in the middle of a picture.
+// Shows what is seen if the processor stops in the middle of a picture (docs/spec/tia.md, "Greying").
 void Tia::grey(FrameBuffer& picture, std::int32_t cycle) const {
   const int line = (3 * cycle - tia_.origin) / kLineClocks;
   const int first = std::clamp(line - video_.ystart, 0, video_.height);
