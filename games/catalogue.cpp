@@ -168,10 +168,10 @@ Recognition recognise_as(const Image& image, const std::shared_ptr<const Game>& 
   return recognition_of(game, RecognisedBy::kGivenName, image);
 }
 
-std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const Image& image,
-                                       const GivenProperties& choices) {
-  if (choices.empty()) return game;
-  const Properties properties = choices.in(game->properties_for(image.md5));
+std::shared_ptr<const Game> with_overrides(std::shared_ptr<const Game> game, const Image& image,
+                                           const PropertyOverrides& overrides) {
+  if (overrides.empty()) return game;
+  const Properties properties = overrides.apply_to(game->properties_for(image.md5));
   return std::make_shared<const Game>(with_image(*game, {image.md5, properties, game->accepts(image.md5)}));
 }
 

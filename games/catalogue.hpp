@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "games/game/game.hpp"
-#include "games/game/given_properties.hpp"
+#include "games/game/property_overrides.hpp"
 #include "games/rom_image.hpp"
 
 namespace racebeam {
@@ -42,7 +42,7 @@ std::vector<std::string_view> game_names();  // of catalogue(), in its order
 // Loads a game file of the user. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 std::shared_ptr<const Game> load_game_file(const std::string& path);
 
-// The game of a game file's contents, which load_game_file() reads like this.
+// Parses the contents of a game file, as load_game_file() does. path: names the file in errors, and the game.
 std::shared_ptr<const Game> game_in_file(std::string_view text, const std::string& path);
 
 // Loads all files of a folder that end in .toml. Throws InvalidInput for the first wrong one, and for a
@@ -57,31 +57,33 @@ struct Recognition {
   bool md5_matches = true;  // false: the game's rule was written for another image; the caller should warn
 };
 
-// An explicit name or file has priority, then the MD5, then the image's file name. A folder as game_file is
-// searched with recognise_among(). Throws InvalidInput for an unknown name (with suggestions) or an invalid
+// Returns the game of an image: the explicit one if the caller names a game or a game file, otherwise that
+// with the image's MD5, otherwise that with the name of the image's file. If game_file is a folder,
+// recognise_among() searches it. Throws InvalidInput for an unknown name (with suggestions) or an invalid
 // file.
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name = std::nullopt,
                       const std::optional<std::string>& game_file = std::nullopt);
 
-// The user's game that lists the image's MD5, else the one that is named like it, else as recognise().
+// Returns the game of `own`, the user's games, that lists the image's MD5; otherwise the one of them that is
+// named like the image; otherwise what recognise() returns.
 Recognition recognise_among(const Image& image, const std::vector<std::shared_ptr<const Game>>& own);
 
-// Recognises an image whose game the caller knows.
+// Returns the recognition of an image whose game the caller knows.
 Recognition recognise_as(const Image& image, const std::shared_ptr<const Game>& game);
 
-// The game with the user's settings for the console of this image. Throws InvalidInput if the picture does
-// not fit.
-std::shared_ptr<const Game> with_given(std::shared_ptr<const Game> game, const Image& image,
-                                       const GivenProperties& choices);
+// Returns the game with these overrides for the console of this image. Throws InvalidInput if the picture
+// does not fit.
+std::shared_ptr<const Game> with_overrides(std::shared_ptr<const Game> game, const Image& image,
+                                           const PropertyOverrides& overrides);
 
 // Whether a game's rule was written for another image than this one.
 bool is_other_dump(const Game& game, const Image& image);
 
-// Whether the image probably lacks the cartridge scheme that its size suggests, and nothing else determines
-// it.
+// Whether the image probably does not have the cartridge scheme that its size suggests, while nothing else
+// determines its scheme.
 bool is_doubtful(const Game& game, const Image& image);
 
-// The sentence about such an image; empty if there is nothing to say.
+// A warning for the user about another dump, or a doubtful image; empty for other images.
 std::string image_warning(const Game& game, const Image& image);
 
 // An image and its game. Both are const, so that any number of machines share them.

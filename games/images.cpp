@@ -32,7 +32,7 @@ void Images::add_built_in(const std::vector<std::shared_ptr<const Game>>& own) {
 }
 
 void Images::add_file(const std::string& path, const std::optional<std::string>& game,
-                      const std::optional<std::string>& game_file, const GivenProperties& console) {
+                      const std::optional<std::string>& game_file, const PropertyOverrides& console) {
   const auto image = load_image(path);
   const Recognition recognition = recognise(*image, game, game_file);
   add(image, recognition, console);
@@ -51,9 +51,9 @@ void Images::add_folder(const std::string& folder, const std::vector<std::shared
 }
 
 void Images::add(const std::shared_ptr<const Image>& image, const Recognition& recognition,
-                 const GivenProperties& console) {
+                 const PropertyOverrides& console) {
   const int certainty = certainty_of(recognition.how);
-  const Cartridge cartridge{image, with_given(recognition.game, *image, console)};
+  const Cartridge cartridge{image, with_overrides(recognition.game, *image, console)};
   scheme_of(*image->bytes, cartridge.game->properties_for(image->md5).scheme);  // throws
   const auto put = [&](auto& map, const std::string& key) {
     const auto [place, is_new] = map.try_emplace(key, Entry{cartridge, certainty});

@@ -20,7 +20,7 @@ class Images {
   // a folder are left out. game, game_file: the rule, as for recognise(). own: for recognise_among().
   void add_file(const std::string& path, const std::optional<std::string>& game = std::nullopt,
                 const std::optional<std::string>& game_file = std::nullopt,
-                const GivenProperties& console = {});
+                const PropertyOverrides& console = {});
   void add_folder(const std::string& folder, const std::vector<std::shared_ptr<const Game>>& own = {});
   // Gives the images that are part of the program to the user's games, as recognise_among() does.
   void add_built_in(const std::vector<std::shared_ptr<const Game>>& own);
@@ -33,7 +33,7 @@ class Images {
   // name: a game of the catalogue, the stem of an unknown image's file, or an MD5. Returns null if there is
   // no such image.
   const Cartridge* find(std::string_view name) const;
-  // The image of these bytes. Null if no image has them.
+  // Returns the stored image with the bytes of `image`; null if no image has them.
   std::shared_ptr<const Image> same(const Image& image) const;
   std::vector<std::string_view> names() const;  // without the MD5s
   // A game of the catalogue, or of an available image. Null for an unknown game, and for one without a rule.
@@ -42,7 +42,7 @@ class Images {
 
  private:
   void add(const std::shared_ptr<const Image>& image, const Recognition& recognition,
-           const GivenProperties& console);
+           const PropertyOverrides& console);
 
   struct Entry {
     Cartridge cartridge;

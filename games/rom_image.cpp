@@ -29,9 +29,8 @@ std::string stem_of(std::filesystem::path path) {
   return lower_case(path.stem().string());
 }
 
-// A cartridge of less than 2K shows its bytes several times in 2K. The last time ends where the 2K end, since
-// the vectors are there.
-// Returns the size before, or 0 if nothing was done.
+// Repeats the bytes of a cartridge of less than 2K until they fill 2K. The last copy ends at the end of the
+// 2K, since the vectors are there. Returns the size before, or 0 if it does nothing.
 std::size_t mirror(std::vector<std::uint8_t>& bytes) {
   constexpr std::size_t kLeast = 32, kFull = 2048;
   if (bytes.size() < kLeast || bytes.size() >= kFull) return 0;

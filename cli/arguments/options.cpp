@@ -25,7 +25,7 @@ void warn_about(const Recognition& recognition, const Image& image, const Tell& 
   if (const std::string warning = image_warning(game, image); !warning.empty()) tell(warning);
 }
 
-// The keys of GivenProperties.
+// The keys of PropertyOverrides.
 struct ConsoleOption {
   const char *key, *value, *help;
 };
@@ -38,18 +38,18 @@ constexpr ConsoleOption kConsoleOptions[] = {
     {"height", "LINES", "Lines of the picture, 100 to 256"},
 };
 
-void add_console_options(Subcommand& command, GivenProperties& console) {
+void add_console_options(Subcommand& command, PropertyOverrides& console) {
   for (const auto& [key, value, help] : kConsoleOptions) {
     const auto refusal = [name = key](const std::string& text) -> std::string {
       try {
-        GivenProperties{}.give(name, text);
+        PropertyOverrides{}.set(name, text);
         return "";
       } catch (const InvalidInput& error) {
         return error.what();
       }
     };
     const std::function<void(const std::string&)> set = [&console, name = key](const std::string& text) {
-      console.give(name, text);
+      console.set(name, text);
     };
     command.option("--" + std::string(key), set, help).check({refusal, ""}).value_name(value);
   }
@@ -116,7 +116,7 @@ void tell_on_standard_error(const std::string& sentence) {
 Cartridge open_cartridge(const MachineOptions& options, const Tell& tell) {
   const auto image = load_image(options.rom);
   const Recognition recognition = recognise(*image, options.game, options.game_file);
-  const Cartridge cartridge{image, with_given(recognition.game, *image, options.console)};
+  const Cartridge cartridge{image, with_overrides(recognition.game, *image, options.console)};
   power_on(cartridge, options);
   warn_about(recognition, *image, tell);
   return cartridge;

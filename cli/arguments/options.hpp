@@ -20,7 +20,7 @@ struct MachineOptions {
   std::optional<std::string> game;       // the rule to use, by name
   std::optional<std::string> game_file;  // the rule to use, from the user's file
   Settings settings;
-  GivenProperties console;
+  PropertyOverrides console;
   std::optional<int> mode, difficulty;  // the game's defaults if not given
 };
 

@@ -13,7 +13,7 @@
 #include "cli/commands/png_file.hpp"
 #include "cli/connect/reply_picture.hpp"
 #include "emulator/tia/palette.hpp"
-#include "games/game/given_properties.hpp"
+#include "games/game/property_overrides.hpp"
 
 namespace racebeam {
 namespace {

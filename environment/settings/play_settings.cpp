@@ -177,21 +177,21 @@ constexpr std::array kSettings = {
     setting("color_averaging", READ(s.machine.color_averaging = flag(value, "color_averaging")),
             ECHO(std::int64_t{s.machine.color_averaging})),
     setting("sound", READ(s.machine.sound = flag(value, "sound")), ECHO(std::int64_t{s.machine.sound})),
-    setting("scheme", READ(s.console.give("scheme", value)),
+    setting("scheme", READ(s.console.set("scheme", value)),
             [](std::string& out, const PlaySettings&, const Environment& e) {
               out += scheme_word(scheme_of(*e.image().bytes, properties_of(e).scheme).name);
             }),
-    setting("left", READ(s.console.give("left", value)),
+    setting("left", READ(s.console.set("left", value)),
             [](std::string& out, const PlaySettings&, const Environment& e) {
               out += name_of(properties_of(e).left);
             }),
-    setting("right", READ(s.console.give("right", value)),
+    setting("right", READ(s.console.set("right", value)),
             [](std::string& out, const PlaySettings&, const Environment& e) {
               out += name_of(properties_of(e).right);
             }),
-    setting("format", READ(s.console.give("format", value)), nullptr),
-    setting("ystart", READ(s.console.give("ystart", value)), ECHO(std::int64_t{properties_of(e).ystart})),
-    setting("height", READ(s.console.give("height", value)), nullptr),
+    setting("format", READ(s.console.set("format", value)), nullptr),
+    setting("ystart", READ(s.console.set("ystart", value)), ECHO(std::int64_t{properties_of(e).ystart})),
+    setting("height", READ(s.console.set("height", value)), nullptr),
 };
 
 #undef READ

@@ -10,7 +10,7 @@
 #include "environment/environment.hpp"
 #include "environment/input/action_set.hpp"
 #include "environment/vector/vector_environment.hpp"
-#include "games/game/given_properties.hpp"
+#include "games/game/property_overrides.hpp"
 #include "system/words.hpp"
 
 namespace racebeam {
@@ -22,7 +22,7 @@ struct PlaySettings {
 
   Settings machine;
   std::optional<int> mode, difficulty;  // the game's defaults if not given
-  GivenProperties console;
+  PropertyOverrides console;
   ActionSet action_set = ActionSet::kFull;
   Autoreset autoreset = Autoreset::kDisabled;
   LifeLoss life_loss = LifeLoss::kIgnored;  // kRestart also sets machine.truncate_on_life_loss

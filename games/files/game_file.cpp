@@ -8,7 +8,7 @@
 #include "emulator/cartridge/cartridge.hpp"
 #include "games/files/game_lists.hpp"
 #include "games/files/toml_section.hpp"
-#include "games/game/given_properties.hpp"
+#include "games/game/property_overrides.hpp"
 #include "games/language/rule_compiler.hpp"
 
 namespace racebeam {

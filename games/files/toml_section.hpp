@@ -52,7 +52,7 @@ class Section {
   // Runs `work`, and refuses its InvalidInput as an error of this key.
   void guard(const toml::node& at, std::string_view key, const std::function<void()>& work) const;
 
-  // A word of a list, by its index.
+  // Returns the index in `words` of the text of `key`.
   std::optional<int> choice(std::string_view key, const std::vector<std::string>& words) const;
 
   [[noreturn]] void refuse(const toml::node& at, std::string_view key, const std::string& sentence) const;

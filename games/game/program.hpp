@@ -74,8 +74,8 @@ struct Program {
 // The bytes of RAM that the program may read. Nothing if it may read other memory, too.
 std::optional<RamMask> ram_read_by(const Program& program);
 
-// Applies an operator in 32-bit two's complement, which wraps. A division by 0 gives 0, and so does its
-// remainder. Shifts use the low five bits of the count. Not for loads.
+// Applies an operator, any but those that load, in 32-bit two's complement, which wraps. A division by 0
+// gives 0, and so does its remainder. Shifts use the low five bits of the count.
 std::int32_t apply(Op op, std::int32_t a, std::int32_t b, std::int32_t c);
 
 // Executes the program of an expression. Returns its result.

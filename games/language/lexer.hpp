@@ -28,7 +28,7 @@ struct Token {
 // The tokens of `source`; the last one is kEnd. Comments, and line ends inside ( and [, are left out.
 std::vector<Token> tokens_of(std::string_view source);
 
-// A position among tokens, and the queries of a parser there.
+// A position among tokens, as a parser moves it.
 class TokenReader {
  public:
   explicit TokenReader(const std::vector<Token>& tokens) : at_(tokens.data()) {}
@@ -40,7 +40,7 @@ class TokenReader {
   bool accept(std::string_view symbol_or_name);
   void expect(std::string_view symbol, std::string_view where);
   void skip_separators();                                       // line ends and ';'
-  void expect_separator();                                      // or a '}' or the end, which are not consumed
+  void expect_separator();                                      // also accepts '}' or the end, and leaves it
   [[noreturn]] void refuse(const std::string& sentence) const;  // at the next token
 
   const Token* place() const { return at_; }  // to parse a part again

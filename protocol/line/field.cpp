@@ -5,7 +5,7 @@
 
 #include "emulator/tia/palette.hpp"
 #include "environment/settings/play_settings.hpp"
-#include "games/game/given_properties.hpp"
+#include "games/game/property_overrides.hpp"
 #include "protocol/description/tables.hpp"
 #include "protocol/request_error.hpp"
 #include "system/named_rows.hpp"

@@ -116,13 +116,13 @@ TEST_CASE("a warning tells of an image that another image's rule scores") {
 TEST_CASE("an image's own console is kept, and a scheme that does not fit is refused") {
   const Scratch scratch;
   Images images;
-  GivenProperties console;
-  console.give("height", "199");
+  PropertyOverrides console;
+  console.set("height", "199");
   images.add_file(scratch.write("a.bin", bytes_of('a')), std::nullopt, std::nullopt, console);
   const Cartridge& cartridge = *images.find("a");
   CHECK(cartridge.game->properties_for(cartridge.image->md5).height == 199);
-  GivenProperties wrong;
-  wrong.give("scheme", "F4");  // takes 32 KiB
+  PropertyOverrides wrong;
+  wrong.set("scheme", "F4");  // takes 32 KiB
   CHECK_THROWS(images.add_file(scratch.write("b.bin", bytes_of('b')), std::nullopt, std::nullopt, wrong));
   CHECK(images.find("b") == nullptr);
 }

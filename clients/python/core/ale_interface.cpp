@@ -25,7 +25,7 @@ void AleInterface::load(std::shared_ptr<const Image> image, const std::optional<
   if (!found.game->has_rule() && file.empty() && !keys_.bools.at("unknown_images"))
     throw InvalidInput("no game is known for the image " + image->stem + " with MD5 " + image->md5 +
                        "; name the game whose rule it has, or use an image that `racebeam games` lists");
-  auto rules = with_given(found.game, *image, keys_.console());
+  auto rules = with_overrides(found.game, *image, keys_.console());
   machine_ = std::make_shared<Machine>(lock_, std::move(image), std::move(rules), keys_.settings());
   machine_->environment.make_all_audio(keys_.bools.at("all_audio"));
   // As in ALE, a value that a game forces stays in effect for images that are loaded later.

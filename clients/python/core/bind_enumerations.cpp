@@ -6,7 +6,7 @@
 #include "clients/python/core/ale_interface.hpp"
 #include "clients/python/core/bindings.hpp"
 #include "clients/python/core/python_action.hpp"
-#include "games/game/given_properties.hpp"
+#include "games/game/property_overrides.hpp"
 
 namespace racebeam::python {
 

@@ -221,15 +221,15 @@ Bytes screen(VectorMachines& self, std::int64_t machine) {
 
 // An image and the name of its game. Without a name, the game file or the image decides.
 using GivenImage = std::pair<ImageArgument, std::optional<std::string>>;
-using Console = std::map<std::string, std::string>;  // keys and values of GivenProperties
+using Console = std::map<std::string, std::string>;  // keys and values of PropertyOverrides
 
 Cartridge cartridge_of(const GivenImage& source, const std::optional<std::string>& game_file,
                        const Console& console) {
   const auto& [where, game] = source;
-  GivenProperties properties;
-  for (const auto& [key, value] : console) properties.give(key, value);
+  PropertyOverrides properties;
+  for (const auto& [key, value] : console) properties.set(key, value);
   auto image = image_of(where, game.value_or("bytes"));
-  auto rules = with_given(recognise(*image, game, game_file).game, *image, properties);
+  auto rules = with_overrides(recognise(*image, game, game_file).game, *image, properties);
   return {std::move(image), std::move(rules)};
 }
 

@@ -91,12 +91,12 @@ Settings Keys::settings() const {
   return settings;
 }
 
-GivenProperties Keys::console() const {
-  GivenProperties console;
+PropertyOverrides Keys::console() const {
+  PropertyOverrides console;
   for (const char* const key : {"scheme", "left", "right", "format"})
-    if (const std::string& value = strings.at(key); !value.empty()) console.give(key, value);
+    if (const std::string& value = strings.at(key); !value.empty()) console.set(key, value);
   for (const char* const key : {"ystart", "height"})
-    if (const int value = ints.at(key); value != -1) console.give(key, std::to_string(value));
+    if (const int value = ints.at(key); value != -1) console.set(key, std::to_string(value));
   return console;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "environment/settings.hpp"
-#include "games/game/given_properties.hpp"
+#include "games/game/property_overrides.hpp"
 
 namespace racebeam::python {
 
@@ -27,7 +27,7 @@ struct Keys {
 
   // The properties of the console that the keys give for the image; -1 and "" mean that a key is not given.
   // Throws InvalidInput, too.
-  GivenProperties console() const;
+  PropertyOverrides console() const;
 };
 
 }  // namespace racebeam::python

@@ -171,7 +171,7 @@ void run_load(Context& context, Words arguments, Reply& reply) {
   if (settings.machine.random_seed == 0) settings.machine.random_seed = parse_seed("random");
   // The cache of resets belongs to the process, and would keep the image when the session is gone.
   Cartridge cartridge = find_cartridge(context, arguments[0], words);
-  cartridge.game = with_given(cartridge.game, *cartridge.image, settings.console);
+  cartridge.game = with_overrides(cartridge.game, *cartridge.image, settings.console);
   std::unique_ptr<CodeOwner> own_image;
   if (context.service.images->same(*cartridge.image) == nullptr)
     own_image = std::make_unique<CodeOwner>(cartridge.image->bytes);

@@ -36,9 +36,9 @@ StackSettings stack_of(const std::string& word) { return fields_of(word).at(0).s
 
 Cartridge with_height(const std::string& height) {
   const auto image = load_image("builtin:beamfall");
-  GivenProperties console;
-  console.give("height", height);
-  return {image, with_given(find_game("beamfall"), *image, console)};
+  PropertyOverrides console;
+  console.set("height", height);
+  return {image, with_overrides(find_game("beamfall"), *image, console)};
 }
 
 // A machine that shows these fields.

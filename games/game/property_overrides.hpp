@@ -38,18 +38,20 @@ constexpr std::string_view name_of(Format format) { return word_for(kFormats, fo
 inline constexpr int kPictureLines = 300, kLastYStart = kPictureLines - 250, kLeastHeight = 100,
                      kMostHeight = 256;
 
-struct GivenProperties {
+struct PropertyOverrides {
   std::optional<Controller> left, right;
   std::optional<Format> format;
   std::optional<std::string_view> scheme;  // as Properties::scheme
   std::optional<int> ystart, height;
 
-  // Reads one of scheme, left, right, format, height and ystart. Throws InvalidInput for another key, or a
-  // value that the key does not take.
-  void give(std::string_view key, std::string_view value);
+  // Sets the property `key`: scheme, left, right, format, height or ystart. Throws InvalidInput for another
+  // key, or a value that the property does not accept.
+  void set(std::string_view key, std::string_view value);
 
-  bool empty() const;
-  Properties in(Properties properties) const;  // throws InvalidInput if the picture does not fit
+  bool empty() const;  // whether nothing is overridden
+
+  // Returns `properties` with the overrides. Throws InvalidInput if the picture does not fit.
+  Properties apply_to(Properties properties) const;
 };
 
 // A scheme's name in one word: "F8_swapped".

@@ -1,4 +1,4 @@
-#include "games/game/given_properties.hpp"
+#include "games/game/property_overrides.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -46,7 +46,7 @@ std::string_view scheme(std::string_view value) {
 
 }  // namespace
 
-void GivenProperties::give(std::string_view key, std::string_view value) {
+void PropertyOverrides::set(std::string_view key, std::string_view value) {
   if (key == "scheme") {
     scheme = racebeam::scheme(value);
   } else if (key == "left") {
@@ -65,9 +65,9 @@ void GivenProperties::give(std::string_view key, std::string_view value) {
   }
 }
 
-bool GivenProperties::empty() const { return !left && !right && !format && !scheme && !ystart && !height; }
+bool PropertyOverrides::empty() const { return !left && !right && !format && !scheme && !ystart && !height; }
 
-Properties GivenProperties::in(Properties properties) const {
+Properties PropertyOverrides::apply_to(Properties properties) const {
   properties.left = left.value_or(properties.left);
   properties.right = right.value_or(properties.right);
   properties.format = format.value_or(properties.format);
