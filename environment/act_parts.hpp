@@ -1,4 +1,4 @@
-// The common parts of an act of the environment and a step of a slot.
+// Functions that an act of the environment and a step of a slot share.
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 
 namespace racebeam {
 
-// A reward within the limits of the settings, which are those of an int.
+// Returns the reward, clamped to reward_min and reward_max.
 inline std::int32_t clamped(std::int64_t reward, const Settings& settings) {
   return static_cast<std::int32_t>(
       std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max));
 }
 
-// How many of these frames are drawn: the last ones.
+// Returns how many of `frames` frames are drawn. They are the last ones.
 constexpr int frames_drawn(Drawing drawing, int frames) {
   switch (drawing) {
     case Drawing::kNone: return 0;

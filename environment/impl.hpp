@@ -49,7 +49,8 @@ struct Environment::Impl {
   std::function<void()> each_frame;  // empty: no watcher
   Drawing drawing;
 
-  // A frame that took more than one step shows one picture, which changes: what it showed before the last.
+  // A frame that takes several steps shows one picture, which changes. open_picture is what it showed before
+  // the last step.
   bool frame_continues = false;
   std::vector<std::uint8_t> open_picture;
 
@@ -66,7 +67,7 @@ struct Environment::Impl {
   void run_frame(const Presses& presses, bool draw);  // and the rule after it
   void step_console(bool draw);                       // without the rule
   void count_frame();
-  void observe_ram();  // as the agent does after each act
+  void observe_ram();  // reads it over the bus, as the reference's agent does after each act
   bool truncated() const;
   bool over() const { return rule.terminal() || truncated(); }
   Memory memory() const;
@@ -86,7 +87,7 @@ struct Environment::Impl {
   // save.cpp
   std::shared_ptr<const Saved> save(bool with_random) const;
   std::shared_ptr<Saved> save_without_pictures() const;
-  void check(const Saved& saved) const;  // of this image, game and console?
+  void check(const Saved& saved) const;  // throws unless it is of this image, game and console
   void check_values(const Saved& saved) const;
   void restore(const Saved& saved);
   void restore_classic(const Saved& saved);

@@ -26,8 +26,8 @@ void check(int width, int height, int to_width, int to_height) {
 
 }  // namespace
 
-// A sliver under a thousandth of a cell counts as none. Weights of zero pad all targets to the same number of
-// taps; they change no sum.
+// A source cell of which a target covers less than a thousandth is left out, as in OpenCV. Weights of zero,
+// which change no sum, give all targets the same number of taps.
 AreaAxis::AreaAxis(int cells, int targets)
     : taps(std::min(static_cast<std::size_t>(cells / targets) + 2, static_cast<std::size_t>(cells))),
       weights(static_cast<std::size_t>(targets) * taps) {

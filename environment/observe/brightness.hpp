@@ -1,4 +1,5 @@
-// The brightness of a row's pixels, or of the brighter of each two, in a form for each kind of processor.
+// Converts rows of palette indices to brightness, one row or the brighter pixels of two, in a variant for
+// each kind of processor.
 #pragma once
 
 #include <array>

@@ -27,12 +27,12 @@ void make_plane(std::span<const std::uint8_t> screen, const Brightness& brightne
 void make_brighter_plane(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
                          const Brightness& brightness, RowFlags stale, std::span<std::uint8_t> plane);
 
-// Averages over areas if neither side grows, by whole blocks where both sides shrink by whole numbers; else
-// interpolates. All are OpenCV's INTER_AREA.
+// The ways to resize, each as OpenCV's INTER_AREA does: BlockMean if both sides shrink by whole numbers,
+// AreaResize if neither side grows, otherwise Enlargement.
 using ScreenResize = std::variant<BlockMean, AreaResize, Enlargement>;
 
 // Returns the tables that resize a plane of 160 x height to this size. They are computed on first use, and
-// the process shares them. Thread-safe. Throws std::invalid_argument for a size that neither supports.
+// the process shares them. Thread-safe. Throws std::invalid_argument for a size that none of them supports.
 const ScreenResize& screen_resize(int height, int to_width, int to_height);
 
 }  // namespace racebeam

@@ -59,10 +59,10 @@ ScreenStack::ScreenStack(const StackSettings& settings, const Environment& envir
 
 void ScreenStack::clear() {
   std::ranges::fill(screens_, std::uint8_t{0});
-  all_changed();
+  mark_all_changed();
 }
 
-void ScreenStack::all_changed() { std::ranges::fill(changed_, std::uint8_t{1}); }
+void ScreenStack::mark_all_changed() { std::ranges::fill(changed_, std::uint8_t{1}); }
 
 // Without branches: which rows are stale cannot be foreseen.
 void ScreenStack::find_stale(const Environment& environment, bool pooled) {
@@ -94,10 +94,10 @@ void ScreenStack::look(const Environment& environment, bool pooled) {
   }
 }
 
-void ScreenStack::look_at_previous(const Environment& environment) {
+void ScreenStack::pool_with_previous(const Environment& environment) {
   const auto before = environment.previous_screen();
   std::ranges::fill(sources_, Source{});
-  all_changed();
+  mark_all_changed();
   for (std::size_t channel = 0; channel < brightness_.size(); ++channel) {
     const auto pixels = plane(channel);
     for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -121,7 +121,7 @@ void ScreenStack::reduce(std::size_t channel, std::span<std::uint8_t> to) {
   }
 }
 
-void ScreenStack::find_wanted() {
+void ScreenStack::find_due_rows() {
   const auto find = [this](const auto& resize) {
     if constexpr (knows_rows<decltype(resize)>) resize.depending(changed_, due_rows_);
     return knows_rows<decltype(resize)>;
@@ -134,7 +134,7 @@ void ScreenStack::find_wanted() {
 void ScreenStack::push() {
   const auto before = newest();
   if (++newest_ == static_cast<std::size_t>(depth())) newest_ = 0;
-  find_wanted();
+  find_due_rows();
   std::ranges::fill(changed_, std::uint8_t{0});
   if (std::ranges::find(due_rows_, 1) != due_rows_.end()) make_newest();
   if (depth() == 1) return;
@@ -178,7 +178,7 @@ std::vector<std::uint8_t> ScreenStack::bytes() const {
 void ScreenStack::set_bytes(std::span<const std::uint8_t> bytes) {
   std::ranges::copy(bytes, screens_.begin());
   newest_ = static_cast<std::size_t>(depth()) - 1;
-  all_changed();
+  mark_all_changed();
 }
 
 }  // namespace racebeam

@@ -35,21 +35,21 @@ class ScreenStack {
   // For the screens of `environment`. Throws InvalidInput for a size that they cannot be resized to.
   ScreenStack(const StackSettings& settings, const Environment& environment);
 
-  // Without 0 for the screen's own size, and with 0 rows where all are seen.
+  // The settings, with the screen's own width and height in place of 0. `rows` is 0 if all rows are seen.
   const StackSettings& settings() const { return settings_; }
   int depth() const { return settings_.depth; }
   std::size_t screen_size() const { return screen_size_; }  // bytes: height x width x channels
   std::size_t size() const { return screens_.size(); }      // of all screens
 
-  void clear();  // all are zero
+  void clear();  // sets all screens to zero
 
   // Reads the screen of `environment`. pooled: each pixel is the brighter of its last two frames.
   void look(const Environment& environment, bool pooled);
-  // Each pixel becomes the brighter of what was seen and the environment's frame before the last.
-  void look_at_previous(const Environment& environment);
+  // Makes each pixel the brighter of the screen that look() read and the environment's previous screen.
+  void pool_with_previous(const Environment& environment);
 
-  void push();    // what was seen becomes the newest screen
-  void repeat();  // all screens are the newest
+  void push();    // makes the screen that look() read the newest one
+  void repeat();  // makes all screens equal to the newest one
 
   // Oldest first. `to` has room for depth() screens, of which each takes `stride` bytes and fills the first.
   void copy_to(std::span<std::uint8_t> to, std::size_t stride) const;
@@ -71,10 +71,10 @@ class ScreenStack {
   };
 
   void find_stale(const Environment& environment, bool pooled);
-  void find_wanted();
+  void find_due_rows();
   void reduce(std::size_t channel, std::span<std::uint8_t> to);
   void make_newest();
-  void all_changed();
+  void mark_all_changed();
 
   StackSettings settings_;
   const ScreenResize* resize_;          // null: screens stay as they are

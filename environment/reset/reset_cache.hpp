@@ -42,7 +42,7 @@ struct ResetEnd {
   std::array<std::uint8_t, 6> sound{};
   RuleState rule;
   PaddleValues paddles{};
-  std::uint32_t frames = 0;  // counted ones
+  std::uint32_t frames = 0;  // frames of the reset that Environment::frame_number() counts
   FrameBuffers pictures;
 };
 

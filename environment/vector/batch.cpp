@@ -85,11 +85,11 @@ void check_memory(std::size_t machines, std::string_view noun) {
 }
 
 struct Batch::Impl final : VectorHost {
-  Impl(std::span<const Cartridge> cartridges, const BatchSettings& batch_settings, Watch batch_watch)
+  Impl(std::span<const Cartridge> cartridges, const BatchSettings& batch_settings, InterruptCheck check)
       : settings(batch_settings),
-        watch(batch_watch),
+        interrupt_check(check),
         batch_size(checked_size(cartridges.size(), batch_settings)),
-        many(cartridges.size()),
+        large_pages(cartridges.size()),
         pool(useful_threads(batch_settings.threads, cartridges.size()), batch_settings.busy_poll,
              batch_settings.first_processor),
         layout(batch_settings.stack, batch_settings.screens,
@@ -108,11 +108,11 @@ struct Batch::Impl final : VectorHost {
 
   // VectorHost
   void run_all(std::size_t count, const std::function<void(std::size_t)>& task) override {
-    Lookout lookout(watch);
+    InterruptPoll interrupt_poll(interrupt_check);
     pool.run(count, [&](std::size_t number) {
-      if (lookout.may_continue()) task(number);
+      if (interrupt_poll.may_continue()) task(number);
     });
-    lookout.check();
+    interrupt_poll.rethrow();
   }
   void opened(std::size_t, Slot& slot) override {
     slot.set_drawing(settings.screens ? Drawing::kLast : Drawing::kNone);
@@ -157,9 +157,9 @@ struct Batch::Impl final : VectorHost {
   };
 
   const BatchSettings settings;
-  Watch watch;
+  InterruptCheck interrupt_check;
   const std::size_t batch_size;
-  const LargePageScope many;
+  const LargePageScope large_pages;
   ThreadPool pool;
   const BatchArrays* out = nullptr;  // of the request that runs; null between send() and receive()
   ResultLayout layout;
@@ -256,14 +256,14 @@ std::span<const std::size_t> Batch::Impl::await(std::size_t count) {
            "; send some first";
   });
   const auto enough = [&] { return done.size() >= count; };
-  Lookout lookout(watch);
+  InterruptPoll interrupt_poll(interrupt_check);
   std::unique_lock lock(mutex);
   while (!enough()) {
     lock.unlock();
-    lookout.look();
+    interrupt_poll.poll();
     const bool worked = queue.work_once();
     lock.lock();
-    if (!worked) one_is_done.wait_for(lock, Lookout::kInterval, enough);
+    if (!worked) one_is_done.wait_for(lock, InterruptPoll::kInterval, enough);
   }
   received.assign(done.begin(), done.begin() + static_cast<std::ptrdiff_t>(count));
   if (batch_size == vector.size())
@@ -290,8 +290,9 @@ void Batch::Impl::throw_failure_of(std::span<const std::size_t> numbers) {
   std::rethrow_exception(failure);
 }
 
-Batch::Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings, Watch watch) try
-    : impl_(std::make_unique<Impl>(cartridges, settings, watch)) {
+Batch::Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings,
+             InterruptCheck interrupt_check) try
+    : impl_(std::make_unique<Impl>(cartridges, settings, interrupt_check)) {
 } catch (const std::system_error& error) {  // of the pool
   throw InvalidInput(std::string(error.what()) + "; ask for fewer");
 }
@@ -314,7 +315,7 @@ const std::vector<int>& Batch::actions(std::size_t machine) const {
   return impl_->vector.slot(machine).actions();
 }
 
-void Batch::set_watch(Watch watch) { impl_->watch = watch; }
+void Batch::set_interrupt_check(InterruptCheck interrupt_check) { impl_->interrupt_check = interrupt_check; }
 
 BatchResults Batch::make_results() const { return impl_->layout.make_results(batch_size()); }
 

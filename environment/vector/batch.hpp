@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "environment/vector/batch_results.hpp"
-#include "environment/vector/lookout.hpp"
+#include "environment/vector/interrupt_poll.hpp"
 #include "environment/vector/vector_environment.hpp"
 
 namespace racebeam {
@@ -39,8 +39,10 @@ void check_memory(std::size_t machines, std::string_view noun = "machine");
 class Batch {
  public:
   // Creates a machine for each cartridge, powers it on and resets it. Throws InvalidInput if the settings or
-  // an image cannot be used, or a thread cannot be started. `watch` may be null: see set_watch().
-  Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings, Watch watch = nullptr);
+  // an image cannot be used, or a thread cannot be started. `interrupt_check` may be null: see
+  // set_interrupt_check().
+  Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings,
+        InterruptCheck interrupt_check = nullptr);
   ~Batch();
   Batch(Batch&&) noexcept;
   Batch& operator=(Batch&&) noexcept;
@@ -63,7 +65,7 @@ class Batch {
   // throwing; null: none. A step or reset then starts no more machines, and throws when those in progress are
   // done. Each machine has completed its step or reset, or is unchanged; `out` is undefined. A receive() has
   // received nothing.
-  void set_watch(Watch watch);
+  void set_interrupt_check(InterruptCheck interrupt_check);
 
   // Steps every machine once; `out` has room for all. Throws InvalidInput, and does nothing, unless there is
   // one act for each machine and every index is one of the machine's. A step allocates nothing, with three

@@ -20,10 +20,10 @@ void Branching::enter(const Environment::Saved& root) {
   end_ = {};
   life_ended_ = false;
   end_.lives = environment_.lives();
-  look_at_ends();
+  check_ends();
 }
 
-void Branching::look_at_ends() {
+void Branching::check_ends() {
   const bool lost_life = 0 < environment_.lives() && environment_.lives() < end_.lives;
   const Ends ends = ends_of(environment_, life_loss_);
   const bool reported = life_loss_ == LifeLoss::kReported && (lost_life || end_.terminated);
@@ -40,7 +40,7 @@ int Branching::act(const Act& act) {
   end_.reward_b += environment_.rewards().b;
   ++end_.acts;
   end_.frames += frames_between(before, environment_.frame_number());
-  look_at_ends();
+  check_ends();
   return reward;
 }
 

@@ -21,7 +21,8 @@ struct BranchEnd {
 // Plays branches on an environment, act by act. The caller must not use the environment meanwhile.
 class Branching {
  public:
-  // Saves the state of `environment`, including its generator. A lost life has this effect on a branch.
+  // Saves the state of `environment`, including its generator. life_loss: the effect of a lost life on a
+  // branch.
   explicit Branching(Environment& environment, LifeLoss life_loss = LifeLoss::kIgnored);
   ~Branching();  // restores it
   Branching(const Branching&) = delete;
@@ -41,7 +42,7 @@ class Branching {
   const BranchEnd& end() const { return end_; }
 
  private:
-  void look_at_ends();
+  void check_ends();
 
   Environment& environment_;
   const LifeLoss life_loss_;

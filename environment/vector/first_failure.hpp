@@ -23,7 +23,7 @@ class FirstFailure {
     first_ = number;
   }
 
-  // After the tasks: throws the exception that was kept.
+  // Called after the tasks. Throws the exception that was kept, if there is one.
   void check() const {
     if (failure_) std::rethrow_exception(failure_);
   }

@@ -75,19 +75,19 @@ Slot::Slot(const Cartridge& cartridge, const SlotSettings& settings, Pace* pace)
 void Slot::begin_request() {
   outcome_ = {};
   environment_.begin_audio();
-  look_at_ends();
+  check_ends();
 }
 
-void Slot::look_at_ends() {
-  if (settings_.steps == Steps::kActs) look_at_lives();
+void Slot::check_ends() {
+  if (settings_.steps == Steps::kActs) check_lives();
   outcome_.game_over = environment_.terminal();
   outcome_.terminated = progress_.terminated;
   outcome_.truncated = progress_.truncated;
   outcome_.finished = finished();
 }
 
-// The ends of an episode whose steps are acts. A lost life counts once in an act, at its end.
-void Slot::look_at_lives() {
+// Updates the progress of an episode whose steps are acts. A lost life counts once in an act, at its end.
+void Slot::check_lives() {
   const Ends ends = ends_of(environment_, settings_.life_loss);
   const bool lost_life = outcome_.lives_lost > 0 && environment_.lives() > 0;
   const bool by_life = settings_.life_loss == LifeLoss::kEnd && (progress_.game_continues || lost_life);
@@ -102,7 +102,7 @@ void Slot::end_episode(std::optional<std::uint32_t> seed) {
   progress_.finished = true;
   progress_.game_continues = false;
   if (seed) next_seed_ = seed;
-  look_at_ends();
+  check_ends();
 }
 
 bool Slot::finished() const {
@@ -124,7 +124,7 @@ void Slot::run_act(const Act& act) {
   progress_.lives = environment_.lives();
   add_outcome(environment_.raw_rewards(), frames);
   progress_.blends = frames > 1;
-  if (stack_) show(progress_.blends);
+  if (stack_) push_screen(progress_.blends);
   if (watcher_ != nullptr) watcher_->played(act, frames);
 }
 
@@ -136,7 +136,7 @@ void Slot::add_outcome(Environment::RawRewards rewards, int frames) {
   outcome_.raw_reward_b += rewards.b;
   outcome_.frames += frames;
   ++outcome_.acts;
-  look_at_ends();
+  check_ends();
 }
 
 void Slot::run_frames(const Act& act) {
@@ -170,27 +170,27 @@ void Slot::run_frames(const Act& act) {
   progress_.truncated = too_long && !progress_.terminated;
   progress_.blends = pools() && (remaining == 1 || settings_.reset_order == ResetOrder::kFireNoops);
   add_outcome(rewards, frames - remaining + 1);
-  if (stack_) look_at_end_of_step(remaining);
+  if (stack_) observe_end_of_step(remaining);
 }
 
-// Shows the last frame, pooled with the one before if both are the step's last two. A pooled step that ends
-// before those shows what the step before it showed. remaining: frames of the step that remain, counting the
-// one that has just run.
-void Slot::look_at_end_of_step(int remaining) {
+// Pushes the last frame onto the stack, pooled with the one before it if both are the last two of a full
+// step. A pooled step that ends earlier pushes what the step before it showed. remaining: frames of the step
+// that remain, the one that has just run included.
+void Slot::observe_end_of_step(int remaining) {
   if (progress_.finished && settings_.reset_order == ResetOrder::kFireNoops)
-    return look_as_reference(remaining);
+    return observe_as_reference(remaining);
   if (pools() && remaining > 2) return stack_->push();
-  show(progress_.blends);
+  push_screen(progress_.blends);
 }
 
-// The reference looks at the last frame but one and at the last, and stops looking when the episode is over;
-// what it saw before then stays in their place.
-void Slot::look_as_reference(int remaining) {
-  if (remaining == 1 && pools()) stack_->look_at_previous(environment_);
+// The reference reads the last frame but one of a step, and the last, until the episode is over. Frames that
+// it does not read are replaced by those that it read last.
+void Slot::observe_as_reference(int remaining) {
+  if (remaining == 1 && pools()) stack_->pool_with_previous(environment_);
   stack_->push();
 }
 
-void Slot::show(bool pooled) {
+void Slot::push_screen(bool pooled) {
   stack_->look(environment_, pooled);
   stack_->push();
 }
@@ -206,7 +206,7 @@ void Slot::set_stack(const std::optional<StackSettings>& settings) {
   if (settings && settings->depth > 0) stack.emplace(*settings, environment_);
   stack_ = std::move(stack);
   set_drawing(drawing_);
-  if (stack_) show(progress_.blends);
+  if (stack_) push_screen(progress_.blends);
 }
 
 Slot::Saved Slot::save(bool with_random, bool with_noops) const {
@@ -233,7 +233,7 @@ void Slot::put_back(const Saved& saved) {
   if (environment_.terminal()) progress_.finished = progress_.terminated = true;
   if (settings_.steps == Steps::kActs) progress_.game_continues &= settings_.life_loss == LifeLoss::kEnd;
   if (saved.noops) noops_.set_generator(*saved.noops);
-  look_at_ends();
+  check_ends();
   if (!stack_) return;
   stack_->look(environment_, progress_.blends);
   if (stack_->settings() == saved.stack_settings) return stack_->set_bytes(saved.stack);

@@ -113,8 +113,8 @@ class Slot {
   // and what the pace throws; the slot is then unchanged.
   void reset(std::optional<std::uint32_t> seed = std::nullopt);
 
-  // With Steps::kFrames: the episode is over, and the next one is a new game. Its reset has this seed, if it
-  // is given none, and so have later ones until a reset was made.
+  // Ends the episode; the next one is a new game. The next reset without a seed of its own uses `seed`.
+  // Requires Steps::kFrames.
   void end_episode(std::optional<std::uint32_t> seed);
 
   bool finished() const;                             // the episode is over: act() does nothing
@@ -132,8 +132,8 @@ class Slot {
   // Which screens the caller will read beside the stack. Affects only the speed.
   void set_drawing(Drawing drawing);
 
-  // Keeps a stack of screens from now on, beginning with the current one; without settings, keeps none.
-  // Throws InvalidInput for a size that is impossible.
+  // Begins a stack of screens with the current one, or removes the stack if there are no settings. Throws
+  // InvalidInput for a size that the screens cannot have.
   void set_stack(const std::optional<StackSettings>& settings);
   const ScreenStack* stack() const { return stack_ ? &*stack_ : nullptr; }
   // Whether the current screen is seen as the brighter of two frames.
@@ -164,20 +164,21 @@ class Slot {
   };
   // with_noops: with the generator of no-ops, so that later episodes are the same, too.
   Saved save(bool with_random, bool with_noops = false) const;
-  // A stack of other screens than this slot keeps begins anew. Throws InvalidInput.
+  // Restores a saved state. If its stack does not have the settings of this slot's, the slot begins a new
+  // stack. Throws InvalidInput for a state of another image or game.
   void restore(const Saved& saved);
   // Throws InvalidInput if restore() would have to begin the stack anew.
   void check_stack(const Saved& saved) const;
 
  private:
   void run_act(const Act& act);
-  void look_at_lives();
+  void check_lives();
   void run_frames(const Act& act);
   void add_outcome(Environment::RawRewards rewards, int frames);
-  void look_at_ends();
-  void look_at_end_of_step(int left);
-  void look_as_reference(int left);
-  void show(bool pooled);
+  void check_ends();
+  void observe_end_of_step(int left);
+  void observe_as_reference(int left);
+  void push_screen(bool pooled);
   bool pools() const { return settings_.max_pool && settings_.machine.frame_skip > 1; }
 
   void put_back(const Saved& saved);
@@ -187,10 +188,10 @@ class Slot {
   Environment reload(std::uint32_t seed);  // returns the one that it replaces
   void begin_episode();
   void begin_life();
-  int first_frame() const;
+  int game_start() const;
   void begin_progress();
   void begin_stack(bool continues, bool stepped);
-  void draw_nothing();
+  void skip_drawing();
   void run_noops(int frames);
   void run_noops_and_fire(bool fire);  // EnvPool's order
   void press_fire();

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kFire = 1;  // the action's number
 
-// While it exists, an episode begins.
+// Counts begin_episode() and begin_life() while they run.
 class Beginning {
  public:
   explicit Beginning(int& depth) : depth_(depth) { ++depth_; }
@@ -23,8 +23,8 @@ class Beginning {
 
 }  // namespace
 
-// With Steps::kActs the environment has begun an episode already. That suffices unless a mode, which takes
-// effect at the next reset, or no-ops are asked for.
+// With Steps::kActs, the environment has begun an episode already. That suffices unless the settings have a
+// mode, which takes effect at the next reset, a difficulty, or no-ops.
 void Slot::set_up() {
   if (settings_.mode) environment_.set_mode(*settings_.mode);
   if (settings_.difficulty) environment_.set_difficulty(*settings_.difficulty);
@@ -69,7 +69,7 @@ Environment Slot::reload(std::uint32_t seed) {
 void Slot::begin_episode() {
   const std::int64_t frames_before = pace_ != nullptr ? pace_->frames() : 0;
   const Beginning beginning(begins_);
-  draw_nothing();
+  skip_drawing();
   environment_.reset_game();
   const bool fire = has_fire();
   bool stepped = false;
@@ -93,11 +93,11 @@ void Slot::begin_episode() {
 // The game continues with the next life. The no-ops are those of the model: none in ALE, a new draw in
 // EnvPool, one step in Stable-Baselines3.
 void Slot::begin_life() {
-  const int game = first_frame();
+  const int game = game_start();
   const Progress before = progress_;
   const Beginning beginning(begins_);
   const bool fire = has_fire();
-  draw_nothing();
+  skip_drawing();
   switch (settings_.reset_order) {
     case ResetOrder::kFireNoops:
       if (fire) press_fire();
@@ -109,7 +109,7 @@ void Slot::begin_life() {
       break;
   }
   if (environment_.game_over()) return begin_episode();
-  const bool continues = first_frame() == game;
+  const bool continues = game_start() == game;
   environment_.begin_audio();
   begin_progress();
   if (continues) {
@@ -119,8 +119,8 @@ void Slot::begin_life() {
   begin_stack(continues, settings_.reset_order == ResetOrder::kBaselines);
 }
 
-// The frame at which the current game began. It tells two games of a slot apart.
-int Slot::first_frame() const {
+// Returns the number of the frame at which the current game began, which differs between two games.
+int Slot::game_start() const {
   return frames_between(environment_.episode_frame_number(), environment_.frame_number());
 }
 
@@ -128,7 +128,7 @@ void Slot::begin_progress() {
   progress_ = {};
   progress_.lives = environment_.lives();
   outcome_.lives_lost = 0;
-  look_at_ends();
+  check_ends();
 }
 
 // stepped: a whole step came last, so that the screen may be seen as the brighter of two frames.
@@ -137,13 +137,13 @@ void Slot::begin_stack(bool continues, bool stepped) {
   if (!stack_) return;
   const bool keeps = settings_.stack_start == StackStart::kRepeats && continues;
   if (!keeps) stack_->clear();
-  show(progress_.blends);
+  push_screen(progress_.blends);
   if (settings_.stack_start == StackStart::kRepeats && !keeps) stack_->repeat();
 }
 
-// The frames before an episode are not drawn; the last one is drawn if it is read. With Steps::kActs the
-// client's choice stays.
-void Slot::draw_nothing() {
+// Lets the frames before an episode run without pixels. The last one is drawn if it is read. With
+// Steps::kActs, the client's choice of Drawing stays in force.
+void Slot::skip_drawing() {
   if (settings_.steps == Steps::kFrames) environment_.set_drawing(Drawing::kNone);
 }
 
@@ -160,8 +160,8 @@ void Slot::run_noops_and_fire(bool fire) {
 
 void Slot::press_fire() { environment_.act_for(1, kFire); }
 
-// A step of each of the first two actions after NOOP, provided that the first of them is FIRE. Returns
-// whether it is.
+// Plays a step of each of the first two actions after NOOP, as Stable-Baselines3 does, if the first one is
+// FIRE. Returns whether it is.
 bool Slot::press_as_baselines() {
   if (actions_.size() < 3 || actions_[1] != kFire) return false;
   for (const int action : {actions_[1], actions_[2]}) {

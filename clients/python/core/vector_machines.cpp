@@ -9,10 +9,10 @@ SharedBatch::~SharedBatch() {
   if (is_forked()) static_cast<void>(batch_.release());
 }
 
-Batch& SharedBatch::batch(Watch watch) {
+Batch& SharedBatch::batch(InterruptCheck interrupt_check) {
   if (is_forked())
     throw std::runtime_error("these environments were made before the process forked; make new ones");
-  batch_->set_watch(watch);
+  batch_->set_interrupt_check(interrupt_check);
   return *batch_;
 }
 

@@ -28,8 +28,8 @@ class SharedBatch {
   const Cartridge& cartridge(std::size_t machine) const { return cartridges_[machine]; }
 
   // The caller holds lock(). Throws std::runtime_error in a child of the process that made the machines.
-  // `watch`: for the requests that follow (Batch::set_watch()).
-  Batch& batch(Watch watch);
+  // `interrupt_check`: for the requests that follow (Batch::set_interrupt_check()).
+  Batch& batch(InterruptCheck interrupt_check);
 
  private:
   bool is_forked() const { return made_in_ != process_generation(); }

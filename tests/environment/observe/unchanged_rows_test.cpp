@@ -67,7 +67,7 @@ void play(const std::shared_ptr<const Image>& image, const std::shared_ptr<const
     for (Pair& pair : pairs) {
       if (what == 0) both(pair, [](auto& stack) { stack.clear(); });
       if (what == 1) both(pair, [](auto& stack) { stack.repeat(); });
-      if (what == 2) both(pair, [&](auto& stack) { stack.look_at_previous(one); });
+      if (what == 2) both(pair, [&](auto& stack) { stack.pool_with_previous(one); });
       if (what == 3) {
         Bytes bytes = pair.whole.bytes();
         std::ranges::generate(bytes, [&] { return static_cast<std::uint8_t>(random()); });

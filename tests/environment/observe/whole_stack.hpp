@@ -33,9 +33,9 @@ class WholeStack {
   void look(const Environment& environment, bool pooled) {
     for (Bytes& plane : planes_) std::ranges::fill(plane, std::uint8_t{0});
     brighten(environment.screen());
-    if (pooled) look_at_previous(environment);
+    if (pooled) pool_with_previous(environment);
   }
-  void look_at_previous(const Environment& environment) { brighten(environment.previous_screen()); }
+  void pool_with_previous(const Environment& environment) { brighten(environment.previous_screen()); }
 
   void push() {
     Bytes screen(size());

@@ -207,9 +207,9 @@ TEST_CASE("A long step ends when its caller wants it, and each machine has made 
   BatchResults results = batch.make_results();
   batch.show(results.arrays());
   const int begin = results.frames[0];
-  batch.set_watch(interrupt);
+  batch.set_interrupt_check(interrupt);
   CHECK_THROWS_WITH(batch.step(std::vector<int>(8), results.arrays()), "interrupted");
-  batch.set_watch(nullptr);
+  batch.set_interrupt_check(nullptr);
   batch.show(results.arrays());
   const auto are_at = [&](int frame) { return std::ranges::count(results.frames, frame); };
   CHECK(are_at(begin) > 0);
@@ -225,9 +225,9 @@ TEST_CASE("A receive that its caller ends has received nothing, and the machines
   Batch batch(copies(2), settings);
   BatchResults results = batch.make_results();
   batch.send(std::vector{0, 0}, std::vector{0, 1});
-  batch.set_watch(interrupt);
+  batch.set_interrupt_check(interrupt);
   CHECK_THROWS_WITH(batch.receive(results.arrays()), "interrupted");
-  batch.set_watch(nullptr);
+  batch.set_interrupt_check(nullptr);
   CHECK_THROWS_WITH(batch.show(results.arrays()), "2 machines play; receive them first");
   batch.receive(results.arrays());
   CHECK(results.episode_frames[0] >= 200'000);
