@@ -60,7 +60,7 @@ bool is_long_plan(std::string_view text) {
 // What `racebeam verify` prints of the folder.
 std::string verdict_on(const ResultsFolder& folder, CpuKind cpu) {
   std::string text;
-  const Finding finding = [&](const std::string& line) { text += line + "\n"; };
+  const FindingCallback finding = [&](const std::string& line) { text += line + "\n"; };
   try {
     const bool is_plan = !is_submission(folder);
     const Verdict verdict = is_plan ? verify(folder, own_images(), 1, cpu, finding)

@@ -12,29 +12,29 @@ class Agent {
  public:
   virtual ~Agent() = default;
 
-  // The screens that the agent reads. It changes only the speed.
+  // Which screens the agent reads. The answer affects speed only.
   virtual Drawing drawing() const { return Drawing::kNone; }
 
   // Returns the first action of an episode, from 0 to 17.
   virtual int begin(const Environment& environment) = 0;
 
-  // `reward` is of the action before. Returns the next action.
+  // Returns the next action. reward: that of the action before.
   virtual int next(double reward, const Environment& environment) = 0;
 
-  // The episode is over; `reward` is of its last action.
+  // Called when the episode is over. reward: that of its last action.
   virtual void end(double reward) = 0;
 
-  // An agent begins with learning. Evaluation switches it off.
+  // Switches learning on, as it is at first, or off for evaluation.
   virtual void set_learning(bool) {}
 
   // Whether the values that the agent learns are no longer finite.
   virtual bool diverged() const { return false; }
 
-  // Frames that the agent has tried on its own machine, in searches.
+  // Frames that the agent's searches have run on its own machine.
   virtual std::int64_t searched_frames() const { return 0; }
 
-  // What an agent carries from one episode to the next. An agent that was made with the same context, and has
-  // read this state, goes on as the one that wrote it.
+  // Write and read what an agent keeps from one episode to the next. An agent with the same context that
+  // reads this state continues like the agent that wrote it.
   virtual void write(StateWriter& out) const = 0;
   virtual void read(StateReader& in) = 0;
 };

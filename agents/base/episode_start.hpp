@@ -1,4 +1,4 @@
-// How an episode begins: as the line protocol's `load` begins one.
+// Begins an episode as the line protocol's `load` does.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How large rewards are, in learning and in search (docs/paper-notes.md, "Learning").
+// Scales rewards for learning and for search (docs/paper-notes.md, "Learning").
 #pragma once
 
 #include <cmath>

@@ -170,7 +170,7 @@ void put_together(const ResultsFolder& folder, const std::vector<Unit>& units) {
 class Run {
  public:
   Run(const Plan& plan, const Images& images, const ResultsFolder& folder, const ExperimentSettings& settings,
-      const Report& report)
+      const ProgressCallback& report)
       : plan_(plan), images_(images), folder_(folder), settings_(settings), report_(report) {}
 
   void all() {
@@ -320,7 +320,7 @@ class Run {
   const Images& images_;
   const ResultsFolder& folder_;
   const ExperimentSettings& settings_;
-  const Report& report_;
+  const ProgressCallback& report_;
   const Clock::time_point start_ = Clock::now();
   std::vector<Own> mine_;
   std::atomic<std::size_t> next_ = 0;
@@ -334,7 +334,7 @@ class Run {
 }  // namespace
 
 void run_experiment(const Plan& plan, const Images& images, const ResultsFolder& folder,
-                    const ExperimentSettings& settings, const Report& report) {
+                    const ExperimentSettings& settings, const ProgressCallback& report) {
   Run(plan, images, folder, settings, report).all();
 }
 

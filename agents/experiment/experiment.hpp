@@ -33,13 +33,13 @@ struct Progress {
   // Both follow from the time that the work so far took. Measured speeds say how much work a unit is.
   std::chrono::duration<double> elapsed{}, left{};
 };
-using Report = std::function<void(const Progress& progress)>;  // from one thread at a time
+using ProgressCallback = std::function<void(const Progress& progress)>;  // called by one thread at a time
 
-// `plan` is bound. Finished units are not run again, and unfinished ones go on. Throws InvalidInput for a
-// folder of another plan, or with backgrounds or classes of another, before anything is written; and
-// std::runtime_error when units are still being run by another process, or when a file cannot be written.
-// What is finished stays, and is in the tables, whatever ends the run.
+// Runs the units of a plan that bind() has completed. It skips units that are finished, and continues those
+// that have begun. Whatever ends the run, finished units stay, and are in the tables. Throws InvalidInput,
+// before it writes anything, for a folder that has another plan, or backgrounds or classes of one. Throws
+// std::runtime_error if another process is still running units, or a file cannot be written.
 void run_experiment(const Plan& plan, const Images& images, const ResultsFolder& folder,
-                    const ExperimentSettings& settings, const Report& report);
+                    const ExperimentSettings& settings, const ProgressCallback& report);
 
 }  // namespace racebeam

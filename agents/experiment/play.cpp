@@ -70,7 +70,7 @@ Episode play(Agent& agent, Stage& stage, const PlayOptions& options) {
     episode.actions.push_back(static_cast<std::uint8_t>(action));
     const int lives = machine.lives();
     const double reward = player.act(action);
-    if (options.watch) options.watch(player.decisions(), player.frames());
+    if (options.on_decision) options.on_decision(player.decisions(), player.frames());
     const bool over = player.over() || player.frames() >= options.most_frames;
     const bool ends = over || (options.lives_end && machine.lives() < lives);
     if (ends) agent.end(reward);

@@ -1,4 +1,4 @@
-// Plays episodes: an agent's, and those of logs again.
+// Plays episodes of an agent, and repeats those of logs.
 #pragma once
 
 #include <cstdint>
@@ -41,22 +41,22 @@ struct Episode {
   EpisodeEnd end;
   std::vector<std::uint64_t> hashes;
   std::vector<std::uint8_t> actions;
-  bool diverged = false;  // the agent, which ended the episode early
+  bool diverged = false;  // the agent's values diverged, which ended the episode early
 };
 
-// After each decision, with the decisions and frames of the episode so far.
-using Watch = std::function<void(std::int64_t decisions, std::int64_t frames)>;
+// Called after each decision, with the decisions and frames of the episode so far.
+using DecisionCallback = std::function<void(std::int64_t decisions, std::int64_t frames)>;
 
 struct PlayOptions {
   std::int64_t most_frames = std::numeric_limits<std::int64_t>::max();
-  bool lives_end = false;  // a lost life ends an episode for the agent, and the game goes on
-  Watch watch = {};        // may be empty
+  bool lives_end = false;             // a lost life ends an episode for the agent, and the game goes on
+  DecisionCallback on_decision = {};  // may be empty
 };
 
-// From where stage.begin() left it until the end.
+// Plays the episode that stage.begin() has begun, until its end or until options.most_frames.
 Episode play(Agent& agent, Stage& stage, const PlayOptions& options = {});
 
-// What a log's actions lead to.
+// The result of playing the actions of a log.
 struct Replay {
   EpisodeEnd end;
   std::vector<std::uint64_t> hashes;
@@ -82,7 +82,7 @@ class Replayer {
   std::deque<std::unique_ptr<Stage>> kept_;  // the oldest first
 };
 
-// The settings of a log. Throws InvalidInput.
+// Returns the settings of a log. Throws InvalidInput if they are invalid.
 PlaySettings settings_of(const EpisodeLog& log);
 
 }  // namespace racebeam

@@ -101,7 +101,7 @@ class Probe {
     const auto end = Clock::now() + most * kMostWaiting;
     SettlingRate rate(time.count(), most.count());
     std::int64_t frames = 0;
-    const PlayOptions options{.watch = [&](std::int64_t, std::int64_t frames_now) {
+    const PlayOptions options{.on_decision = [&](std::int64_t, std::int64_t frames_now) {
       frames = frames_now;
       const bool waits = trains_ && sums_.lengths.ends == 0;  // for the end of an episode
       if (rate.add((time_of_thread() - start).count(), waits) || Clock::now() >= end) throw Enough();

@@ -105,7 +105,7 @@ constexpr Table kResults{"results.csv", kResultColumns}, kCurves{"curves.csv", k
 class Rerun {
  public:
   Rerun(const ResultsFolder& folder, const Images& images, const RerunSettings& settings,
-        const Finding& finding)
+        const FindingCallback& finding)
       : folder_(folder), images_(images), settings_(settings), finding_(finding) {
     if (!fs::exists(folder.plan()))
       throw InvalidInput(folder.root() +
@@ -183,7 +183,7 @@ class Rerun {
   const ResultsFolder& folder_;
   const Images& images_;
   const RerunSettings& settings_;
-  const Finding& finding_;
+  const FindingCallback& finding_;
   const TemporaryResults scratch_;
   Plan plan_;
   std::vector<Unit> chosen_;
@@ -196,7 +196,7 @@ class Rerun {
 }  // namespace
 
 RerunVerdict rerun(const ResultsFolder& folder, const Images& images, const RerunSettings& settings,
-                   const Finding& finding) {
+                   const FindingCallback& finding) {
   return Rerun(folder, images, settings, finding).all();
 }
 

@@ -29,6 +29,6 @@ struct RerunVerdict {
 // thread at a time. Throws InvalidInput for a folder without a plan, a plan of another version, and games
 // without an image.
 RerunVerdict rerun(const ResultsFolder& folder, const Images& images, const RerunSettings& settings,
-                   const Finding& finding);
+                   const FindingCallback& finding);
 
 }  // namespace racebeam

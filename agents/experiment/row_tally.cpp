@@ -44,13 +44,13 @@ void RowTally::leave(const std::string& line) {
 }
 
 void RowTally::find_surplus(const std::string& logs,
-                            const std::function<bool(const std::string& path, bool is_folder)>& is_wanted) {
+                            const std::function<bool(const std::string& path, bool is_folder)>& is_expected) {
   namespace fs = std::filesystem;
   std::set<std::string> surplus;
   std::error_code none;
   for (const auto& entry : fs::recursive_directory_iterator(logs, none)) {
     const std::string path = entry.path().generic_string();  // with /, as the names of rows
-    if (!is_wanted(path, entry.is_directory(none))) surplus.insert(path);
+    if (!is_expected(path, entry.is_directory(none))) surplus.insert(path);
   }
   for (const std::string& path : surplus) wrong(path + ": no row of results.csv has this log");
 }

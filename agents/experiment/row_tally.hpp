@@ -1,5 +1,5 @@
-// What the two ways to verify results have in common: rows are judged on several threads, some thousands at a
-// time, and their verdicts are told and counted in the order of the table.
+// The common part of the two ways to verify results. Rows are judged on several threads, some thousands at a
+// time; their verdicts are reported and counted in the order of the table.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ class RowTally {
  public:
   using Judge = std::function<RowVerdict()>;
 
-  RowTally(unsigned threads, const Finding& finding) : pool_(threads), finding_(finding) {}
+  RowTally(unsigned threads, const FindingCallback& finding) : pool_(threads), finding_(finding) {}
 
   unsigned threads() const { return pool_.threads(); }
 
@@ -27,13 +27,13 @@ class RowTally {
   void take(std::string name, Judge judge);
   // A row that need not be judged: `line` says what is wrong with it.
   void take_wrong(std::string line);
-  // Counts something that is not a row. Those that were taken before are told first.
+  // Counts and reports something wrong that is not a row, after the rows that were taken before.
   void wrong(const std::string& line);
-  // Counts a row that cannot be judged. An empty line is not told.
+  // Counts a row that cannot be judged. Reports `line` unless it is empty.
   void leave(const std::string& line);
-  // Each file below `logs` that is not wanted is wrong.
+  // Counts each file below `logs` as wrong for which is_expected() returns false.
   void find_surplus(const std::string& logs,
-                    const std::function<bool(const std::string& path, bool is_folder)>& is_wanted);
+                    const std::function<bool(const std::string& path, bool is_folder)>& is_expected);
 
   Verdict verdict();
 
@@ -48,7 +48,7 @@ class RowTally {
   void count(const Taken& one);
 
   ThreadPool pool_;
-  const Finding& finding_;
+  const FindingCallback& finding_;
   std::vector<Taken> taken_;
   Verdict verdict_;
 };

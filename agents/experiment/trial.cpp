@@ -48,8 +48,8 @@ Trial::Trial(const Plan& plan, const Unit& unit, const ResultsFolder& folder, co
 }
 
 bool Trial::run(std::chrono::milliseconds every, const std::function<bool()>& stop,
-                const std::function<void()>& watch) {
-  watch_ = watch;
+                const std::function<void()>& on_decision) {
+  on_decision_ = on_decision;
   for (auto last = Clock::now(); !is_over();) {
     if (stop()) return false;
     run_episode();
@@ -92,11 +92,11 @@ void Trial::run_episode() {
 }
 
 Episode Trial::play_episode(Stage& stage, PlayOptions options) {
-  if (watch_)
-    options.watch = [this](std::int64_t decisions, std::int64_t frames) {
+  if (on_decision_)
+    options.on_decision = [this](std::int64_t decisions, std::int64_t frames) {
       decisions_ = decisions;
       episode_frames_ = frames;
-      watch_();
+      on_decision_();
     };
   Episode episode = play(*agent_, stage, options);
   decisions_ = episode_frames_ = 0;

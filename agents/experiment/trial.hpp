@@ -26,9 +26,10 @@ class Trial {
 
   // Runs until the unit is finished and its files are written, or until stop(), which is asked before each
   // episode, returns true. Returns whether the unit is finished. A checkpoint is written at the end of an
-  // episode when `every` has passed since the last one. watch(), unless empty, is called after each decision.
+  // episode when `every` has passed since the last one. on_decision(), unless empty, is called after each
+  // decision.
   bool run(std::chrono::milliseconds every, const std::function<bool()>& stop,
-           const std::function<void()>& watch = {});
+           const std::function<void()>& on_decision = {});
 
   // For people: how far the trial is, and the mean of the evaluation so far.
   struct Place {
@@ -73,7 +74,7 @@ class Trial {
   Stage stage_;
   std::optional<Stage> training_stage_;  // of a trial that trains
   Account account_;
-  std::function<void()> watch_;
+  std::function<void()> on_decision_;
   std::int64_t decisions_ = 0, episode_frames_ = 0;  // of the episode that is played
   bool diverged_ = false;
   std::string rows_, curves_;  // lines of the tables

@@ -96,7 +96,7 @@ class RowJudge {
 class Verification {
  public:
   Verification(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
-               const Finding& finding)
+               const FindingCallback& finding)
       : folder_(folder),
         plan_(plan_of_results(folder, images)),
         units_(units_of(plan_)),
@@ -180,7 +180,7 @@ Plan plan_of_results(const ResultsFolder& folder, const Images& images) {
 }
 
 Verdict verify(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
-               const Finding& finding) {
+               const FindingCallback& finding) {
   refuse_link(folder.logs());
   return Verification(folder, images, threads, cpu, finding).all();
 }

@@ -74,7 +74,7 @@ class SubmissionJudge {
 class SubmissionVerification {
  public:
   SubmissionVerification(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
-                         const Finding& finding)
+                         const FindingCallback& finding)
       : folder_(folder),
         about_(read_agent_file(folder.root() + "/agent.toml")),
         tally_(threads, finding),
@@ -132,7 +132,7 @@ bool is_submission(const ResultsFolder& folder) {
 }
 
 Verdict verify_submission(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
-                          const Finding& finding) {
+                          const FindingCallback& finding) {
   refuse_link(folder.logs());
   return SubmissionVerification(folder, images, threads, cpu, finding).all();
 }

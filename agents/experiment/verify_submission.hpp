@@ -12,6 +12,6 @@ bool is_submission(const ResultsFolder& folder);
 // have the same settings, but for the seed. Throws InvalidInput if results.csv cannot be read, or the folder
 // of logs is a link.
 Verdict verify_submission(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
-                          const Finding& finding);
+                          const FindingCallback& finding);
 
 }  // namespace racebeam

@@ -35,9 +35,11 @@ void put_in_order(Shape& runs) {
 
 }  // namespace
 
-Velocity way(const Box& from, const Box& to) { return {to.x() - from.x(), to.y() - from.y()}; }
+Velocity displacement(const Box& from, const Box& to) { return {to.x() - from.x(), to.y() - from.y()}; }
 
-bool within(const Velocity& way, int reach) { return std::abs(way.x) <= reach && std::abs(way.y) <= reach; }
+bool is_within(const Velocity& distance, int reach) {
+  return std::abs(distance.x) <= reach && std::abs(distance.y) <= reach;
+}
 
 void ObjectList::clear() {
   objects_.clear();
@@ -62,8 +64,8 @@ const ScreenObject* ObjectList::nearest(const ScreenObject& object, ShapeView sh
   const ScreenObject* best = nullptr;
   std::tuple<bool, int> least;  // whether the shapes differ, and the square of the distance
   for (const ScreenObject& other : objects_) {
-    const Velocity velocity = way(other.box, object.box);
-    if (!within(velocity, reach) || !of_similar_area(object, other)) continue;
+    const Velocity velocity = displacement(other.box, object.box);
+    if (!is_within(velocity, reach) || !of_similar_area(object, other)) continue;
     const std::tuple found(other.key != object.key, velocity.x * velocity.x + velocity.y * velocity.y);
     if (best && found >= least) continue;
     if (other.key != object.key &&
@@ -89,7 +91,7 @@ void MovingObjects::see(Screen screen) {
     const ShapeView shape = regions_.shape(region);
     ScreenObject& object = now_.regions.add(region.box, region.area, shape);
     if (const ScreenObject* const earlier = before_.regions.nearest(object, shape, reach_))
-      object.velocity = way(earlier->box, object.box);
+      object.velocity = displacement(earlier->box, object.box);
   }
   join_neighbours();
 }

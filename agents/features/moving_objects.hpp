@@ -19,10 +19,10 @@ struct Velocity {
 };
 
 // The way from the centre of one box to that of another.
-Velocity way(const Box& from, const Box& to);
+Velocity displacement(const Box& from, const Box& to);
 
 // Whether an object can go so far: `reach` pixels in x and in y.
-bool within(const Velocity& way, int reach);
+bool is_within(const Velocity& distance, int reach);
 
 struct ScreenObject {
   Box box;

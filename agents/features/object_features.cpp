@@ -59,9 +59,9 @@ Velocity InstanceFinder::velocity_by_class(std::uint32_t class_number, const Box
   Velocity velocity{0, 0};
   int least = std::numeric_limits<int>::max();
   for (const Instance& other : before_) {
-    const Velocity found = way(other.box, box);
+    const Velocity found = displacement(other.box, box);
     const int square = found.x * found.x + found.y * found.y;
-    if (other.class_number != class_number || !within(found, reach_) || square >= least) continue;
+    if (other.class_number != class_number || !is_within(found, reach_) || square >= least) continue;
     least = square;
     velocity = found;
   }
@@ -127,7 +127,7 @@ void ObjectFeatures::add_pair(const Instance& one, const Instance& other) {
   if (one.class_number == other.class_number) return;
   const auto& [from, to] =
       one.class_number < other.class_number ? std::tie(one, other) : std::tie(other, one);
-  const Velocity distance = way(from.box, to.box);
+  const Velocity distance = displacement(from.box, to.box);
   const Velocity velocity{to.velocity.x - from.velocity.x, to.velocity.y - from.velocity.y};
   const std::uint32_t first =
       first_pair_ + pair_index(from.class_number, to.class_number) * velocities_.tiles() * distances_.size();
