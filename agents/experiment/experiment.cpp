@@ -65,7 +65,7 @@ FileLock lock_plan(const ResultsFolder& folder) {
   return with_lock(folder, "plan", [](const std::string& path) { return FileLock(path); });
 }
 
-// Whether this process and its like have made the file in the folder `work`.
+// Whether a process of an experiment has made this file in the folder `work`.
 bool is_own(const fs::path& file) {
   const std::string name = file.filename().string();
   return name.ends_with(".lock") || name.ends_with(".checkpoint") || name.ends_with(".checkpoint.part");
@@ -84,7 +84,7 @@ fs::path foreign_file(const ResultsFolder& folder) {
   return {};
 }
 
-// The plan is looked for last: another process of this experiment writes it before the other files.
+// Checks for the plan last, since another process of this experiment writes it before the other files.
 void refuse_foreign_files(const ResultsFolder& folder) {
   const fs::path foreign = foreign_file(folder);
   if (foreign.empty() || fs::exists(folder.plan())) return;
@@ -146,9 +146,9 @@ std::string table_of_agents(const std::vector<Unit>& units) {
   return table;
 }
 
-// Puts the finished units together, in the plan's order. Under the lock, so that the process which finishes
-// last writes last.
-void put_together(const ResultsFolder& folder, const std::vector<Unit>& units) {
+// Merges the tables of the finished units, in the plan's order. Under the lock, so that the process which
+// finishes last writes last.
+void merge_tables(const ResultsFolder& folder, const std::vector<Unit>& units) {
   const FileLock lock = lock_plan(folder);
   std::string results = line_of(kResultColumns), curves = line_of(kCurveColumns),
               times = line_of(kTimeColumns);
@@ -187,13 +187,14 @@ class Run {
   }
 
  private:
-  // A unit of this process.
+  // A unit that this process may run.
   struct Own {
     const Unit* unit;
-    double seconds;               // that it is expected to take
-    double before = 0, done = 0;  // shares of it: what this process did not do, and what is done by now
-    bool is_running = false;      // in this process
-    bool is_over = false;
+    double seconds;           // how long it is expected to take
+    double before = 0;        // the share that was done before this process began it
+    double done = 0;          // the share that is done by now
+    bool is_running = false;  // in this process
+    bool is_over = false;     // finished, by any process
   };
 
   void run_on_all_threads() {
@@ -203,10 +204,10 @@ class Run {
     work();
   }
 
-  // Puts together what is finished, even if a unit failed.
+  // Merges the tables of finished units, even if a unit failed.
   void finish(const std::vector<Unit>& units) {
     try {
-      put_together(folder_, units);
+      merge_tables(folder_, units);
     } catch (...) {
       if (!failure_) throw;  // else the first failure says more
     }
@@ -234,26 +235,26 @@ class Run {
 
   void run(Own& own) {
     const Unit& unit = *own.unit;
-    if (is_finished(folder_, unit)) return leave(own);
+    if (is_finished(folder_, unit)) return note_finished(own);
     const auto lock = with_lock(folder_, unit.name, FileLock::attempt);
     if (!lock) return;
-    if (is_finished(folder_, unit)) return leave(own);
+    if (is_finished(folder_, unit)) return note_finished(own);
     const Cartridge& cartridge = *images_.find(unit.game->name);
     GameFacts facts(cartridge, sample_settings(plan_, *unit.game), folder_.facts());
     Trial trial(plan_, unit, folder_, cartridge, &facts, settings_.cpu);
     begin(own, trial);
     if (trial.run(
-            settings_.checkpoints, [this] { return stop_.load(); }, watch_of(own, trial)))
-      tell(own, trial);
+            settings_.checkpoints, [this] { return stop_.load(); }, on_decision(own, trial)))
+      report_end(own, trial);
   }
 
-  // Another process has finished it.
-  void leave(Own& own) {
+  // Called for a unit that another process has finished.
+  void note_finished(Own& own) {
     const std::lock_guard lock(mutex_);
     count_other(own);
   }
 
-  // Under the mutex.
+  // Requires the mutex.
   void count_other(Own& own) {
     if (own.is_over) return;
     ++finished_;
@@ -261,7 +262,7 @@ class Run {
     own.before = own.done = 1;
   }
 
-  // Counts the units that other processes have finished. Under the mutex.
+  // Counts the units that other processes have finished. Requires the mutex.
   void count_others() {
     last_count_ = Clock::now();
     for (Own& own : mine_)
@@ -274,7 +275,7 @@ class Run {
     own.before = own.done = trial.place().done;
   }
 
-  std::function<void()> watch_of(Own& own, const Trial& trial) {
+  std::function<void()> on_decision(Own& own, const Trial& trial) {
     if (settings_.reports.count() == 0) return settings_.check;
     return [this, &own, &trial, last = Clock::now()]() mutable {
       if (settings_.check) settings_.check();
@@ -291,7 +292,7 @@ class Run {
     };
   }
 
-  void tell(Own& own, const Trial& trial) {
+  void report_end(Own& own, const Trial& trial) {
     const std::lock_guard lock(mutex_);
     ++finished_;
     own.is_over = true;

@@ -1,4 +1,4 @@
-// Plays a log again, and says whether it gives what its row holds.
+// Plays a log again, and judges whether its row has the result.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ enum class Judgement { kConfirmed, kWrong, kUnchecked };
 struct RowVerdict {
   Judgement judgement = Judgement::kWrong;
   std::string reason;       // unless it is confirmed
-  std::int64_t frames = 0;  // that were played
+  std::int64_t frames = 0;  // how many were played
 };
 
 // "score is '5'; its log has '4'", for the first column that differs; empty if none does.

@@ -10,15 +10,16 @@
 
 namespace racebeam {
 
-// Judges the rows of results whose seeds must follow from a phrase.
+// Judges the rows of such results.
 class PhraseRows {
  public:
   explicit PhraseRows(std::string phrase) : phrase_(std::move(phrase)) {}
 
-  // What is wrong with the seed of a row, or with its place; empty: nothing.
+  // Returns a sentence if the seed of a row, or its place among the rows, is wrong; otherwise an empty text.
   std::string fault(const ResultRow& row);
 
-  // After all rows: an episode that lacks may have been left out for its score.
+  // Called after all rows. Visits a sentence about each missing episode, which may have been left out for its
+  // score.
   void each_gap(const std::function<void(const std::string& sentence)>& visit) const;
 
  private:

@@ -25,7 +25,7 @@ struct TrialLength {
   bool operator==(const TrialLength&) const = default;
 };
 
-// An agent of the plan. One of a kind that has an agent for each action stands for all of these.
+// An agent of the plan. If its kind has an agent for each action, it stands for all of them.
 struct PlanAgent {
   const AgentKind* kind;
   AgentValues values;
@@ -46,11 +46,11 @@ struct Plan {
   std::string phrase = {};  // seeds of evaluation follow from it; empty: from `seed`
   int background_screens = 18000, class_screens = 36000;
   PlaySettings play;
-  PlaySettings training;  // as `play`, but for what training has otherwise
+  PlaySettings training;  // `play` with the settings that differ in training
   std::vector<PlanGame> games;
   std::vector<PlanAgent> agents;
   std::string version;            // of the program; empty: not known yet
-  std::string environment_place;  // "FILE:LINE: environment: ", for errors; empty: the preset's
+  std::string environment_place;  // for errors: "FILE:LINE: environment: "; empty: the preset's settings
 };
 
 // A trial of one agent in one game: what is run, resumed and locked as a whole.
@@ -65,11 +65,11 @@ struct Unit {
 
 constexpr std::size_t kMostPlanBytes = std::size_t{1} << 20;  // of a plan's file
 
-// Its games are those of the catalogue, and those with rules among `images`. `file` is for errors. Throws
-// InvalidInput: "FILE:LINE: FIELD: sentence".
+// Parses a plan. It may name games of the catalogue, and games with a rule among `images`. file: the name for
+// errors. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 Plan parse_plan(std::string_view text, const std::string& file, const Images& images = {});
 
-// A shipped plan by its name, else a file.
+// Returns the shipped plan with this name; otherwise reads the file.
 Plan load_plan(const std::string& name_or_file, const Images& images = {});
 
 // Sets the MD5s of the images and the version. Throws InvalidInput, which names all games without an image,
@@ -80,17 +80,19 @@ std::vector<std::string> games_without_image(const Plan& plan, const Images& ima
 // The plan with every default written out. parse_plan() reads it back.
 std::string text_of(const Plan& plan);
 
-// The actions that there is an agent of this kind for: one of no meaning if the kind has only one agent.
+// Returns the actions for which there is an agent of this kind. If the kind has only one agent, it returns
+// one action, which has no meaning.
 std::vector<int> actions_of_agents(const PlanGame& game, const AgentKind& kind);
 std::vector<Unit> units_of(const Plan& plan);  // in the plan's order: games, agents, trials
 
 PlaySettings play_settings(const Plan& plan, const PlanAgent& agent);
-// With life_loss=end, agents are told that an episode ended, and the game goes on (lives_end).
+// Returns the settings of training episodes. With life_loss=end, a lost life ends an episode for the agent,
+// while the game continues (lives_end()).
 PlaySettings training_settings(const Plan& plan, const PlanAgent& agent);
 bool lives_end(const Plan& plan);  // whether a lost life ends an episode of training for the agent
 SampleSettings sample_settings(const Plan& plan, const PlanGame& game);
 
-// Seeds follow from the plan's seed and the unit's name, so that no unit depends on another.
+// Derive seeds from the plan's seed and the unit's name, so that no unit depends on another.
 std::uint32_t agent_seed(const Plan& plan, const Unit& unit);
 std::uint32_t environment_seed(const Plan& plan, const Unit& unit, bool training, int episode);  // never 0
 

@@ -1,4 +1,5 @@
-// The rows that results.csv must have, as the plan says: which of them are there, doubled or missing.
+// The rows that results.csv must have according to the plan. Finds which of them exist, occur twice, or are
+// missing.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,7 @@ class PlanRows {
  public:
   explicit PlanRows(const std::vector<Unit>& units);  // `units` must outlive this
 
-  // Every row is noted before the first is looked for: a trial of a learner that diverged has one row.
+  // Must be called with every row before the first find(), since a trial that diverged has only one row.
   void note(const ResultRow& row);
 
   // A row of the plan.

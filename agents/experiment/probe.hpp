@@ -8,9 +8,9 @@
 
 namespace racebeam {
 
-// Plays for about so long, not counting what agents need to begin. Learners play up to eight times as long,
-// since their speed changes as they learn. Games without an image, and those for which the time does not
-// suffice, get the mean of the others; a kind that was not measured is left out.
+// Measures for about `time`, without the time that agents need to begin. Learners play up to eight times as
+// long, since their speed changes as they learn. Games without an image, and games that get no time, have the
+// mean of the others. A kind that was not measured is left out.
 PlayRates measure_rates(const Plan& plan, const Images& images, std::chrono::duration<double> time);
 
 }  // namespace racebeam

@@ -1,5 +1,5 @@
-// Plays units of an experiment again, agent and all. Results are deterministic, so that equal ones prove that
-// the agent of the plan made them.
+// Runs units of an experiment again, with their agents. Results are deterministic, so that equal results
+// prove that the agent of the plan made them.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct RerunSettings {
   unsigned threads = 1;
   CpuKind cpu = CpuKind::kAuto;
   std::string version;  // of this program; the plan must have it, too
-  // Called after each decision, by all threads. An exception of it ends the run.
+  // Called after each decision, by all threads. An exception that it throws ends the run.
   std::function<void()> check = {};
 };
 
@@ -24,10 +24,10 @@ struct RerunVerdict {
   std::size_t same = 0, different = 0;  // units
 };
 
-// A unit's rows of results.csv and of curves.csv must be what the agent gives now. Backgrounds and classes
-// are discovered anew, but for those that the plan has from a CSV file. One line for each unit, from one
-// thread at a time. Throws InvalidInput for a folder without a plan, a plan of another version, and games
-// without an image.
+// Runs the chosen units, and compares their rows of results.csv and curves.csv. Backgrounds and classes are
+// discovered anew, except for those that the plan has from a CSV file. Calls finding() with a line for each
+// unit, from one thread at a time. Throws InvalidInput for a folder without a plan, a plan of another
+// version, and games without an image.
 RerunVerdict rerun(const ResultsFolder& folder, const Images& images, const RerunSettings& settings,
                    const FindingCallback& finding);
 

@@ -24,14 +24,15 @@ constexpr std::array<std::string_view, 6> kTimeColumns = {
 constexpr std::array<std::string_view, 2> kAgentColumns = {"agent", "role"};
 std::string_view name_of(Role role);  // "learner", "planner" or "baseline"
 
-// What follows of an episode's row only from the plan; the other columns are empty.
+// Return the row of an episode, and that of a trial that diverged, as far as the plan determines them. The
+// other columns are empty.
 ResultRow row_of_plan(const Plan& plan, const Unit& unit, int episode);
 ResultRow row_of_divergence(const Plan& plan, const Unit& unit);
 
 std::string curve_line(const Unit& unit, int episode, const EpisodeEnd& end);
 
-// Visits the rows of results.csv, each with the number of its line. Only one row is in memory, however
-// large the file is. Throws InvalidInput for columns that lack or differ, and rows that do not fit.
+// Calls visit() with each row of results.csv and the number of its line. Only one row is in memory at a time.
+// Throws InvalidInput if a column is missing or wrong, or a row does not have the columns.
 using RowVisitor = std::function<void(const ResultRow& row, std::size_t line)>;
 void each_result(const std::string& path, const RowVisitor& visit);
 
@@ -56,7 +57,7 @@ class ResultsFolder {
     return logs(unit) + '/' + episode + ".episode";
   }
   std::string facts() const { return root_ + "/games"; }  // backgrounds and classes
-  std::string work() const { return root_ + "/work"; }    // gone when all units are finished
+  std::string work() const { return root_ + "/work"; }    // removed when all units are finished
   std::string checkpoint(const std::string& unit) const { return work() + '/' + unit + ".checkpoint"; }
   std::string lock(const std::string& name) const { return work() + '/' + name + ".lock"; }
 

@@ -24,21 +24,21 @@ std::string name_of_row(const ResultRow& row, std::size_t line) {
   return "results.csv:" + std::to_string(line) + " (" + row[0] + ", episode " + field(row, "episode") + ")";
 }
 
-void RowTally::take(std::string name, Judge judge) {
-  taken_.push_back({std::move(name), std::move(judge), {}});
-  if (taken_.size() == kRowsAtATime) judge_taken();
+void RowTally::add_row(std::string name, Judge judge) {
+  pending_.push_back({std::move(name), std::move(judge), {}});
+  if (pending_.size() == kRowsAtATime) judge_pending();
 }
 
-void RowTally::take_wrong(std::string line) { take(std::move(line), nullptr); }
+void RowTally::add_wrong_row(std::string line) { add_row(std::move(line), nullptr); }
 
-void RowTally::wrong(const std::string& line) {
-  judge_taken();
+void RowTally::add_wrong(const std::string& line) {
+  judge_pending();
   ++verdict_.wrong;
   finding_(line);
 }
 
-void RowTally::leave(const std::string& line) {
-  judge_taken();
+void RowTally::add_unchecked(const std::string& line) {
+  judge_pending();
   ++verdict_.unchecked;
   if (!line.empty()) finding_(line);
 }
@@ -52,23 +52,23 @@ void RowTally::find_surplus(const std::string& logs,
     const std::string path = entry.path().generic_string();  // with /, as the names of rows
     if (!is_expected(path, entry.is_directory(none))) surplus.insert(path);
   }
-  for (const std::string& path : surplus) wrong(path + ": no row of results.csv has this log");
+  for (const std::string& path : surplus) add_wrong(path + ": no row of results.csv has this log");
 }
 
 Verdict RowTally::verdict() {
-  judge_taken();
+  judge_pending();
   return verdict_;
 }
 
-void RowTally::judge_taken() {
-  pool_.run(taken_.size(), [&](std::size_t i) {
-    if (Taken& one = taken_[i]; one.judge) one.found = verdict_of(one.judge);
+void RowTally::judge_pending() {
+  pool_.run(pending_.size(), [&](std::size_t i) {
+    if (PendingRow& one = pending_[i]; one.judge) one.found = verdict_of(one.judge);
   });
-  for (const Taken& one : taken_) count(one);
-  taken_.clear();
+  for (const PendingRow& one : pending_) count(one);
+  pending_.clear();
 }
 
-void RowTally::count(const Taken& one) {
+void RowTally::count(const PendingRow& one) {
   verdict_.frames += one.found.frames;
   if (one.judge && one.found.judgement == Judgement::kConfirmed) {
     ++verdict_.confirmed;

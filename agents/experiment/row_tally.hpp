@@ -24,13 +24,13 @@ class RowTally {
   unsigned threads() const { return pool_.threads(); }
 
   // `judge` runs later, on any thread. What it throws is the reason why the row is wrong.
-  void take(std::string name, Judge judge);
+  void add_row(std::string name, Judge judge);
   // A row that need not be judged: `line` says what is wrong with it.
-  void take_wrong(std::string line);
+  void add_wrong_row(std::string line);
   // Counts and reports something wrong that is not a row, after the rows that were taken before.
-  void wrong(const std::string& line);
+  void add_wrong(const std::string& line);
   // Counts a row that cannot be judged. Reports `line` unless it is empty.
-  void leave(const std::string& line);
+  void add_unchecked(const std::string& line);
   // Counts each file below `logs` as wrong for which is_expected() returns false.
   void find_surplus(const std::string& logs,
                     const std::function<bool(const std::string& path, bool is_folder)>& is_expected);
@@ -38,18 +38,18 @@ class RowTally {
   Verdict verdict();
 
  private:
-  struct Taken {
-    std::string name;  // without a judge: what is wrong
+  struct PendingRow {
+    std::string name;  // if `judge` is empty: what is wrong with the row
     Judge judge;
     RowVerdict found;
   };
 
-  void judge_taken();
-  void count(const Taken& one);
+  void judge_pending();
+  void count(const PendingRow& one);
 
   ThreadPool pool_;
   const FindingCallback& finding_;
-  std::vector<Taken> taken_;
+  std::vector<PendingRow> pending_;
   Verdict verdict_;
 };
 

@@ -1,4 +1,5 @@
-// One unit of an experiment: a trial of an agent in a game, which goes on from its checkpoint.
+// Runs one unit of an experiment: a trial of an agent in a game. It continues from its checkpoint, if there
+// is one.
 #pragma once
 
 #include <chrono>
@@ -42,7 +43,7 @@ class Trial {
   std::int64_t frames() const { return account_.frames; }
 
  private:
-  // What a checkpoint holds beside the agent and the tables.
+  // What a checkpoint contains besides the agent and the tables.
   struct Account {
     std::int32_t trained = 0, evaluated = 0;  // episodes
     std::int64_t training_frames = 0;

@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first setting of a log that is not the plan's.
+// Returns a sentence about the first setting of a log that differs from the plan; empty if none does.
 std::string first_difference_of_words(const std::string& ours, const std::string& theirs) {
   std::vector<std::string_view> own, expected;
   split(ours, own);
   split(theirs, expected);
-  const auto tell = [](std::string_view here, std::string_view there) {
+  const auto sentence = [](std::string_view here, std::string_view there) {
     const auto text = [](std::string_view word) { return word.empty() ? "nothing" : quote(word); };
     return "its log's settings have " + text(here) + "; the plan gives " + text(there);
   };
@@ -31,9 +31,9 @@ std::string first_difference_of_words(const std::string& ours, const std::string
     return found == words.end() ? std::string_view() : *found;
   };
   for (const std::string_view word : own)
-    if (const std::string_view there = same_key(expected, word); there != word) return tell(word, there);
+    if (const std::string_view there = same_key(expected, word); there != word) return sentence(word, there);
   for (const std::string_view word : expected)
-    if (same_key(own, word).empty()) return tell("", word);
+    if (same_key(own, word).empty()) return sentence("", word);
   return "";
 }
 
@@ -110,52 +110,54 @@ class Verification {
     each_result(folder_.results(), [&](const ResultRow& row, std::size_t line) { take(row, line); });
     find_missing();
     tally_.find_surplus(folder_.logs(), [&](const std::string& path, bool is_folder) {
-      return is_folder ? is_wanted_folder(path) : is_wanted_log(path);
+      return is_folder ? is_expected_folder(path) : is_expected_log(path);
     });
     return tally_.verdict();
   }
 
  private:
-  // While the experiment goes on, a unit without a row is one that is not finished.
+  // Reports the rows of the plan that the table lacks. While the experiment is running, a unit without a row
+  // is not finished.
   void find_missing() {
     const bool goes_on = fs::is_directory(folder_.work());
     plan_rows_.each_unmarked([&](const Unit& unit, int episode) {
       if (!goes_on || plan_rows_.has_marked(unit.name))
-        tally_.wrong("results.csv: the row of " + unit.name + ", episode " + std::to_string(episode) +
-                     " is missing");
+        tally_.add_wrong("results.csv: the row of " + unit.name + ", episode " + std::to_string(episode) +
+                         " is missing");
       else
-        tally_.leave(episode == 1 ? unit.name + ": is not finished" : "");
+        tally_.add_unchecked(episode == 1 ? unit.name + ": is not finished" : "");
     });
   }
 
-  // A row that is not in the plan, or stands twice, is not judged.
+  // Passes a row to be judged, unless it is not in the plan, or occurs for the second time.
   void take(const ResultRow& row, std::size_t line) {
     const std::string name = name_of_row(row, line);
     const auto place = plan_rows_.find(row[0], field(row, "episode"));
     if (!place) {
       const std::string log = folder_.log(row[0], field(row, "episode"));
       std::error_code none;
-      if (fs::exists(fs::symlink_status(log, none))) logs_of_strangers_.insert(log);
-      tally_.take_wrong(name + ": is not in the plan");
+      if (fs::exists(fs::symlink_status(log, none))) unplanned_logs_.insert(log);
+      tally_.add_wrong_row(name + ": is not in the plan");
     } else if (!plan_rows_.mark(*place)) {
-      tally_.take_wrong(name + ": stands twice");
+      tally_.add_wrong_row(name + ": stands twice");
     } else {
-      tally_.take(name, [this, row, place] { return judge_.judge(row, *place); });
+      tally_.add_row(name, [this, row, place] { return judge_.judge(row, *place); });
     }
   }
 
-  // Folders are, but for links to them. The logs of a unit may lie elsewhere.
-  bool is_wanted_folder(const fs::path& path) const {
+  // All folders are expected, but not links to folders. The exception is the link of a unit, whose logs may
+  // lie elsewhere.
+  bool is_expected_folder(const fs::path& path) const {
     return !is_link(path.string()) ||
            (path.parent_path() == folder_.logs() && plan_rows_.has(path.filename().string()));
   }
 
-  bool is_wanted_log(const fs::path& path) const {
+  bool is_expected_log(const fs::path& path) const {
     const std::string unit = path.parent_path().filename().string(), episode = path.stem().string();
     if (path == folder_.log(unit, episode))
       if (const auto place = plan_rows_.find(unit, episode); place && plan_rows_.is_marked(*place))
         return true;
-    return logs_of_strangers_.contains(path.string());
+    return unplanned_logs_.contains(path.string());
   }
 
   const ResultsFolder& folder_;
@@ -164,7 +166,7 @@ class Verification {
   PlanRows plan_rows_;
   RowTally tally_;
   RowJudge judge_;
-  std::set<std::string> logs_of_strangers_;  // of rows that are not in the plan
+  std::set<std::string> unplanned_logs_;  // of rows that are not in the plan
 };
 
 }  // namespace

@@ -85,9 +85,9 @@ class SubmissionVerification {
   Verdict all() {
     each_result(folder_.results(), [&](const ResultRow& row, std::size_t line) { take(row, line); });
     if (!judge_.preset().empty() && judge_.preset() != about_.preset)
-      tally_.wrong("agent.toml: preset is '" + about_.preset + "'; the settings of the logs are those of '" +
-                   std::string(judge_.preset()) + "'");
-    if (phrase_) phrase_->each_gap([&](const std::string& sentence) { tally_.wrong(sentence); });
+      tally_.add_wrong("agent.toml: preset is '" + about_.preset +
+                       "'; the settings of the logs are those of '" + std::string(judge_.preset()) + "'");
+    if (phrase_) phrase_->each_gap([&](const std::string& sentence) { tally_.add_wrong(sentence); });
     tally_.find_surplus(folder_.logs(), [&](const std::string& path, bool is_folder) {
       return is_folder || logs_.contains(path);
     });
@@ -98,9 +98,9 @@ class SubmissionVerification {
   void take(const ResultRow& row, std::size_t line) {
     const std::string name = name_of_row(row, line);
     if (const std::string fault = fault_of(row); !fault.empty())
-      return tally_.take_wrong(name + ": not confirmed: " + fault);
+      return tally_.add_wrong_row(name + ": not confirmed: " + fault);
     if (!judge_.has_settings()) judge_.take_settings(row);
-    tally_.take(name, [this, row] { return judge_.judge(row); });
+    tally_.add_row(name, [this, row] { return judge_.judge(row); });
   }
 
   // What is wrong with a row without a look at its log; empty: nothing.

@@ -10,8 +10,8 @@
 
 namespace racebeam {
 
-// Indices of features, in ascending order, each once. `counts` has as many numbers, or none if all are 1: how
-// often a feature is there, or of how many features an index is that share a weight.
+// Indices of active features, in ascending order, each once. `counts` has a number for each index: how often
+// the feature occurs, or how many features share the weight of the index. It is empty if all numbers are 1.
 struct ActiveFeatures {
   std::vector<std::uint32_t> indices;
   std::vector<float> counts;
@@ -27,7 +27,7 @@ class FeatureSet {
  public:
   virtual ~FeatureSet() = default;
 
-  virtual std::size_t size() const = 0;  // indices are below it
+  virtual std::size_t size() const = 0;  // the number of features; indices are less
   virtual bool reads_screen() const { return true; }
 
   // Replaces `active` by the features of what the machine shows. Called once for each decision.
@@ -36,12 +36,12 @@ class FeatureSet {
   virtual void begin_episode() {}
 };
 
-// The index of a pair, i < j, among all pairs: each of n (n - 1) / 2 is hit once.
+// Returns the index of a pair, i < j, among all pairs. Each of the n (n - 1) / 2 pairs has its own.
 constexpr std::uint32_t pair_index(std::uint32_t i, std::uint32_t j) { return j * (j - 1) / 2 + i; }
 
 constexpr std::size_t pairs_of(std::size_t count) { return count * (count - 1) / 2; }
 
-// Appends all pairs of the features that are there, numbered from `first`. The features must ascend.
+// Appends all pairs of the active features, numbered from `first`. The features must ascend.
 inline void append_pairs(ActiveFeatures& active, std::uint32_t first) {
   const std::size_t count = active.indices.size();
   active.indices.resize(count + pairs_of(count));

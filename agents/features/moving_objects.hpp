@@ -18,19 +18,19 @@ struct Velocity {
   bool operator==(const Velocity&) const = default;
 };
 
-// The way from the centre of one box to that of another.
+// Returns the displacement from the centre of one box to that of another.
 Velocity displacement(const Box& from, const Box& to);
 
-// Whether an object can go so far: `reach` pixels in x and in y.
+// Whether the distance is at most `reach` pixels in x and in y.
 bool is_within(const Velocity& distance, int reach);
 
 struct ScreenObject {
   Box box;
   int area;
   ShapeKey key;
-  std::optional<Velocity> velocity;  // none: it was not on the screen before
+  std::optional<Velocity> velocity;  // nothing: the object was not on the screen before
   std::uint32_t first_run, run_count;
-  std::uint32_t first_part, part_count;  // the regions that it is joined of; none: it is one itself
+  std::uint32_t first_part, part_count;  // the regions that were joined; none: it is a region itself
 };
 
 // Objects with the runs of their shapes.
@@ -46,8 +46,9 @@ class ObjectList {
     return ShapeView(runs_).subspan(object.first_run, object.run_count);
   }
 
-  // The nearest object that `object`, of this shape, can have been: within reach, of the same shape, or else
-  // of an area within a factor of 1.2 with at most 10 % of pixels different. Null if no object is.
+  // Returns the nearest object of this list that `object`, of this shape, can have been on the screen before:
+  // within reach, and of the same shape. Otherwise one whose area is within a factor of 1.2, and of whose
+  // pixels at most 10 % differ. Null if there is no such object.
   const ScreenObject* nearest(const ScreenObject& object, ShapeView shape, int reach) const;
 
  private:

@@ -26,7 +26,7 @@ struct Box {
 using Shape = std::vector<PixelRun>;
 using ShapeView = std::span<const PixelRun>;
 
-// Equal for equal shapes. Of a million shapes, any two are told apart with a probability of 1 - 10^-7.
+// A hash of a shape. Of a million different shapes, no two have the same key with a probability of 1 - 10^-7.
 using ShapeKey = std::uint64_t;
 ShapeKey key_of(ShapeView shape);
 
@@ -37,7 +37,7 @@ Box box_of(ShapeView shape);
 constexpr int kMirrors = 4;
 Shape mirrored(ShapeView shape, int mirror);
 
-// The number of pixels that only one of two shapes has, centre on centre.
+// Returns the number of pixels that only one of two shapes has when their centres coincide.
 int difference(ShapeView a, ShapeView b);
 
 }  // namespace racebeam

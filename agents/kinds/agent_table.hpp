@@ -1,4 +1,4 @@
-// The agents that a plan can name: one table. A new agent is a class and a row of it.
+// The table of agents that a plan can name. A new agent is a class, and a row of this table.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@ class AgentValues {
 
 class GameFacts;
 
-// What an agent is made of.
+// The arguments from which an agent is made.
 struct AgentContext {
   const AgentValues& values;
   int action = 0;  // of an agent that has one for each action
@@ -62,10 +62,10 @@ struct AgentContext {
   std::vector<int> actions() const { return actions_of(play.action_set, *cartridge.game); }
 };
 
-// What an experiment does with an agent if the plan says nothing else.
+// The role of an agent, which determines its trials unless the plan does.
 enum class Role { kBaseline, kLearner, kPlanner };
 
-// Time of a decision, and memory: in multiples of what they are with the default settings.
+// The time of a decision and the memory, in multiples of those with the default settings.
 struct Effort {
   double time = 1, memory = 1;
 };
@@ -77,7 +77,8 @@ struct AgentKind {
   bool each_action = false;       // there is one of this kind for each of the 18 actions
   std::optional<int> frame_skip;  // frames of a decision; none: the plan's
   std::span<const AgentSetting> settings;
-  // With the default settings. Of processor time, measured: the mean of the five training games.
+  // Decisions in a second of processor time, with the default settings: measured, the mean of the five
+  // training games.
   double decisions_per_second;
   double megabytes;  // the most memory that a trial takes, a checkpoint being written included; measured
   // Estimates the effort with other settings. Null if they change it little.
@@ -88,7 +89,7 @@ struct AgentKind {
 std::span<const AgentKind> agent_kinds();
 const AgentKind* find_agent_kind(std::string_view name);  // null if the name is unknown
 
-// const_fire, or only the kind's name.
+// Returns the name of an agent, such as "const_fire"; only the kind's name if the kind has one agent.
 std::string agent_name(const AgentKind& kind, int action);
 
 }  // namespace racebeam

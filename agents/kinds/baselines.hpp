@@ -1,4 +1,4 @@
-// The agents that learn nothing, which the others are compared with: Random, Const and Perturb
+// The agents that do not learn, with which others are compared: Random, Const and Perturb
 // (docs/paper-notes.md, "Baselines").
 #pragma once
 
@@ -7,7 +7,8 @@
 
 namespace racebeam {
 
-// Chooses its own action with a probability, else one of `actions`. Random has probability 0, Const 1.
+// Chooses `action` with this probability, otherwise one of `actions` at random. Random has probability 0,
+// Const 1.
 class FixedPolicy final : public Agent {
  public:
   FixedPolicy(int action, double probability, std::uint64_t seed,

@@ -1,5 +1,5 @@
-// Sums of the weights of 18 actions, two at a time: they stay in registers, as a loop over actions would not
-// keep them.
+// Sums of the weights of 18 actions, two actions in a vector. The sums stay in registers, unlike those of a
+// loop over actions.
 #pragma once
 
 #include <array>

@@ -3,10 +3,11 @@
 // A decision changes few bits. The sum of a state's weights is the one of the state before, less the pairs of
 // bits that became 0, and with those of bits that became 1.
 //
-// Moves are deferred. A bit that has not changed for a while is settled, any other is unsettled. All pairs of
-// two settled bits move alike, so that one number an action tells how far. So do all pairs of a settled bit
-// with the same unsettled one. Only pairs of two unsettled bits are moved one by one. What was deferred
-// enters the table where a bit settles, where a settled one changes, and at the end of an episode.
+// Updates of weights, called moves, are deferred. A bit that has not changed for a while is settled, any
+// other is unsettled. All pairs of two settled bits move alike, so that one number for each action suffices.
+// So do all pairs of a settled bit with the same unsettled one. Only pairs of two unsettled bits are moved
+// one by one. Deferred moves enter the table when a bit settles, when a settled bit changes, and at the end
+// of an episode.
 #pragma once
 
 #include <array>

@@ -28,8 +28,8 @@ class Sarsa {
   // The reward of the last action. The value of what follows is 0.
   void end(double reward);
 
-  // groups: how many groups of features there are now. Each that was split off has the weights and the traces
-  // of the one that it was a part of. Must precede the first use of a new group.
+  // Adds the groups of features that were split off. groups: how many there are now. A new group gets the
+  // weights and the traces of the group that it was a part of. Must precede the first use of a new group.
   void refine(std::size_t groups, std::span<const FeatureSplit> splits);
 
   void set_learning(bool learning) { control_.set_learning(learning); }
@@ -65,7 +65,7 @@ class Sarsa {
   bool grows_;                 // refine() adds features
   HugeTable<float> weights_;   // of all actions of feature 0, then of feature 1, ...
   std::vector<Trace> traces_;  // by ascending place; without other traces, at most one a feature
-  std::vector<Trace> merged_;  // room for the next
+  std::vector<Trace> merged_;  // memory for the next traces_
   ActionValues values_{};      // of the state that was last seen
   ActiveFeatures features_;    // of the state in which action_ was taken
   int action_ = 0;

@@ -1,5 +1,5 @@
-// What SARSA(lambda) does whatever its values are made of: it scales rewards, chooses actions, and sizes
-// steps.
+// The part of SARSA(lambda) that does not depend on how values are represented: it scales rewards, chooses
+// actions, and computes step sizes.
 #pragma once
 
 #include <array>
@@ -39,8 +39,8 @@ class SarsaControl {
   // Explores with the probability of the settings. Chooses each of the best actions with equal probability.
   int choose(const ActionValues& values);
   double scaled(double reward) { return scaled_(reward); }
-  // How far a weight moves along a trace of 1. gain: how far a step of 1 moves the value of the state.
-  // Returns nothing if the step is not finite.
+  // Returns how far a weight with a trace of 1 moves; nothing if that is not finite. error: of the value.
+  // gain: how far a step of 1 moves the value of the state.
   std::optional<float> step(double error, double gain);
 
   void set_learning(bool learning) { learning_ = learning; }

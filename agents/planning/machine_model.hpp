@@ -1,5 +1,5 @@
-// A machine as a planner's model. It is a machine of the planner's own: the generator of the game that is
-// played is never seen, and with sticky actions the model draws its own chances.
+// A machine as a planner's model. The planner has this machine for itself: it never sees the random numbers
+// of the game that is played. With sticky actions, the model draws its own.
 #pragma once
 
 #include "agents/base/state_bytes.hpp"
@@ -24,14 +24,14 @@ class MachineModel final : public Model {
   double act(int action) override;
   bool over() const override { return machine_.game_over(); }
   State save() const override { return state_of(machine_); }
-  // Without sticky actions, what the players hold decides nothing: each action sets it anew. States that
-  // differ only in it are equal, as the paper's duplicates are.
+  // Without sticky actions, the held actions decide nothing, since each action replaces them. States that
+  // differ only in them are equal, as the paper's duplicates are.
   std::uint64_t hash(const State& state) const override;
   bool equal(const State& a, const State& b) const override;
   std::span<const std::uint8_t> features() const override { return machine_.ram(); }
   std::int64_t frames() const override { return frames_; }
 
-  // What goes on from search to search, for checkpoints: with sticky actions, the generator.
+  // Write and read what persists between searches, for checkpoints: the generator of sticky actions.
   void write(StateWriter& out) const;
   void read(StateReader& in);
 

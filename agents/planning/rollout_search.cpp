@@ -17,7 +17,7 @@ int RolloutSearch::choose(const Model::State& root) {
   if (!root_) root_ = make_node();
   root_->state = root;
   depths_.assign(root_->features.size() * kByteValues, std::numeric_limits<int>::max());
-  is_new(*root_, 0);
+  is_novel(*root_, 0);
   root_->solved = root_->over;
   while (!root_->solved && model_.frames() < end_) roll_out();
   frames_ = model_.frames() - before;
@@ -34,7 +34,7 @@ void RolloutSearch::keep(int action, const Model::State& state) {
   root_ = std::move(next);
 }
 
-// Makes the node of the model's place.
+// Makes a node of the model's state.
 std::unique_ptr<RolloutSearch::Node> RolloutSearch::make_node() const {
   auto node = std::make_unique<Node>();
   node->over = model_.over();
@@ -44,8 +44,8 @@ std::unique_ptr<RolloutSearch::Node> RolloutSearch::make_node() const {
   return node;
 }
 
-// Goes down from the root, by actions below which something may be new, to a node that is not new, or until
-// the frames end.
+// Descends from the root by actions that are not solved, until a node is not novel, or the frames are used
+// up.
 void RolloutSearch::roll_out() {
   Node* node = root_.get();
   for (int depth = 1;; ++depth) {
@@ -54,9 +54,9 @@ void RolloutSearch::roll_out() {
     Node* child = node->children[action].get();
     if (!child) {
       if (model_.frames() >= end_) return back_up(node);
-      child = grow(*node, action);
+      child = expand(*node, action);
     }
-    if (!is_new(*child, depth)) {
+    if (!is_novel(*child, depth)) {
       solve(child);
       return back_up(node);
     }
@@ -64,7 +64,7 @@ void RolloutSearch::roll_out() {
   }
 }
 
-RolloutSearch::Node* RolloutSearch::grow(Node& node, std::size_t action) {
+RolloutSearch::Node* RolloutSearch::expand(Node& node, std::size_t action) {
   model_.enter(node.state);
   const double reward = scaled_(model_.act(static_cast<int>(action)));
   node.children[action] = make_node();
@@ -74,7 +74,8 @@ RolloutSearch::Node* RolloutSearch::grow(Node& node, std::size_t action) {
   return child;
 }
 
-// What an earlier search solved is open until this one comes to it.
+// Draws an action below which something may be novel. Nodes that an earlier search solved are open again
+// until this search comes to them.
 std::size_t RolloutSearch::open_action(const Node& node) {
   std::vector<std::size_t> open;
   for (std::size_t action = 0; action < static_cast<std::size_t>(model_.actions()); ++action) {
@@ -84,9 +85,10 @@ std::size_t RolloutSearch::open_action(const Node& node) {
   return open[random_.below(open.size())];
 }
 
-// Whether a value was never seen nearer to the root, nor, if this search comes here first, as near. What is
-// over leads to nothing new.
-bool RolloutSearch::is_new(Node& node, int depth) {
+// Whether the node is novel: one of its features has a value that was not seen nearer to the root. If this
+// search comes to the node for the first time, the value must not have been seen at this depth either. A node
+// at the end of an episode is not novel.
+bool RolloutSearch::is_novel(Node& node, int depth) {
   const bool first = std::exchange(node.search, search_) != search_;
   if (first) node.solved = false;
   if (node.over) return false;

@@ -69,7 +69,7 @@ void TreeSearch::begin(const Model::State& root) {
   if (std::exchange(kept_, false)) return;
   nodes_.clear();
   nodes_.push_back({.state = root});
-  is_new();
+  is_novel();
 }
 
 TreeSearch::Number TreeSearch::next_open() {
@@ -91,7 +91,8 @@ void TreeSearch::visit(Number number) {
   }
 }
 
-// The order is drawn anew at each node: where frames end in the middle of a level, no action is preferred.
+// Draws the order of the actions anew at each node, so that no action is preferred if the frames are used up
+// within a level.
 void TreeSearch::expand(Number parent) {
   const Model::State state =
       settings_.reuse_tree ? nodes_[parent].state : std::exchange(nodes_[parent].state, nullptr);
@@ -109,7 +110,7 @@ void TreeSearch::add_child(Number parent, int action, Number first_sibling) {
   child.reward = scaled_(model_.act(action));
   child.frames = static_cast<std::int32_t>(model_.frames() - before);
   child.over = model_.over();
-  child.opened = !child.over && (!settings_.needs_novelty || is_new());
+  child.opened = !child.over && (!settings_.needs_novelty || is_novel());
   if (child.opened || (settings_.reuse_tree && !child.over)) child.state = model_.save();
   if (child.state && settings_.merge_duplicates) {
     child.hash = model_.hash(child.state);
@@ -130,14 +131,14 @@ TreeSearch::Number TreeSearch::twin_of(const Node& child, Number first_sibling) 
   return 0;
 }
 
-// A node that was not new in a search before can be so now.
+// Examines a reused node: one that was not novel in an earlier search can be novel in this one.
 void TreeSearch::look_again(Node& node) {
   if (node.opened || !node.state) return;
   model_.enter(node.state);
-  node.opened = is_new();
+  node.opened = is_novel();
 }
 
-bool TreeSearch::is_new() {
+bool TreeSearch::is_novel() {
   const auto features = model_.features();
   bool found = false;
   for (std::size_t i = 0; i < features.size(); ++i) {
@@ -149,7 +150,8 @@ bool TreeSearch::is_new() {
   return found;
 }
 
-// One way back is enough: the children of a twin come behind all of its siblings.
+// One pass from the last node to the first suffices, because the children of a twin follow all of its
+// siblings.
 void TreeSearch::back_up() {
   const double none = -std::numeric_limits<double>::infinity();
   for (Node& node : nodes_) node.best = node.first_child == 0 ? 0 : none;

@@ -1,5 +1,5 @@
-// The best action by a whole tree of what may happen, breadth first: the full tree of Bellemare et al. 2013,
-// section 3.2.1, and IW(1) of Lipovetzky et al. 2015, which drops places without a new byte of RAM.
+// Breadth-first tree search: the full tree of Bellemare et al. 2013, section 3.2.1, and IW(1) of Lipovetzky
+// et al. 2015, which prunes states without a novel byte of RAM.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ namespace racebeam {
 
 // Defaults: the paper, appendix C, where not said otherwise.
 struct TreeSettings {
-  std::int64_t frames = 133000;  // of a decision; no node is expanded after them
+  std::int64_t frames = 133000;  // that a decision may take; no node is expanded after them
   double discount = 0.999;
-  bool merge_duplicates = false;  // paper-notes: of siblings in the same state one is expanded
+  bool merge_duplicates = false;  // paper-notes: of siblings in the same state, one is expanded for all
   bool needs_novelty = false;     // IW(1)
   bool reuse_tree = false;        // paper-notes: the next tree begins with the chosen child's
   bool reward_aside = false;      // paper-notes: new nodes with a reward are opened when no others are left
@@ -28,12 +28,12 @@ class TreeSearch {
  public:
   TreeSearch(Model& model, const TreeSettings& settings, std::uint64_t seed);
 
-  // The action with the largest discounted sum of rewards. Begins with the tree that keep() left, if there is
-  // one.
+  // Searches from `root`, and returns the action with the largest discounted sum of rewards. Continues the
+  // tree that keep() has left, if there is one.
   int choose(const Model::State& root);
 
-  // After choose(): with `reuse_tree`, the subtree of `action` is the beginning of the next tree, if its
-  // root has the state to which the world went.
+  // Called after choose(), with the action that was taken and the state that it led to. With `reuse_tree`,
+  // keeps the subtree of the action for the next choose(), if it begins with that state.
   void keep(int action, const Model::State& state);
 
   void forget() { kept_ = false; }
@@ -42,15 +42,15 @@ class TreeSearch {
   double value(int action) const;                      // of the root's child; 0 without a child
   std::int64_t frames() const { return frames_; }      // of the last search
 
-  // What goes on from search to search, for checkpoints. read() throws InvalidInput for what write() cannot
-  // have written.
+  // Write and read what persists between searches, for checkpoints. read() throws InvalidInput for bytes that
+  // write() cannot have written.
   void write(StateWriter& out) const;
   void read(StateReader& in);
 
  private:
   using Number = std::uint32_t;
   struct Node {
-    Model::State state = nullptr;  // empty: it is never expanded
+    Model::State state = nullptr;  // null: the node is never expanded
     std::uint64_t hash = 0;
     Number parent = 0;
     Number first_child = 0;  // all children stand together; 0: it has not been expanded
@@ -58,9 +58,9 @@ class TreeSearch {
     int action = 0;
     std::int32_t frames = 0;  // of the action
     bool over = false;
-    bool opened = false;  // it was new when it was looked at, so that it is to be expanded
+    bool opened = false;  // it was novel when it was made or examined, so that it is to be expanded
     double reward = 0;
-    double best = 0;  // over the children: reward + discount * best
+    double best = 0;  // the largest value of a child: reward + discount * best
   };
 
   void begin(const Model::State& root);
@@ -70,7 +70,7 @@ class TreeSearch {
   void add_child(Number parent, int action, Number first_sibling);
   Number twin_of(const Node& child, Number first_sibling) const;
   void look_again(Node& node);
-  bool is_new();  // whether the model's place has a byte that was not seen in this search
+  bool is_novel();  // whether the model's state has a byte that this search has not seen
   double value(const Node& child) const { return child.reward + settings_.discount * child.best; }
   void back_up();
   int best_action();
@@ -81,11 +81,11 @@ class TreeSearch {
   const TreeSettings settings_;
   Random random_;
   RewardScaler scaled_;
-  std::vector<Node> nodes_;          // a parent before its children, and these behind its siblings
-  bool kept_ = false;                // they are the next tree's
-  std::deque<Number> open_, aside_;  // to be visited
-  std::vector<bool> seen_;           // per byte of the features and per value
-  std::vector<int> order_;           // of the actions at a node; each draw begins with the one before
+  std::vector<Node> nodes_;          // parents precede children; the children of a node follow its siblings
+  bool kept_ = false;                // keep() has left the nodes for the next tree
+  std::deque<Number> open_, aside_;  // nodes to visit; those to visit after all others (reward_aside)
+  std::vector<bool> seen_;           // the novelty table: the values of each feature that were seen
+  std::vector<int> order_;           // the order of the actions at a node, drawn from the one before
   std::int64_t frames_ = 0;
 };
 

@@ -38,7 +38,7 @@ void Uct::keep(int action, const Model::State& state) {
   root_ = std::move(next);
 }
 
-// Makes the node of the model's place.
+// Makes a node of the model's state.
 std::unique_ptr<Uct::Node> Uct::make_node() {
   auto node = std::make_unique<Node>();
   node->over = model_.over();
@@ -48,12 +48,12 @@ std::unique_ptr<Uct::Node> Uct::make_node() {
   return node;
 }
 
-// Goes down to a leaf, a node that nobody visited, and plays on from there.
+// Descends to a leaf, a node without visits, plays a rollout from there, and updates the nodes on the path.
 void Uct::simulate() {
   Node* node = root_.get();
   int depth = 0;
   while (node->visits > 0 && !node->over && depth < settings_.depth) {
-    Node* const grown = grow(*node);
+    Node* const grown = expand(*node);
     node = grown ? grown : &select(*node);
     ++depth;
   }
@@ -61,9 +61,9 @@ void Uct::simulate() {
   update(node, value, settings_.discount);
 }
 
-// A child by an action that was not tried; the model is then there. Null: all were tried, and those that led
-// to the state of a sibling are left out.
-Uct::Node* Uct::grow(Node& node) {
+// Expands the node by an action that was not tried. Returns the child, whose state the model then has.
+// Returns null if all actions were tried; actions that lead to the state of a sibling get no child.
+Uct::Node* Uct::expand(Node& node) {
   while (!node.untried.empty()) {
     std::swap(node.untried[random_.below(node.untried.size())], node.untried.back());
     const int action = node.untried.back();
@@ -89,7 +89,7 @@ Uct::Node* Uct::grow(Node& node) {
   return nullptr;
 }
 
-// UCB1. Of equal children the first stays; their order was drawn.
+// Selects the child with the largest UCB1; of equal ones the first, since their order was drawn.
 Uct::Node& Uct::select(Node& node) const {
   const double logarithm = std::log(static_cast<double>(node.visits));
   const auto bound = [&](const auto& child) {
@@ -106,7 +106,7 @@ double Uct::rollout(int steps) {
   return sum;
 }
 
-// `value` is of what follows the node.
+// Updates the node and those above it. value: the return of what follows the node.
 void Uct::update(Node* node, double value, double discount) {
   for (; node != nullptr; node = node->parent) {
     value = node->reward + discount * value;
@@ -115,7 +115,8 @@ void Uct::update(Node* node, double value, double discount) {
   }
 }
 
-// Compares the means where the numbers of visits are equal, and then the order, which was drawn.
+// Returns the child with the most visits; of equal ones that with the largest mean, and of these the first,
+// since their order was drawn.
 const Uct::Node& Uct::most_visited() {
   return **std::ranges::max_element(root_->children, [](const auto& a, const auto& b) {
     return a->visits != b->visits ? a->visits < b->visits : a->mean < b->mean;
