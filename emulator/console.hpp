@@ -37,7 +37,7 @@ class Console {
   // still drawn if that takes less time, unless `follow` forbids it.
   void step(bool draw = true, bool follow = false);
 
-  Inputs& inputs();  // what the controllers hold during the next steps
+  Inputs& inputs();  // positions of controllers and switches during the next steps
   Sound& sound();
   const Sound& sound() const;
   const State& state() const;  // the whole machine, one trivially copyable value
@@ -82,10 +82,11 @@ class Console {
   std::int64_t interpreted_cycles() const;
 
   std::span<const std::uint8_t, 128> ram() const;  // $80-$FF
-  // Over the bus, on which the byte stays (docs/spec/console.md, 4).
+  // Read and write a byte of RAM, 0 to 127, over the data bus, where the byte stays (docs/spec/console.md,
+  // 4).
   std::uint8_t read_ram(int index);
   void set_ram(int index, std::uint8_t value);
-  // Reads RAM and cartridge without side effects; 0 elsewhere.
+  // Returns a byte of RAM or of the cartridge without side effects; 0 for other addresses.
   std::uint8_t peek(std::uint16_t address) const;
 
  private:

@@ -57,10 +57,9 @@ struct Recognition {
   bool md5_matches = true;  // false: the game's rule was written for another image; the caller should warn
 };
 
-// Returns the game of an image: the explicit one if the caller names a game or a game file, otherwise that
-// with the image's MD5, otherwise that with the name of the image's file. If game_file is a folder,
-// recognise_among() searches it. Throws InvalidInput for an unknown name (with suggestions) or an invalid
-// file.
+// Returns the game of an image: the one that the caller names or whose file it gives. Otherwise the MD5
+// decides, and then the name of the image's file. If game_file is a folder, recognise_among() searches it.
+// Throws InvalidInput for an unknown name (with suggestions) or an invalid file.
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name = std::nullopt,
                       const std::optional<std::string>& game_file = std::nullopt);
 

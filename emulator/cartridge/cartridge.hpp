@@ -24,7 +24,7 @@ struct CartridgeSlot {
   const Rom& rom;
   const Scheme& scheme;
   State& machine;
-  std::span<std::uint8_t> ram;  // the scheme's RAM: in the state if it fits there, else beside it
+  std::span<std::uint8_t> ram;  // the scheme's RAM: in the state if it fits there, otherwise beside it
   MemoryMap& map;
   CartridgeState& state = machine.cartridge;
 };
@@ -36,8 +36,8 @@ enum class Delivery : bool { kTaken, kToTia };
 struct Access {
   std::uint16_t address;
   std::uint8_t value;   // read or written; for both, the one that was written
-  std::uint8_t before;  // the byte that the CPU read before
-  bool writes;
+  std::uint8_t before;  // the byte that the CPU read before this access
+  bool writes;          // whether the access is a write
 };
 
 using PortReader = std::uint8_t (*)(CartridgeSlot&, std::uint16_t address, std::int32_t cycle);
@@ -46,7 +46,7 @@ struct MapperOps {
   void (*reset)(CartridgeSlot&);  // sets the initial banks
   void (*map)(CartridgeSlot&);    // maps what the banks select
   PortReader read;                // reads a hidden page, or watches a read of the TIA or the RIOT
-  // Any cartridge address, or a watched address of the TIA or the RIOT.
+  // Handles a write to a cartridge address, or watches one to the TIA or the RIOT.
   Delivery (*write)(CartridgeSlot&, std::uint16_t address, std::uint8_t value);
 
   // Whether the cartridge can be in `state`, which comes from an untrusted source. It must check every value
@@ -115,7 +115,7 @@ std::string_view scheme_name(const Rom& rom);
 // (Scheme::first_hot_spot).
 bool accesses_no_hot_spot(const Rom& rom, const Scheme& scheme);
 
-// The names that can be requested, except for the games after the first of cartridges with many.
+// The names that can be requested, without those of the second and later games of cartridges with many.
 std::span<const std::string_view> scheme_names();
 
 // Names of schemes that are not implemented (docs/spec/cartridges.md, 11).

@@ -238,7 +238,7 @@ std::uint32_t Tia::line_origin() const {
 }
 
 // Whether the cursor's line can be taken as a whole: the next write is on this line or after it, and the beam
-// has not been drawn beyond the place where the line is taken up.
+// is not beyond the place where the line is taken up.
 bool Tia::at_line() const {
   if (beam_.exact_spans() || tia_.cursor < beam_.start() || !beam_.line_can_end()) return false;
   const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles - log_->base;
@@ -282,8 +282,8 @@ bool Tia::keeps_latches(const LineRecord& record, std::uint32_t origin, Collisio
 }
 
 // Recalls lines that start with the same relevant registers and have the same writes as when these rows were
-// last drawn. Returns true if it stops at a line of which only the first writes are known, if these are equal
-// so far and do not change `latches`.
+// last drawn. Stops at a line of which only the first writes are known. Returns true if these are equal so
+// far, and do not change `latches`.
 bool Tia::recall_lines(std::uint32_t& origin, Collisions latches) {
   RegisterVectors registers(tia_);
   std::int32_t cursor = tia_.cursor;

@@ -58,9 +58,9 @@ ByteSet moved_positions(int cycle, const std::array<std::uint8_t, 5>& motion) {
 }
 
 // Returns `seen` without an object that cannot be told from the background: the only object of the line, in
-// its colour. It meets nothing, so that its shape does not count. The colours do, so that the line is marked
-// as one with a playfield, which has the same colours, or with a playfield in the players' colours. tia: at
-// the end of the line.
+// its colour. It meets nothing, so that its shape does not count. The colours do. The line is therefore
+// marked as one with a playfield of these colours: COLUPF or, in score mode, the players'. tia: at the end of
+// the line.
 std::uint16_t without_hidden_object(unsigned seen, const TiaRegisters& tia) {
   static constexpr std::array<std::uint8_t, kObjects> kColor = {0, 1, 0, 1, 2, 2};
   const unsigned objects = seen & kAllObjects;
