@@ -12,7 +12,7 @@ int Environment::act(int a, int b, float strength_a, float strength_b) {
   return impl_->act(presses);
 }
 
-bool Environment::takes(const Act& act) const {
+bool Environment::accepts(const Act& act) const {
   return is_action(act.a) && is_action_of_b(act.b) && impl_->legal.has_a(act.a) && impl_->legal.has_b(act.b);
 }
 

@@ -45,10 +45,12 @@ class Environment {
   Environment(Environment&&) noexcept;
   Environment& operator=(Environment&&) noexcept;
 
-  // One agent step of `frame_skip` frames. a: 0-25, b: 18-35, or numbers of the controllers' own
-  // (docs/spec/environment.md, 1). Returns the clamped sum of rewards.
+  // Plays one act of the agent: Settings::frame_skip frames. a: 0-25, b: 18-35, or numbers of the
+  // controllers' own (docs/spec/environment.md, 1). Returns the sum of player A's rewards, clamped. Throws
+  // std::invalid_argument for an action that the machine does not have, and for a strength that is not a
+  // finite number.
   int act(int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
-  bool takes(const Act& act) const;  // whether this machine has the actions
+  bool accepts(const Act& act) const;  // whether this machine has both actions
   int act(const Act& act) { return this->act(act.a, act.b, act.strength_a, act.strength_b); }
   // The clamped rewards of both players for the last act; `a` is what act() returned. `b` is 0 if the game's
   // rule has no second player.
@@ -83,12 +85,12 @@ class Environment {
   void make_all_audio(bool all);
   void begin_audio();  // empties all_audio()
 
-  // Releases the caches of drawing: about 40 KiB, or 80 KiB if objects flicker. For a machine that will not
-  // act for a while.
+  // Releases the caches of drawing, about 40 KiB, or 80 KiB if objects flicker, of a machine that will not
+  // act for a while. The next frames allocate them again.
   void rest();
 
-  // Sets the function that is called after each frame of an act, but not of a reset; none if empty. For
-  // recordings.
+  // Sets the function that is called after each frame of an act, but not of a reset, for example to record
+  // it. An empty function stops the calls.
   void watch(std::function<void()> each_frame);
 
   // A mode takes effect at the next reset, a difficulty at the next frame. Both throw InvalidInput, which
@@ -98,7 +100,7 @@ class Environment {
   int mode() const;
   int difficulty() const;
 
-  bool game_over() const;  // terminal or truncated
+  bool game_over() const;  // terminal() or truncated()
   bool terminal() const;
   bool truncated() const;
   int lives() const;
@@ -107,7 +109,7 @@ class Environment {
 
   int height() const;                                     // rows of the screen
   std::span<const std::uint8_t> screen() const;           // height x 160 palette indices, row-major
-  std::span<const std::uint8_t> previous_screen() const;  // a frame ago; never averaged
+  std::span<const std::uint8_t> previous_screen() const;  // that of the frame before; never averaged
   // Which line each row of these screens shows (Console::picture_lines()). Empty if that is not known.
   std::span<const std::uint64_t> screen_lines() const;
   std::span<const std::uint64_t> previous_screen_lines() const;
@@ -116,7 +118,7 @@ class Environment {
   std::span<const std::uint8_t, kAudioSize> audio() const;  // of the last act; zeros without Settings::sound
   // 512 samples for each frame since begin_audio(), with make_all_audio(); empty after a reset or a restore.
   std::span<const std::uint8_t> all_audio() const;
-  const Sound& sound() const;                                // its two channels
+  const Sound& sound() const;                                // the TIA's two channels
   void set_ram(int index, std::uint8_t value);               // index 0-127, else std::out_of_range
   void tia_values(std::vector<std::uint8_t>& values) const;  // emulator/tia/registers/register_values.hpp
   void screen_rgb(std::vector<std::uint8_t>& rgb) const;     // height x 160 x 3

@@ -86,11 +86,11 @@ int Environment::step(Action a, Action b) { return step(Controls{.a = a, .b = b}
 int Environment::step(const Controls& controls) {
   const int a = static_cast<int>(controls.a), b = static_cast<int>(controls.b);
   racebeam::Environment& machine = impl_->machine;
-  require(machine.takes({.a = a}), [a] {
+  require(machine.accepts({.a = a}), [a] {
     return "player A has no action " + described(a) +
            "; it must be one of a joystick, of the console, or of A's controller";
   });
-  require(machine.takes({.b = kActions + b}), [b] {
+  require(machine.accepts({.b = kActions + b}), [b] {
     return "player B has no action " + described(b) + "; it must be one of a joystick, or of B's controller";
   });
   for (const float strength : {controls.strength_a, controls.strength_b}) {

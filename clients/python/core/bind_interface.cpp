@@ -156,8 +156,8 @@ int number_of(Enumeration action) {
 // Refuses numbers that are not actions. The environment would take some of them for NOOP, as the reference
 // does.
 void check_actions(const Environment& environment, int a, int b = kActions) {
-  if (!environment.takes({.a = a})) refuse(a, "0 to 25, and those of the left controller");
-  if (!environment.takes({.b = b})) refuse(b, "18 to 35, and those of the right controller");
+  if (!environment.accepts({.a = a})) refuse(a, "0 to 25, and those of the left controller");
+  if (!environment.accepts({.b = b})) refuse(b, "18 to 35, and those of the right controller");
 }
 
 void check_strength(float strength) {
