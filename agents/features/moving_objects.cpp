@@ -37,7 +37,7 @@ void put_in_order(Shape& runs) {
 
 Velocity displacement(const Box& from, const Box& to) { return {to.x() - from.x(), to.y() - from.y()}; }
 
-bool is_within(const Velocity& distance, int reach) {
+bool is_within_reach(const Velocity& distance, int reach) {
   return std::abs(distance.x) <= reach && std::abs(distance.y) <= reach;
 }
 
@@ -65,7 +65,7 @@ const ScreenObject* ObjectList::nearest(const ScreenObject& object, ShapeView sh
   std::tuple<bool, int> least;  // whether the shapes differ, and the square of the distance
   for (const ScreenObject& other : objects_) {
     const Velocity velocity = displacement(other.box, object.box);
-    if (!is_within(velocity, reach) || !of_similar_area(object, other)) continue;
+    if (!is_within_reach(velocity, reach) || !of_similar_area(object, other)) continue;
     const std::tuple found(other.key != object.key, velocity.x * velocity.x + velocity.y * velocity.y);
     if (best && found >= least) continue;
     if (other.key != object.key &&

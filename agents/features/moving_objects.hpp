@@ -22,7 +22,7 @@ struct Velocity {
 Velocity displacement(const Box& from, const Box& to);
 
 // Whether the distance is at most `reach` pixels in x and in y.
-bool is_within(const Velocity& distance, int reach);
+bool is_within_reach(const Velocity& distance, int reach);
 
 struct ScreenObject {
   Box box;

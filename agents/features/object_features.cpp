@@ -61,7 +61,7 @@ Velocity InstanceFinder::velocity_by_class(std::uint32_t class_number, const Box
   for (const Instance& other : before_) {
     const Velocity found = displacement(other.box, box);
     const int square = found.x * found.x + found.y * found.y;
-    if (other.class_number != class_number || !is_within(found, reach_) || square >= least) continue;
+    if (other.class_number != class_number || !is_within_reach(found, reach_) || square >= least) continue;
     least = square;
     velocity = found;
   }
