@@ -176,8 +176,8 @@ class Slot {
   void run_frames(const Act& act);
   void add_outcome(Environment::RawRewards rewards, int frames);
   void check_ends();
-  void observe_end_of_step(int left);
-  void observe_as_reference(int left);
+  void observe_end_of_step(int remaining);
+  void observe_as_reference(int remaining);
   void push_screen(bool pooled);
   bool pools() const { return settings_.max_pool && settings_.machine.frame_skip > 1; }
 
