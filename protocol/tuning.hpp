@@ -13,20 +13,22 @@ namespace racebeam::tuning {
 // Slices of a request (running/pacer.hpp). Reading the clock takes 25 ns, a frame from 2 us to some
 // milliseconds.
 
-// Frames between two looks.
+// Frames after which a session looks at the clock again.
 RACEBEAM_TUNED(int, kFramesBetweenLooks, 4, "frames", "replies");
-// If the frames between two looks take longer than this, the session looks after each.
+// If the frames between two looks at the clock take longer than this, the session looks after each frame.
 RACEBEAM_TUNED(std::chrono::microseconds, kLongBetweenLooks, 400, "us", "replies");
 
 // Replies to requests that were sent ahead are sent together (line/session.cpp).
 
-// Frames that the replies that wait may have taken: some hundred microseconds.
+// Replies are sent when they have taken this many frames: some hundred microseconds.
 RACEBEAM_TUNED(std::int64_t, kFramesOfReplies, 64, "frames", "replies");
-// Bytes of the replies that wait: about twenty screens.
+// Replies are sent when they have this many bytes: about twenty screens.
 RACEBEAM_TUNED(std::size_t, kBytesOfReplies, 65536, "bytes", "replies");
-// Replies also go out when this many requests are left. The client reads them meanwhile, and sends the next.
+// Replies are also sent when this many requests are left. The client reads them meanwhile, and sends the
+// next requests.
 RACEBEAM_TUNED(std::size_t, kLastRequests, 3, "requests", "replies");
-// Fewer replies are not worth waking the client twice.
+// With fewer replies than this, the session waits for the last ones: they are not worth waking the client
+// twice.
 RACEBEAM_TUNED(std::int64_t, kFewReplies, 4, "replies", "replies");
 
 }  // namespace racebeam::tuning

@@ -11,15 +11,15 @@ namespace racebeam::tuning {
 
 // Turns of sessions (scheduling/turns.hpp).
 
-// What a session that comes back after a pause is ahead of others.
+// The time by which a session that comes back after a pause is preferred to others.
 RACEBEAM_TUNED(std::chrono::microseconds, kCreditOfPause, 250, "us", "none");
 // The shortest slice, however many sessions wait.
 RACEBEAM_TUNED(std::chrono::microseconds, kShortestSlice, 250, "us", "none");
-// The longest, if none waits.
+// The longest slice, if no other session waits.
 RACEBEAM_TUNED(std::chrono::microseconds, kLongestSlice, 2000, "us", "none");
-// What a slice costs beside its work: to receive and to send.
+// What a slice costs in addition to its work: to receive and to send.
 RACEBEAM_TUNED(std::chrono::microseconds, kCostOfSlice, 20, "us", "none");
-// A round of slices, one for each session that waits.
+// The time of a round of slices, one for each session that waits.
 RACEBEAM_TUNED(std::chrono::microseconds, kRoundOfSlices, 16'000, "us", "none");
 
 // For how long a loop handles events between two turns (scheduling/loops.cpp).
@@ -27,9 +27,9 @@ RACEBEAM_TUNED(std::chrono::microseconds, kLongestEvents, 2000, "us", "none");
 
 // Idle sessions (connections/idle_monitor.cpp).
 
-// Time between two looks at all of them.
+// Time between two looks at the connections.
 RACEBEAM_TUNED(std::chrono::milliseconds, kBetweenIdleLooks, 250, "ms", "none");
-// The pause of a client after which its session releases its caches.
+// If a client sends no request for this time, its session releases its caches.
 RACEBEAM_TUNED(std::chrono::milliseconds, kIdlePause, 2000, "ms", "none");
 
 }  // namespace racebeam::tuning

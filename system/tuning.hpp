@@ -42,7 +42,7 @@ T tuned(const std::string& name, T usual) {
 
 namespace racebeam::tuning {
 
-// Busy polling (busy_poll.hpp): the most polls that are skipped after one in vain.
+// The most busy polls (busy_poll.hpp) that are skipped after polls in vain.
 RACEBEAM_TUNED(int, kMostSkippedPolls, 1024, "polls", "none");
 
 }  // namespace racebeam::tuning

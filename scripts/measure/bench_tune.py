@@ -48,6 +48,20 @@ POLICIES = {
     "interpreting after steps that were too long": {"kLongestBackoff": 0},
     "trials of steps": {"kFirstPause": NEVER},
 }
+INTRODUCTION = """\
+A policy makes choices that affect only speed, by numbers such as how much time a machine may spend
+on translation. This page shows what the policies gain, and what happens to the time if a number is
+half or double its value. `scripts/bench tune --write` writes the page, so do not edit it;
+`scripts/bench tune --help` says how the figures are measured.
+
+Figures are processor times, as parts of those with the usual numbers: 1.010 takes 1 % longer. For
+each setting, there is the geometric mean of the games, and the game with the highest figure. Tables
+are named by what was measured: `frames` are games in the middle of play, `start` are their first
+frames from power-on, and `replies` are those of a server to requests that were sent ahead.
+
+Other programs used the machine during the run. The row `the usual numbers` compares these with
+themselves, so differences that are not larger are noise.
+"""
 ROW = re.compile(
     r"((?: *// .*\n)+)RACEBEAM_TUNED\((?P<type>[\w:]+), (?P<name>k\w+), (?P<value>[\d']+), "
     r'"(?P<unit>[^"]+)", "(?P<measure>\w+)"\);'
@@ -198,22 +212,16 @@ def page(tables, policies, rows, options):
         ("games", ", ".join(options.games)),
         ("frames", f"{options.chunks * CHUNK:,} of a game in each setting; the first {options.first} for `start`"),
     ]
-    text = "# What the numbers of the policies are worth\n\n"
-    text += "Written by `scripts/bench tune --write`, not by hand. "
-    text += "`scripts/bench tune --help` says how they are\nmeasured.\n\n"
+    text = "# What the numbers of the policies are worth\n\n" + INTRODUCTION + "\n"
     text += table(["run", "value"], facts).replace("---:", "---")
-    text += (
-        "\nFigures are processor times as parts of those with the usual number: 1.010 takes 1 % longer. Others\n"
-        "used the machine meanwhile. A difference within that of the row `the usual numbers` is noise.\n"
-        "\n## A policy switched off\n\n"
-    )
+    text += "\n## A policy switched off\n\n"
     text += table(["policy", "frames: mean", "most", "start: mean", "most"], policies)
     for by, lines in tables.items():
         if not lines:
             continue
         text += f"\n## Half and double, by `{by}`\n\n"
         text += table(["number", "value", "unit", "half: mean", "most", "double: mean", "most"], lines)
-    text += "\n## The tuning tables\n"
+    text += "\n## The tuning tables\n\nThe meanings are the comments of the sources.\n"
     measured = {line[0] for lines in tables.values() for line in lines}
     missing = [f"`{row['name']}`" for row in rows if row["measure"] in MEASURES and f"`{row['name']}`" not in measured]
     if missing:
