@@ -5,7 +5,9 @@ import dataclasses
 import enum
 import hashlib
 import io
+import os
 import pathlib
+import stat
 
 import numpy as np
 import pandas as pd
@@ -63,18 +65,25 @@ def read(
 
 
 def content_of(path: pathlib.Path, most: int, kind: str) -> bytes:
-    """The bytes of the file at `path`. Raises BadInput for a file of more than `most` bytes before it is read."""
+    """The bytes of the file at `path`. Raises BadInput for a file of more than `most` bytes before it is read, and for
+    a pipe or a device, whose end may never come."""
     try:
-        size = path.stat().st_size
-        if size > most:
-            raise BadInput(f"{path} has {size} bytes; expected {kind} of at most {most}")
-        with path.open("rb") as file:
-            content = file.read(most + 1)  # a file that grows, or that has no size
+        found = path.stat()
+        if not stat.S_ISREG(found.st_mode) and not stat.S_ISDIR(found.st_mode):
+            raise BadInput(f"{path} is a pipe, a socket or a device; expected {kind}")
+        if found.st_size > most:
+            raise BadInput(f"{path} has {found.st_size} bytes; expected {kind} of at most {most}")
+        with open(path, "rb", opener=_open_without_waiting) as file:
+            content = file.read(most + 1) or b""  # a file that grows, or that has no size; None: a pipe took its place
     except OSError as error:
         raise BadInput(f"{path} cannot be read: {error.strerror}; expected {kind}") from error
     if len(content) > most:
         raise BadInput(f"{path} has more than {most} bytes; expected {kind} of at most {most}")
     return content
+
+
+def _open_without_waiting(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def digest(path: pathlib.Path) -> Source:

@@ -6,7 +6,7 @@ import sys
 
 from .board.site import build
 from .bootstrap import Bootstrap
-from .errors import BadInput
+from .errors import BadInput, printable
 from .load import read_all
 from .output.folder import check_free, write
 from .output.report import Report
@@ -43,12 +43,17 @@ def main(arguments: list[str] | None = None) -> int:
         report = _report(options)
         write(options.into, report.files())
     except BadInput as error:
-        print(f"racebeam-evaluate: {error}", file=sys.stderr)
+        _complain(str(error))
         return 1
     for sentence in report.untested:
-        print(f"racebeam-evaluate: {sentence}", file=sys.stderr)
+        _complain(sentence)
     print(f"{len(report.parts)} tables and figures: {options.into / 'report.md'}")
     return 3 if report.untested else 0
+
+
+def _complain(sentence: str) -> None:
+    """Prints a line on standard error. What would move a terminal's cursor is printed as an escape."""
+    print(f"racebeam-evaluate: {printable(sentence)}", file=sys.stderr)
 
 
 def _refuse_ignored(parser: argparse.ArgumentParser, options: argparse.Namespace) -> None:
@@ -65,7 +70,7 @@ def _write_board(options: argparse.Namespace) -> int:
     site = build(options.results, Bootstrap(options.seed, options.repetitions), options.viewer or "")
     write(options.into, site.files)
     for sentence in site.broken:
-        print(f"racebeam-evaluate: not shown: {sentence}", file=sys.stderr)
+        _complain(f"not shown: {sentence}")
     print(f"{site.submissions} submission{'s' * (site.submissions != 1)}: {options.into / 'index.html'}")
     return 3 if site.broken else 0
 

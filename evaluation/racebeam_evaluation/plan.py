@@ -1,10 +1,10 @@
 """Settings files in TOML: plan.toml, which `racebeam experiment` writes, and the settings of an agent in it."""
 
 import dataclasses
-import itertools
 import json
 import pathlib
 import sys
+from collections.abc import Iterator
 from typing import Any
 
 from .csv_file import content_of
@@ -17,6 +17,7 @@ else:
 
 _MOST_BYTES = 2**24
 _MOST_LEVELS = 50
+_LEAST, _MOST = -(2**63), 2**63 - 1  # TOML's whole numbers
 _UNKNOWN = "unknown"
 
 _NAMES = ("frame_skip", "sticky", "action_set", "max_episode_frames", "noop_max")
@@ -59,22 +60,26 @@ def read_toml(path: pathlib.Path, limit: int = _MOST_BYTES) -> dict[str, Any]:
     content = content_of(path, limit, "a TOML file")
     try:
         tables = tomllib.loads(content.decode())
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # ValueError: also of a number of more digits than Python reads
         raise BadInput(f"{path} is not TOML: {error}; expected a TOML file in UTF-8") from error
-    if (levels := _levels(tables)) > _MOST_LEVELS:
+    levels = 0
+    for values in _by_level(tables):
+        levels += 1
+        if any(type(value) is int and not _LEAST <= value <= _MOST for value in values):
+            raise BadInput(f"{path} has a whole number of more than 64 bits; expected {_LEAST} to {_MOST}")
+    if levels > _MOST_LEVELS:
         raise BadInput(f"{path} has tables within tables on {levels} levels; expected at most {_MOST_LEVELS}")
     return tables
 
 
-def _levels(tables: dict[str, Any]) -> int:
-    """How deep tables and arrays lie within each other. It does not recurse: dotted keys make thousands of levels."""
-    levels = 0
+def _by_level(tables: dict[str, Any]) -> Iterator[list[Any]]:
+    """The values of all tables and arrays that lie equally deep. It does not recurse: dotted keys make thousands of
+    levels."""
     layer: list[Any] = [tables]
     while layer:
-        levels += 1
-        inner = itertools.chain.from_iterable(each.values() if isinstance(each, dict) else each for each in layer)
-        layer = [value for value in inner if isinstance(value, dict | list)]
-    return levels
+        values = [value for each in layer for value in (each.values() if isinstance(each, dict) else each)]
+        yield values
+        layer = [value for value in values if isinstance(value, dict | list)]
 
 
 @dataclasses.dataclass(frozen=True)

@@ -71,7 +71,7 @@ def read_folder(folder: pathlib.Path) -> Results:
     """The results of one folder."""
     plan = plan_of(folder)
     episodes, source = _episodes(folder, plan)
-    curves, curve_source = _curves(folder) or (None, None)
+    curves, curve_source = _curves(folder, plan) or (None, None)
     sources = (curve_source,) if curve_source else ()
     return Results(episodes, curves, (source,), sources, roles=_roles(folder), plans=(plan,))
 
@@ -113,12 +113,13 @@ def _episodes(folder: pathlib.Path, plan: Plan) -> tuple[pd.DataFrame, Source]:
     return frame, source
 
 
-def _curves(folder: pathlib.Path) -> tuple[pd.DataFrame, Source] | None:
+def _curves(folder: pathlib.Path, plan: Plan) -> tuple[pd.DataFrame, Source] | None:
     """The training episodes; None if no agent was trained: the file then has no rows."""
     path = folder / "curves.csv"
     if not path.exists():
         return None
     frame, source = read(path, _CURVES, may_be_empty=True, optional=_MAY_HAVE)
+    check_games(path, frame["game"], plan.games)
     return (frame, source) if len(frame) else None
 
 

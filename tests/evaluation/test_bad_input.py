@@ -96,7 +96,9 @@ class TestBadInput:
         assert content_of(path, 100, "a file") == bytes(100)
         with pytest.raises(BadInput, match="file has 100 bytes; expected a file of at most 99"):
             content_of(path, 99, "a file")
-        with pytest.raises(BadInput, match="/dev/zero has more than 99 bytes; expected a file of at most 99"):
+        with pytest.raises(BadInput, match="/proc/self/status has more than 99 bytes; expected a file of at most 99"):
+            content_of(pathlib.Path("/proc/self/status"), 99, "a file")
+        with pytest.raises(BadInput, match="/dev/zero is a pipe, a socket or a device; expected a file"):
             content_of(pathlib.Path("/dev/zero"), 99, "a file")
 
     def test_a_line_of_another_length(self):

@@ -3,11 +3,14 @@
 import base64
 import hashlib
 import json
+import os
+import pathlib
 import re
 import resource
 import shutil
 import signal
 import struct
+import xml.etree.ElementTree
 import zlib
 
 import package
@@ -18,10 +21,16 @@ package.require()
 from made_results import evaluate
 from made_submissions import ABOUT, SETTINGS, log, log_path, row_of, seal, submission, write_rows
 from racebeam_evaluation import errors, main  # noqa: E402, F401
+from racebeam_evaluation.board import site
 from racebeam_evaluation.board.episode_log import read_log
 from racebeam_evaluation.board.submission import read_submission, seed_of_phrase
 
 OWN_GAMES = package.SOURCE / "docs/results/own-games"
+
+
+def resident_bytes():
+    """The memory of this process."""
+    return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
 
 
 class Folder:
@@ -125,6 +134,29 @@ class TestBoard(Folder):
         assert '<img src="curves-paper2013.svg"' in self.page()
         assert (self.root / "site/curves-paper2013.png").is_file()
 
+    def test_curves_of_more_games_than_a_picture_has(self, monkeypatch):
+        monkeypatch.setattr(site, "_MOST_CURVES", 2)
+        folder, _ = submission(self.root / "a")
+        games = ("seaquest", "pong", "boxing")
+        rows = "".join(f"{game},mine,1,1,-20,1000\n" for game in games)
+        (folder / "curves.csv").write_text(f"game,agent,trial,episode,score,frames\n{rows}")
+        assert self.board(folder).returncode == 0
+        assert "Of 3 games, the first 2 are shown." in self.page()
+        picture = (self.root / "site/curves-paper2013.svg").read_text()
+        assert [game for game in games if f"<!-- {game} -->" in picture] == ["seaquest", "boxing"]
+
+    def test_names_are_no_formulas_and_a_picture_is_xml(self):
+        folder, _ = submission(self.root / "a")
+        about = folder / "agent.toml"
+        about.write_text(about.read_text().replace('"1.0"', r'"$\\frac{$ \u001b"'))
+        (folder / "plan.toml").write_text("[images]\n'$^$' = 'aa'\n")
+        (folder / "curves.csv").write_text("game,agent,trial,episode,score,frames\n$^$,mine,1,1,-20,1000\n")
+        assert self.board(folder).returncode == 0
+        picture = (self.root / "site/curves-paper2013.svg").read_text()
+        xml.etree.ElementTree.fromstring(picture)
+        assert r"<!-- mine $\frac{$ \x1b -->" in picture
+        assert "<!-- $^$ -->" in picture
+
     def test_logs_of_racebeam_itself(self):
         folder = self.root / "basic"
         folder.mkdir()
@@ -181,6 +213,16 @@ class TestBoard(Folder):
         assert "b is of mine 1.0, which is there; expected another version" in done.stderr
         assert "the image of pong is aa; expected md5-of-pong, as the others have" in done.stderr
 
+    def test_another_image_of_a_trial_that_diverged(self):
+        good, _ = submission(self.root / "a")
+        other, rows = submission(self.root / "b", "yours", {"boxing": [[5]]})
+        lost = row_of("yours", "pong", 9, 0, "", end="diverged", image_md5="aa")
+        write_rows(other, [*rows, lost])
+        done = self.board(good, other)
+        assert done.returncode == 3
+        assert "the image of pong is aa; expected md5-of-pong, as the others have" in done.stderr
+        assert "mine 1.0" in self.page()
+
 
 class TestBadInput(Folder):
     @pytest.fixture(autouse=True)
@@ -217,6 +259,21 @@ class TestBadInput(Folder):
     def contents(self, settings=SETTINGS):
         """Returns the bytes of the first log that its seal covers."""
         return zlib.decompress(log(self.rows[0], settings)[24:])
+
+    def test_actions_are_not_kept(self):
+        """A log of a few KiB may have two million actions, and a submission thousands of logs."""
+        names = [f"{trial}" for trial in range(1, 31)]
+        rows = [row_of("mine", "pong", trial, 1, 1, decisions="400000") for trial in names]
+        for row in rows:
+            path = log_path(self.folder, row)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(log(row, actions=bytes(400000) + struct.pack("<f", 0.5) * 400000))
+            row["log_digest"] = hashlib.sha256(path.read_bytes()).hexdigest()
+        write_rows(self.folder, rows)
+        before = resident_bytes()
+        kept = read_submission(self.folder)
+        assert resident_bytes() - before < 100e6  # all actions with their strengths would take 400 MB
+        assert len(kept.episodes) == len(rows)
 
     def test_the_size_of_the_contents_is_exact(self):
         for size in (len(self.contents()) - 1, len(self.contents()) + 1):
@@ -263,6 +320,21 @@ class TestBadInput(Folder):
         self.log.write_bytes(seal(whole.replace(b"\n\n", b"\n")))
         self.check_refusal("its text does not end; expected a whole log")
 
+    def test_actions_of_the_console_and_of_keyboards(self):
+        path = self.folder / "1.episode"
+        row = {**self.rows[0], "decisions": "1"}
+        console = SETTINGS.replace("full", "console")
+        for action in (18, 25, 37, 64, 81, 177):
+            path.write_bytes(log(row, console, bytes([action])))
+            assert read_log(path).actions == bytes([action])
+            path.write_bytes(log(row, actions=bytes([action])))
+            with pytest.raises(errors.BadInput, match=f"has the action {action}; expected 0 to 17, or others with"):
+                read_log(path)
+        for action in (38, 63, 82, 178, 255):
+            path.write_bytes(log(row, console, bytes([action])))
+            with pytest.raises(errors.BadInput, match=f"has the action {action}; expected 0 to 17, or others with"):
+                read_log(path)
+
     def test_contents_that_grow_without_end(self):
         self.log.write_bytes(seal(bytes(2**25), size=1000))
         self.check_refusal("1.episode is damaged: its contents do not have 1000 bytes")
@@ -281,7 +353,7 @@ class TestBadInput(Folder):
         self.log.write_bytes(log(self.rows[0], actions=bytes([3] * 299 + [4])))
         self.check_refusal("line 2: log_digest is ")
         self.log.write_bytes(log(self.rows[0], actions=bytes([18] * 300)))
-        self.check_refusal("says decisions=300, which does not fit its actions; expected actions from 0 to 17")
+        self.check_refusal("has the action 18; expected 0 to 17, or others with action_set=console")
 
     def test_strengths_of_paddles(self):
         actions = bytes([3] * 300)
@@ -325,6 +397,28 @@ class TestBadInput(Folder):
         (self.folder / "logs").rename(self.root / "logs")
         (self.folder / "logs").symlink_to(self.root / "logs")
         self.check_refusal("a/logs is a link; expected a folder")
+        (self.folder / "logs").unlink()
+        (self.root / "logs").rename(self.folder / "logs")
+        for name in ("agent.toml", "results.csv"):
+            (self.folder / name).rename(self.root / "elsewhere")
+            (self.folder / name).symlink_to(self.root / "elsewhere")
+            self.check_refusal(f"a/{name} is a link; expected a file")
+            (self.root / "elsewhere").replace(self.folder / name)
+
+    def test_pipes_are_not_read(self):
+        for path in (self.log, *(self.folder / name for name in ("curves.csv", "results.csv", "agent.toml"))):
+            path.unlink(missing_ok=True)
+            os.mkfifo(path)
+            self.check_refusal(f"{path.name} is a pipe, a socket or a device; expected ")
+
+    def test_a_curve_of_an_unknown_game(self):
+        (self.folder / "curves.csv").write_text("game,agent,trial,episode,score,frames\nponk,mine,1,1,-20,1000\n")
+        self.check_refusal("curves.csv, line 2: unknown game 'ponk'; did you mean pong?")
+
+    def test_errors_do_not_move_the_cursor(self):
+        path = self.folder / "agent.toml"
+        path.write_text(path.read_text() + '"\\u001b[2Jred" = 1\n')
+        self.check_refusal(r"unknown key '\x1b[2Jred'; accepted: ")
 
     def test_seeds_of_a_phrase(self):
         path = self.folder / "agent.toml"
@@ -356,6 +450,9 @@ class TestBadInput(Folder):
             (good.replace("org/agent", "org/agent\\n"), "link is 'https://example.org/agent\\n'; expected"),
             (good + 'role = "teacher"\n', "role is 'teacher'; expected learner, planner, baseline"),
             (good.replace("Ours", "Ours" * 2000), "words has "),
+            (good.replace("4000000", "1" * 5000), "agent.toml is not TOML: Exceeds the limit"),
+            (good.replace("4000000", "0x" + "f" * 5000), "has a whole number of more than 64 bits; expected -9223372"),
+            (good.replace("4000000", str(2**63)), "has a whole number of more than 64 bits; expected -9223372"),
             ("#" * 70000, "agent.toml has 70000 bytes; expected a TOML file of at most 65536"),
         ):
             path.write_text(text)

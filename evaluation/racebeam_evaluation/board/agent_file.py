@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from typing import Any, NoReturn
 
-from ..errors import BadInput
+from ..errors import BadInput, printable
 from ..plan import PRESETS, read_toml
 from ..results import ROLES
 
@@ -104,8 +104,7 @@ def _refuse(path: pathlib.Path, key: str, value: object, accepted: str) -> NoRet
 def _text_of(value: object) -> str:
     """The value as errors show it."""
     if isinstance(value, str):
-        text = "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in value[:_MOST_QUOTE])
-        return f"'{text}{'...' if len(value) > _MOST_QUOTE else ''}'"
+        return f"'{printable(value[:_MOST_QUOTE])}{'...' if len(value) > _MOST_QUOTE else ''}'"
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, int | float):

@@ -20,7 +20,9 @@ _LINES = ("load", "image", "from", "ended")
 _DECISIONS_PER_HASH = 256
 _HASH_BYTES = 8
 _STRENGTH_BYTES = 4
-_ACTIONS = 18
+_ACTIONS = 18  # of a joystick
+# All that docs/spec/controllers.md numbers: of a joystick, the console and a keyboard, then those with more buttons.
+_CONSOLE_ACTIONS = frozenset({*range(38), *(first + action for first in (64, 96, 128, 160) for action in range(18))})
 
 
 @dataclasses.dataclass(frozen=True)
@@ -56,16 +58,17 @@ def read_log(path: pathlib.Path) -> EpisodeLog:
         raise BadInput(f"{path} is not an episode log: its text does not end; expected a whole log") from error
     if [line[0] for line in lines] != list(_LINES) or len(lines[0]) < 2 or len(lines[1]) != 2:
         raise BadInput(f"{path} is not an episode log: its text has other lines; expected {', '.join(_LINES)}")
-    values = _pairs(lines[2]) | _pairs(lines[3])
+    settings, values = _pairs(lines[0]), _pairs(lines[2]) | _pairs(lines[3])
     hashes, actions, strengths = _parts(path, values.get("decisions", ""), rest)
+    _check_actions(path, actions, settings.get("action_set", ""))
     columns = values | {
         "game": lines[0][1],
         "image_md5": lines[1][1],
-        "environment_seed": _pairs(lines[0]).get("seed", ""),
+        "environment_seed": settings.get("seed", ""),
         "state_hash": hashes[-_HASH_BYTES:][::-1].hex(),
         "log_digest": hashlib.sha256(content).hexdigest(),
     }
-    return EpisodeLog(lines[0][1], _pairs(lines[0]), columns, actions, strengths)
+    return EpisodeLog(lines[0][1], settings, columns, actions, strengths)
 
 
 def _opened(path: pathlib.Path, content: bytes) -> bytes:
@@ -105,8 +108,13 @@ def _parts(path: pathlib.Path, decisions: str, rest: bytes) -> tuple[bytes, byte
     hashes = _HASH_BYTES * (count // _DECISIONS_PER_HASH + 1)
     actions, strengths = rest[hashes : hashes + count], rest[hashes + count :]
     fits = count >= 0 and len(actions) == count and len(strengths) in (0, _STRENGTH_BYTES * count)
-    if not fits or (actions and max(actions) >= _ACTIONS):
-        raise BadInput(
-            f"{path} says decisions={decisions}, which does not fit its actions; expected actions from 0 to 17"
-        )
+    if not fits:
+        raise BadInput(f"{path} says decisions={decisions}, which does not fit its actions; expected a byte for each")
     return rest[:hashes], actions, struct.unpack(f"<{len(strengths) // _STRENGTH_BYTES}f", strengths)
+
+
+def _check_actions(path: pathlib.Path, actions: bytes, action_set: str) -> None:
+    accepted = _CONSOLE_ACTIONS if action_set == "console" else range(_ACTIONS)
+    wrong = sorted(set(actions).difference(accepted))
+    if wrong:
+        raise BadInput(f"{path} has the action {wrong[0]}; expected 0 to 17, or others with action_set=console")

@@ -76,8 +76,7 @@ def _row(path: str, episode: Episode, viewer: str) -> list[str]:
     row = episode.row
     cells = [text(row[name]) for name in ("trial", "episode", "score", "frames", "end")] + [link(path, "log")]
     if viewer:
-        title = f"{row['unit']}, episode {row['episode']}"
-        cells.append(link(f"{viewer}#{episode.log.link(title)}", "replay"))
+        cells.append(link(f"{viewer}#{episode.replay}", "replay"))
     return cells
 
 

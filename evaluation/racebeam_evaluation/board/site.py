@@ -9,6 +9,7 @@ from ..aggregate import normalised_matrix
 from ..bootstrap import AGGREGATES, Bootstrap, aggregates
 from ..curves import learning_curves
 from ..errors import BadInput
+from ..games import in_order
 from ..normalise import human
 from ..output import figure
 from ..output.figure import Picture
@@ -20,6 +21,7 @@ from .submission import Submission, read_submission
 Files = dict[str, bytes | pathlib.Path]  # by their paths in the site: contents, or a file to copy
 
 _HUMAN = human()
+_MOST_CURVES = 200  # games, in the order of in_order(); a picture has a panel for each
 _SHOWN = ("IQM", "median", "average")
 
 
@@ -41,7 +43,7 @@ def build(folders: list[pathlib.Path], bootstrap: Bootstrap, viewer: str) -> Sit
     broken = []
     for folder in folders:
         try:
-            submission = read_submission(folder)
+            submission = read_submission(folder, with_replays=bool(viewer))
             if submission.about.name in found:
                 raise BadInput(f"{folder} is of {submission.about.name}, which is there; expected another version")
             _check_images(folder, submission, images)
@@ -59,8 +61,9 @@ def _from_here(folder: pathlib.Path, sentence: str) -> str:
 
 
 def _check_images(folder: pathlib.Path, submission: Submission, images: dict[str, str]) -> None:
-    """Scores of different images of a game are not compared: the first one counts."""
-    ours = {each.row["game"]: each.row["image_md5"] for each in submission.episodes}
+    """Scores of different images of a game are not compared: the first one counts. Trials that diverged count, too."""
+    episodes = submission.results.episodes
+    ours = {game: image for game, image in zip(episodes["game"], episodes["image_md5"]) if image}
     for game, image in ours.items():
         if images.get(game, image) != image:
             raise BadInput(f"{folder}: the image of {game} is {image}; expected {images[game]}, as the others have")
@@ -158,7 +161,10 @@ def _curves(preset: str, results: Results) -> tuple[list[str], Files]:
     """Returns the learning curves, and the files of their picture. Both are empty without training episodes."""
     if results.curves is None:
         return [], {}
-    curves = learning_curves(results.curves)
+    games = in_order(list(set(results.curves["game"])))
+    curves = learning_curves(results.curves[results.curves["game"].isin(games[:_MOST_CURVES])])
     caption = "Scores of training episodes, which leave no logs and were not checked."
+    if len(games) > _MOST_CURVES:
+        caption += f" Of {len(games)} games, the first {_MOST_CURVES} are shown."
     picture = Picture(f"curves-{preset}", caption, figure.learning_curves(curves), results.curve_sources)
     return [f"<p>{caption}</p>", f'<img src="{picture.name}.svg" alt="{caption}">'], {**picture.files()}

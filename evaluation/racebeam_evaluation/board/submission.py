@@ -12,10 +12,11 @@ from ..errors import BadInput
 from ..plan import preset_of
 from ..results import DIVERGED, Results, read_folder, together
 from .agent_file import About, read_about
-from .episode_log import EpisodeLog, read_log
+from .episode_log import read_log
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,99}")  # of a unit, GAME-AGENT-TRIAL, and of an episode
 _NAME_SAYS = "1 to 100 letters, digits, '-', '_' and '.', a letter or a digit first"
+_FILES = ("agent.toml", "results.csv", "curves.csv", "agents.csv", "plan.toml")
 # The columns of results.csv that the logs confirm.
 _ROW = {
     name: Kind.TEXT
@@ -28,11 +29,11 @@ _ROW = {
 
 @dataclasses.dataclass(frozen=True)
 class Episode:
-    """A row of results.csv with its log."""
+    """A row of results.csv with its log, whose actions are not kept: a small file may hold very many."""
 
     row: dict[str, str]
     path: pathlib.Path
-    log: EpisodeLog
+    replay: str  # EpisodeLog.link(); empty if nobody wants it
 
 
 @dataclasses.dataclass(frozen=True)
@@ -44,8 +45,11 @@ class Submission:
     episodes: list[Episode]
 
 
-def read_submission(folder: pathlib.Path) -> Submission:
+def read_submission(folder: pathlib.Path, with_replays: bool = False) -> Submission:
     """Reads the folder. Raises BadInput with a sentence if something in it is not as it must be."""
+    for name in _FILES:
+        if (folder / name).is_symlink():
+            raise BadInput(f"{folder / name} is a link; expected a file")
     about = read_about(folder / "agent.toml")
     results = read_folder(folder)
     rows = read(folder / "results.csv", _ROW)[0].astype("str")
@@ -55,13 +59,13 @@ def read_submission(folder: pathlib.Path) -> Submission:
             f"{folder / 'results.csv'} has the agent '{strangers[0]}'; expected '{about.agent}', as agent.toml has"
         )
     lines = enumerate(rows.to_dict("records"), 2)
-    episodes = [_episode(folder, line, row, about) for line, row in lines if row["end"] != DIVERGED]
+    episodes = [_episode(folder, line, row, about, with_replays) for line, row in lines if row["end"] != DIVERGED]
     if not episodes:
         raise BadInput(f"{folder / 'results.csv'}: every trial diverged; expected a score of one trial or more")
     return Submission(about, _named(results, about), episodes)
 
 
-def _episode(folder: pathlib.Path, line: int, row: dict[str, str], about: About) -> Episode:
+def _episode(folder: pathlib.Path, line: int, row: dict[str, str], about: About, with_replay: bool) -> Episode:
     place = f"{folder / 'results.csv'}, line {line}"
     for column in ("unit", "episode"):
         if not _NAME.fullmatch(row[column]):
@@ -78,7 +82,7 @@ def _episode(folder: pathlib.Path, line: int, row: dict[str, str], about: About)
         raise BadInput(f"{place}: the settings of its log are those of {found}; expected {about.preset}")
     if about.phrase and row["environment_seed"] != (seed := str(seed_of_phrase(about.phrase, row))):
         raise BadInput(f"{place}: environment_seed is '{row['environment_seed']}'; the phrase gives '{seed}'")
-    return Episode(row, path, log)
+    return Episode(row, path, log.link(f"{row['unit']}, episode {row['episode']}") if with_replay else "")
 
 
 def seed_of_phrase(phrase: str, row: dict[str, str]) -> int:

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter, MaxNLocator
 
 from ..csv_file import Source
+from ..errors import printable
 from .table import made_from
 
 _STYLE = matplotlib.rc_context(
@@ -71,6 +72,11 @@ def _colours(agents: list[str]) -> dict[str, str]:
     return {agent: f"C{index % 10}" for index, agent in enumerate(agents)}
 
 
+def _literal(name: str) -> str:
+    """The name as a label: not as a formula, which matplotlib reads between two $, and without what XML has not."""
+    return printable(name).replace("$", r"\$")
+
+
 def _parts(rows: pd.DataFrame, by: str) -> Iterator[tuple[str, pd.DataFrame]]:
     """The rows of each value of a column, in the order of their first appearance."""
     for value in dict.fromkeys(rows[by]):
@@ -85,12 +91,12 @@ def normalised_scores(normalised: dict[str, pd.DataFrame]) -> Figure:
     for axes, (name, scores) in zip(panels, normalised.items()):
         _show_all(axes, scores.stack())
         for agent, colour in _colours(list(scores)).items():
-            axes.plot(scores[agent], range(len(games)), "o", color=colour, markersize=4, label=agent)
+            axes.plot(scores[agent], range(len(games)), "o", color=colour, markersize=4, label=_literal(agent))
         axes.set(
             title=f"{name} scores",
             yticks=range(len(games)),
             ylim=(len(games) - 0.5, -0.5),
-            yticklabels=games if axes is panels[0] else [],
+            yticklabels=[_literal(game) for game in games] if axes is panels[0] else [],
         )
         axes.grid(axis="y", linewidth=0.3)
     panels[-1].legend(loc="upper left", bbox_to_anchor=(1, 1))
@@ -105,7 +111,11 @@ def aggregate_scores(rows: pd.DataFrame) -> Figure:
     for line, name in enumerate(names):
         selection = rows[rows["normalisation"] == name]
         for axes, statistic in zip(panels[2 * line :], ("average", "median")):
-            axes.bar(selection["agent"], selection[statistic], color=list(_colours(list(selection["agent"])).values()))
+            axes.bar(
+                selection["agent"].map(_literal),
+                selection[statistic],
+                color=list(_colours(list(selection["agent"])).values()),
+            )
             axes.set(title=f"{statistic} {name} score")
             axes.axhline(0, color="black", linewidth=0.5)
     return figure
@@ -121,7 +131,10 @@ def intervals(rows: pd.DataFrame, statistics: list[str]) -> Figure:
     for line, (name, shown) in enumerate(_parts(rows, "normalisation")):
         for column, (axes, statistic) in enumerate(zip(panels[line * len(statistics) :], statistics)):
             _bars(axes, shown, statistic, [colours[agent] for agent in shown["agent"]])
-            axes.set(title=f"{statistic}\n{name}", yticklabels=list(shown["agent"]) if column == 0 else [])
+            axes.set(
+                title=f"{statistic}\n{name}",
+                yticklabels=[_literal(agent) for agent in shown["agent"]] if column == 0 else [],
+            )
     return figure
 
 
@@ -133,7 +146,7 @@ def improvements(rows: pd.DataFrame) -> Figure:
     colours = _colours(list(dict.fromkeys(pairs["first"])))
     _bars(axes, pairs, "probability", [colours[agent] for agent in pairs["first"]])
     axes.axvline(0.5, color="black", linewidth=0.5)
-    axes.set(yticklabels=list(pairs["pair"]), xlim=(0, 1), xlabel="probability of improvement")
+    axes.set(yticklabels=[_literal(pair) for pair in pairs["pair"]], xlim=(0, 1), xlabel="probability of improvement")
     return figure
 
 
@@ -169,7 +182,7 @@ def efficiency(rows: pd.DataFrame) -> Figure:
         selection = rows[(rows["normalisation"] == name) & (rows["axis"] == axis)]
         for agent, curve in _parts(selection, "agent"):
             band = (curve["IQM low"], curve["IQM high"])
-            _curve_with_band(axes, curve["trained for"], curve["IQM"], band, colours[agent], agent)
+            _curve_with_band(axes, curve["trained for"], curve["IQM"], band, colours[agent], _literal(agent))
         axes.set(xlabel=axis, ylabel=f"IQM of {name} scores")
         axes.xaxis.set_major_locator(MaxNLocator(5))
         axes.xaxis.set_major_formatter(EngFormatter(sep=""))
@@ -189,7 +202,7 @@ def distributions(rows: pd.DataFrame) -> Figure:
         colours = _colours(list(dict.fromkeys(shown["agent"])))
         for agent, steps in _parts(shown, "agent"):
             # Up to a score, the share is that of the games that have this score or more.
-            axes.step(steps["score"], steps["share of games"], where="pre", color=colours[agent], label=agent)
+            axes.step(steps["score"], steps["share of games"], where="pre", color=colours[agent], label=_literal(agent))
         axes.set(title=f"{name} scores", xlabel="score", ylabel="share of games", ylim=(0, 1.02))
     panels[-1].legend()
     return figure
@@ -204,7 +217,12 @@ def profiles(rows: pd.DataFrame) -> Figure:
         colours = _colours(list(dict.fromkeys(shown["agent"])))
         for agent, curve in _parts(shown, "agent"):
             _curve_with_band(
-                axes, curve["threshold"], curve["share of trials"], (curve["low"], curve["high"]), colours[agent], agent
+                axes,
+                curve["threshold"],
+                curve["share of trials"],
+                (curve["low"], curve["high"]),
+                colours[agent],
+                _literal(agent),
             )
         axes.set(title=f"{name} scores", xlabel="threshold", ylabel="share of trials above it", ylim=(0, 1.02))
     panels[-1].legend()
@@ -228,14 +246,16 @@ def learning_curves(rows: pd.DataFrame) -> Figure:
                 curve["score"],
                 (curve["score"] - error, curve["score"] + error),
                 colours[agent],
-                agent,
+                _literal(agent),
             )
-        axes.set(title=game, xlabel="frames", ylabel="score")
+        axes.set(title=_literal(game), xlabel="frames", ylabel="score")
         axes.xaxis.set_major_locator(MaxNLocator(5))
         axes.xaxis.set_major_formatter(EngFormatter(sep=""))
     for axes in panels[len(games) :]:
         axes.set_axis_off()
-    handles = [matplotlib.lines.Line2D([], [], color=colour, label=agent) for agent, colour in colours.items()]
+    handles = [
+        matplotlib.lines.Line2D([], [], color=colour, label=_literal(agent)) for agent, colour in colours.items()
+    ]
     figure.legend(handles=handles, loc="outside lower center", ncols=min(8, len(handles)))
     return figure
 
