@@ -21,6 +21,7 @@ __all__ = ["Episode", "replay", "write_log"]
 
 MAGIC, FORMAT = b"RBEPISOD", 1
 DECISIONS_PER_HASH = 256
+MOST_BYTES = 2**21  # before they are packed; readers refuse more
 MOST_SEED = 2**32 - 2  # ALE takes the next one for the time of day
 MOST_AGENT_SEED = 2**32 - 1
 AGENT = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
@@ -188,6 +189,9 @@ def log_of(
 
     Returns:
         The bytes of the log, and the row's columns by name.
+
+    Raises:
+        InvalidInput: If the log has more than 2 MiB before it is packed.
     """
     result = {
         "score": str(episode.score),
@@ -307,7 +311,8 @@ def write_log(
         How the episode ended.
 
     Raises:
-        InvalidInput: If the episode is not over after the actions, the agent is wrong, or `replay` raises it.
+        InvalidInput: If the episode is not over after the actions, or too long for a log, the agent is wrong, or
+            `replay` raises it.
         TypeError: If an action is neither a member nor a number.
         OSError: If the file cannot be written.
     """
@@ -329,6 +334,8 @@ def write_log(
 
 
 def _seal(contents: bytes) -> bytes:
+    if len(contents) > MOST_BYTES:
+        raise InvalidInput(f"the log has {len(contents)} bytes before it is packed; it takes at most {MOST_BYTES}")
     deflated = zlib.compress(contents, 9)
     head = MAGIC + struct.pack("<IQ", FORMAT, len(contents))
     return head + struct.pack("<I", zlib.crc32(head + deflated)) + deflated

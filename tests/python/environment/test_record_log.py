@@ -9,6 +9,7 @@ import sys
 import tempfile
 import unittest
 import unittest.mock
+import zlib
 
 import harness
 import package
@@ -20,7 +21,7 @@ import gymnasium
 import numpy as np
 import racebeam.program
 from racebeam import InvalidInput, RecordLog
-from racebeam.episode_log import Origin, Start, log_of, play
+from racebeam.episode_log import Episode, Origin, Start, log_of, play
 from racebeam.single import submission
 from racebeam.single.submission import COLUMNS
 
@@ -216,6 +217,17 @@ class TestSubmissions:
             assert self.verify()[0] == 0
 
     @pytest.mark.needs_posix
+    def test_an_episode_of_more_bytes_than_a_log_has_is_refused(self):
+        start, episode = Start("beamfall", 1, 1), Episode(0, 0, 0, True, True, 0, [7])
+        room = 2**21 - len(zlib.decompress(log_of(start, [], episode._replace(decisions=10**6), Origin())[0][24:]))
+        for decisions in (room, room + 1):
+            longest = episode._replace(decisions=decisions)
+            if decisions == room:
+                assert len(zlib.decompress(log_of(start, [0] * decisions, longest, Origin())[0][24:])) == 2**21
+            else:
+                with pytest.raises(InvalidInput, match="the log has 2097153 bytes before .*; it takes at most 2097152"):
+                    log_of(start, [0] * decisions, longest, Origin())
+
     def test_a_full_disk_is_reported_and_the_game_goes_on(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
         limits = resource.getrlimit(resource.RLIMIT_FSIZE)
