@@ -38,6 +38,7 @@ GAMES = ("asteroids", "beam_rider", "breakout", "elevator_action", "pitfall2", "
 CHUNK, WARM_UP = 500, 4  # frames; chunks that are not measured
 AHEAD, STEPS = 64, 300  # of a client: requests under way, and requests
 NEVER = 1 << 30
+TABLES = "\n## The tuning tables\n"
 # A policy, and the numbers that switch it off.
 POLICIES = {
     "drawing frames that are not observed": {"kShortestPeriod": NEVER},
@@ -93,6 +94,9 @@ def parse_arguments(rows):
     )
     parser.add_argument("--by", nargs="+", choices=MEASURES, default=[*MEASURES], help="measure only these rows")
     parser.add_argument("--write", action="store_true", help=f"write {PAGE.relative_to(cartridges.ROOT)}")
+    parser.add_argument(
+        "--tables", action="store_true", help="only write the tables of that page anew; measure nothing"
+    )
     options = parser.parse_args()
     unknown = set(options.names) - {row["name"] for row in rows}
     if unknown:
@@ -101,6 +105,8 @@ def parse_arguments(rows):
         )
     if options.write and options.names:
         parser.error("--write needs all rows, so that NAME cannot be given")
+    if options.tables and (options.write or options.names):
+        parser.error("--tables measures nothing, so that neither NAME nor --write can be given")
     return options
 
 
@@ -221,8 +227,12 @@ def page(tables, policies, rows, options):
             continue
         text += f"\n## Half and double, by `{by}`\n\n"
         text += table(["number", "value", "unit", "half: mean", "most", "double: mean", "most"], lines)
-    text += "\n## The tuning tables\n\nThe meanings are the comments of the sources.\n"
-    measured = {line[0] for lines in tables.values() for line in lines}
+    return text + tuning_tables(rows, measured={line[0] for lines in tables.values() for line in lines})
+
+
+def tuning_tables(rows, measured):
+    """The end of the page: the rows, and which of them the run did not measure."""
+    text = TABLES + "\nThe meanings are the comments of the sources.\n"
     missing = [f"`{row['name']}`" for row in rows if row["measure"] in MEASURES and f"`{row['name']}`" not in measured]
     if missing:
         text += "\n" + textwrap.fill(f"This run did not measure {', '.join(missing)}.", 100) + "\n"
@@ -231,9 +241,21 @@ def page(tables, policies, rows, options):
     return text
 
 
+def with_tuning_tables(page, rows):
+    """The page with the rows as they are now. Its figures stay, but those of numbers that no table has."""
+    names = {f"`{row['name']}`" for row in rows}
+    lines = page.partition(TABLES)[0].splitlines(keepends=True)
+    named = [re.match(r"\| (`k\w+`) \|", line) for line in lines]
+    kept = "".join(line for line, name in zip(lines, named) if not name or name[1] in names)
+    return kept + tuning_tables(rows, measured={name[1] for name in named if name})
+
+
 def main():
     rows = [row for file in TUNING_TABLES for row in read_tuning_table(file)]
     options = parse_arguments(rows)
+    if options.tables:
+        PAGE.write_text(with_tuning_tables(PAGE.read_text(), rows))
+        return
     bench_sides.RACEBEAM = os.environ.get("RACEBEAM_BINARY", str(BUILD / "racebeam"))
     chosen = [row for row in rows if row["name"] in options.names or not options.names]
     policies, tables = [], {by: [] for by in options.by}

@@ -47,6 +47,19 @@ class TestTuningTables:
             with subtests.test(row["name"]):
                 assert f"| `{row['name']}` | {row['value']:,} | {row['unit']} | {row['measure']} |" in page
 
+    def test_the_tables_are_written_anew_without_measuring(self):
+        page = pathlib.Path(bench_tune.PAGE).read_text()
+        assert bench_tune.with_tuning_tables(page, self.rows) == page
+        new = {**self.rows[0], "name": "kNew", "value": 12345}
+        assert new["measure"] in bench_tune.MEASURES
+        text = bench_tune.with_tuning_tables(page, [*self.rows[1:], new])
+        assert f"| `{self.rows[0]['name']}` |" in page
+        assert f"| `{self.rows[0]['name']}` |" not in text
+        assert f"| `{self.rows[1]['name']}` |" in text
+        [missing] = re.findall(r"This run did not measure ([^.]*)\.", text)
+        assert "`kNew`" in missing and f"`{self.rows[1]['name']}`" not in missing
+        assert "| `kNew` | 12,345 |" in text
+
 
 class TestFigures:
     def test_the_ratio_of_a_variant_is_the_median_of_the_turns(self):
