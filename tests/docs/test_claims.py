@@ -179,6 +179,55 @@ class TestPresets:
         assert decisions == {"random": "100", "perturb": "1800", "const": "360", "basic": "20"}
 
 
+def number(text):
+    return float(text.replace(",", ""))
+
+
+class TestAgents:
+    """The page on experiments has the settings of agents, with defaults and accepted values."""
+
+    PLAN = 'games = ["beamfall"]\nagents = [{}]\nevaluation_episodes = 1\nenvironment = "max_episode_frames=5"\n'
+    COMMON = {"frame_skip", "trials", "training_episodes", "training_frames", "evaluation_episodes"}
+
+    @pytest.fixture(autouse=True)
+    def set_up(self, tmp_path):
+        self.folder, self.plan = tmp_path, tmp_path / "plan.toml"
+        self.defaults = {}
+        for names, settings in table(page("docs/experiments.md"), "| Agent | Its own settings"):
+            values = dict(re.findall(r"`(\w+)` ([\w.,]+?)(?:, |$)", settings))
+            of_agent = {name: value if value.isalpha() else number(value) for name, value in values.items()}
+            self.defaults |= {agent: of_agent for agent in re.findall(r"`(\w+)`", names)}
+
+    def test_the_defaults_are_those_that_results_have(self):
+        rows = table(page("docs/experiments.md"), "| Agent | What it is")
+        agents = re.findall(r"`(\w+)`", "".join(names for names, _ in rows))
+        self.plan.write_text(self.PLAN.format(", ".join(f'"{agent}"' for agent in agents)))
+        run("experiment", str(self.plan), "--into", str(self.folder / "results"), "--shard", "1/100000")
+        written = tomllib.loads((self.folder / "results/plan.toml").read_text())["agent"]
+        own = {
+            agent: {name: value for name, value in settings.items() if name not in self.COMMON}
+            for agent, settings in written.items()
+        }
+        assert self.defaults == {agent: settings for agent, settings in own.items() if settings}
+
+    def test_another_value_is_refused_with_those_that_are_accepted(self, subtests):
+        agent_with = {name: agent for agent, settings in self.defaults.items() for name in settings}
+        rows = table(page("docs/experiments.md"), "| Setting | Meaning |")
+        accepted = {name: words for names, _, words in rows for name in re.findall(r"`(\w+)`", names)}
+        assert set(accepted) == set(agent_with)
+        for name, words in accepted.items():
+            with subtests.test(setting=name):
+                wrong = '"x"' if name == "reward_scale" else "-1"
+                agent = agent_with[name]
+                self.plan.write_text(self.PLAN.format(f"'{agent}'") + f"[agent.{agent}]\n{name} = {wrong}\n")
+                sentence = run("experiment", str(self.plan), "--dry-run", "--unmeasured").stderr.split("; ")[-1].strip()
+                if name == "reward_scale":
+                    assert sentence == "accepted: " + " and ".join(words.replace("`", "").rsplit(", ", 1))
+                else:
+                    ends = re.search(r"from (\S+) to (\S+)$", sentence).groups()
+                    assert [number(end) for end in re.split(" to | or ", words)] == [number(end) for end in ends]
+
+
 class TestLists:
     def test_the_page_on_fuzzing_has_each_target(self):
         targets = page("fuzz/README.md").partition("## Attacks")[0]
