@@ -50,6 +50,14 @@ class TestTable:
         assert "| a\\|b | 1 |\n" in made.markdown()
         assert "a|b & 1 \\\\\n" in made.latex()
 
+    def test_names_are_no_commands_of_latex_and_no_tags_of_markdown(self):
+        name = r"\input{~a^}<b>|"
+        made = Table("made", "A caption.", pd.DataFrame({name: [1], "agent": [name]}), ())
+        escaped = r"\textbackslash{}input\{\textasciitilde{}a\textasciicircum{}\}<b>|"
+        assert f"{escaped} & agent \\\\\n\\midrule\n1 & {escaped} \\\\\n" in made.latex()
+        escaped = r"\input{~a^}\<b>\|"
+        assert f"| {escaped} | agent |\n| ---: | --- |\n| 1 | {escaped} |\n" in made.markdown()
+
     def test_the_best_cells_of_a_row_are_bold_and_others_are_not(self):
         frame = pd.DataFrame({"game": ["x", "y"], "a": [1.0, 2], "b": [3.0, 2], "published": [9.0, 9]})
         made = Table("made", "A caption.", frame, (), digits=0, best_of=("a", "b"))

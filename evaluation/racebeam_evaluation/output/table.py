@@ -15,8 +15,11 @@ def _escapes(letters: str) -> dict[int, str]:
     return str.maketrans({letter: f"\\{letter}" for letter in letters})
 
 
-_LATEX = _escapes("&%_#$")
-_MARKDOWN = _escapes("|")
+# Names of agents are those of the results, which may be another's.
+_LATEX = _escapes("&%_#${}") | str.maketrans(
+    {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}
+)
+_MARKDOWN = _escapes("|<")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -47,7 +50,7 @@ class Table:
     def markdown(self) -> str:
         """The caption, the table, the notes, and the digests as comments."""
         marks = ["---:" if pd.api.types.is_numeric_dtype(self.frame[name]) else "---" for name in self.frame]
-        lines = [list(map(str, self.frame)), marks, *self._texts("**{}**", _MARKDOWN)]
+        lines = [[str(name).translate(_MARKDOWN) for name in self.frame], marks, *self._texts("**{}**", _MARKDOWN)]
         below = [line for note in self.notes for line in (note, "")]
         comments = [f"<!-- {line} -->" for line in made_from(self.sources)]
         return "\n".join([self.caption, "", *(f"| {' | '.join(line)} |" for line in lines), "", *below, *comments, ""])
