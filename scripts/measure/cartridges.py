@@ -5,7 +5,8 @@ import os
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-OURS = ("beamfall", "updraft")
+# Images that may be distributed; they are inside the program.
+OURS = tuple(sorted(path.stem for path in (ROOT / "games/homebrew").glob("*.bin")))
 WITHOUT_RULE = ("combat", "joust", "maze_craze", "warlords")  # the reference has images of them, but cannot play them
 
 

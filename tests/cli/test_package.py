@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 
+import cartridges
 import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -15,8 +16,6 @@ from harness import BINARY
 BUILD = pathlib.Path(BINARY).parent
 PLAIN = {key: value for key, value in os.environ.items() if not key.startswith("RACEBEAM_")}
 pytestmark = pytest.mark.needs_programs("dpkg-deb", "cpack")
-
-OURS = {"beamfall", "updraft"}  # images that may be distributed; they are inside the program
 
 
 def output(*command, **options):
@@ -68,7 +67,7 @@ class TestPackage:
         names = [path.name for path in self.root.rglob("*") if path.is_file()]
         assert not [name for name in names if name.endswith((".bin", ".a26", ".rom", ".gz", ".zip"))]
         reply = output(self.root / "usr/bin/racebeam", "serve", "--stdio", input="games\n")
-        assert set(reply.rpartition("games=")[2].strip().split(",")) == OURS
+        assert set(reply.rpartition("games=")[2].strip().split(",")) == set(cartridges.OURS)
 
     def test_its_settings_are_accepted(self):
         path = self.root / "etc/racebeam.toml"

@@ -74,7 +74,7 @@ class TestLedger:
 class TestProgram:
     def subcommands(self):
         names = re.findall(r"^\| `racebeam (\w+)", page("README.md"), re.MULTILINE)
-        assert len(names) == 17
+        assert {"serve", "classic", "png"} <= set(names)
         return names
 
     def test_a_usage_error_has_status_2_except_that_of_classic(self, subtests):

@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "games/catalogue.hpp"
 #include "games/md5.hpp"
 #include "tests/golden/works.hpp"
 
@@ -26,6 +27,13 @@ std::string golden_text(const std::string& game) {
          " shows, folded line by line. scripts/check/golden compares, scripts/check/golden --rebaseline "
          "writes.\n" +
          report(works_of(game));
+}
+
+std::vector<std::string> own_games() {
+  std::vector<std::string> names;
+  for (const CatalogueEntry& entry : catalogue())
+    if (entry.built_in) names.emplace_back(entry.name);
+  return names;
 }
 
 std::string file_of(const std::string& game) { return RACEBEAM_SOURCE_DIR "/tests/golden/" + game + ".txt"; }
@@ -162,7 +170,7 @@ void print_signature(const std::vector<std::string>& games, const SignatureOptio
 
 int run(int argc, char** argv) {
   CLI::App app("Compares the output of our own games with tests/golden/GAME.txt");
-  std::vector<std::string> games = {"beamfall", "updraft"};
+  std::vector<std::string> games = own_games();
   bool rebaseline = false;
   SignatureOptions options;
   const std::map<std::string, CpuKind> cpus = {

@@ -11,6 +11,7 @@ import subprocess
 import tempfile
 import time
 
+import cartridges
 import pytest
 from harness import BINARY, PATIENCE, WINDOWS, Server, ask, connect_tcp, connect_unix, run, serve
 
@@ -59,7 +60,7 @@ class TestAnnounced:
                 "host": socket.gethostname(),
                 "process": announcement["process"] if WINDOWS else server.process.pid,
                 "version": version,
-                "games": ["beamfall", "updraft"],
+                "games": list(cartridges.OURS),
                 "token": "",
             }
             assert re.search("^[0-9a-f]{64}$", announcement["token"])
