@@ -1,13 +1,17 @@
 // Links to a frame of an episode: the episode is in the part of the address after #, which no browser sends to a server.
 
 import { joined } from "../input/actions.js";
-import type { Episode } from "./log.js";
+import { inflated, type Episode } from "./log.js";
 
 const LONGEST = 4 * 1024 * 1024; // characters of a link
+const MOST_TEXT = 32 * 1024 * 1024; // bytes, before they are deflated
 const MOST_ACTS = 1_000_000;
+// A number, which may have the strength of a paddle, then the number of the other player, and how often they are played.
+const ACT = /^(\d{1,3}(?:@-?\d{1,21}(?:\.\d{1,20})?(?:e[+-]?\d{1,3})?)?(?:\/\d{1,2})?)(?:\*(\d{1,7}))?$/;
 
-async function through(bytes: Uint8Array, stream: CompressionStream | DecompressionStream): Promise<Uint8Array> {
-  return new Uint8Array(await new Response(new Blob([bytes as BlobPart]).stream().pipeThrough(stream)).arrayBuffer());
+async function deflated(bytes: Uint8Array): Promise<Uint8Array> {
+  const stream = new Blob([bytes as BlobPart]).stream().pipeThrough(new CompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 function toText(bytes: Uint8Array): string {
@@ -21,14 +25,14 @@ function fromText(text: string): Uint8Array {
 /** The part of a link after #. */
 export async function linkTo({ title, game, settings, acts }: Episode, frame: number): Promise<string> {
   const text = JSON.stringify({ title, game, settings, acts: joined(acts) });
-  return `replay=${toText(await through(new TextEncoder().encode(text), new CompressionStream("deflate")))}&frame=${frame}`;
+  return `replay=${toText(await deflated(new TextEncoder().encode(text)))}&frame=${frame}`;
 }
 
 /** Words without counts, from those that `joined` made. */
 function separate(words: unknown): string[] {
   const acts: string[] = [];
   for (const word of Array.isArray(words) ? words : [words]) {
-    const [, act, times = "1"] = /^(\d{1,2}(?:\/\d{1,2})?)(?:\*(\d{1,7}))?$/.exec(String(word)) ?? [];
+    const [, act, times = "1"] = ACT.exec(String(word)) ?? [];
     if (!act || acts.length + Number(times) > MOST_ACTS) {
       throw new Error(`'${word}' is not an act, or one too many`);
     }
@@ -46,7 +50,7 @@ export async function readLink(hash: string): Promise<{ episode: Episode; frame:
     return undefined;
   }
   try {
-    const { title, game, settings, acts } = JSON.parse(new TextDecoder().decode(await through(fromText(found[1]), new DecompressionStream("deflate"))));
+    const { title, game, settings, acts } = JSON.parse(new TextDecoder().decode(await inflated(fromText(found[1]), MOST_TEXT)));
     return { episode: { title: String(title), game: String(game), settings, acts: separate(acts) }, frame: Number(found[2] ?? 0) };
   } catch (error) {
     throw new Error("the link is damaged: its episode cannot be read", { cause: error });

@@ -45,17 +45,17 @@ export function crc32(...pieces: Uint8Array[]): number {
   return (crc ^ 0xffffffff) >>> 0;
 }
 
-/** The bytes of a zlib stream. Throws if there are more than LARGEST. */
-async function inflated(bytes: Uint8Array): Promise<Uint8Array> {
+/** The bytes of a zlib stream. Throws if there are more than `most`. */
+export async function inflated(bytes: Uint8Array, most = LARGEST): Promise<Uint8Array> {
   const reader = new Blob([bytes as BlobPart]).stream().pipeThrough(new DecompressionStream("deflate")).getReader();
   const pieces: Uint8Array[] = [];
   let size = 0;
   for (let { done, value } = await reader.read(); !done; { done, value } = await reader.read()) {
     pieces.push(value!);
     size += value!.length;
-    if (size > LARGEST) {
+    if (size > most) {
       await reader.cancel();
-      throw new Error(`the log has more than ${LARGEST} bytes of contents`);
+      throw new Error(`the log has more than ${most} bytes of contents`);
     }
   }
   const whole = new Uint8Array(size);

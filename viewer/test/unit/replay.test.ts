@@ -109,10 +109,21 @@ test("a link leads to a frame of an episode", async () => {
   assert.equal(await readLink("#play"), undefined);
 });
 
+test("a link has the strengths of paddles", async () => {
+  const acts = ["1@0.25", "1@0.25", "0@-2", "17", "3@1e-7", "3@340282346638528860000", "3@3.4028234663852886e+38", "129"];
+  const { episode } = (await readLink(`#${await linkTo({ ...EPISODE, acts }, 0)}`))!;
+  assert.deepEqual(episode.acts, acts);
+});
+
+test("a link of a few kilobytes does not fill the memory", async () => {
+  const bomb = deflateSync(new Uint8Array(33 * 1024 * 1024), { level: 9 }).toString("base64url");
+  await assert.rejects(readLink(`#replay=${bomb}`), ({ cause }: Error) => /more than 33554432 bytes/.test(String(cause)));
+});
+
 test("a damaged link is refused", async () => {
   const link = await linkTo(EPISODE, 0);
   await assert.rejects(readLink(`#${link.slice(0, 30)}&frame=0`), /damaged/);
-  for (const acts of [["1*9999999"], ["quit"], ["1\nquit"], "1 2", [null], ["1*0999999", "1*0999999"]]) {
+  for (const acts of [["1*9999999"], ["quit"], ["1\nquit"], "1 2", [null], ["1*0999999", "1*0999999"], ["1@"], ["1@nan"], ["1@2@3"]]) {
     await assert.rejects(readLink(`#${await linkTo({ ...EPISODE, acts: acts as string[] }, 0)}`), /damaged/, String(acts));
   }
 });
