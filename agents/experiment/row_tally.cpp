@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <set>
+#include <system_error>
 
 #include "system/invalid_input.hpp"
 
@@ -16,6 +17,10 @@ RowVerdict verdict_of(const RowTally::Judge& judge) {
   } catch (const std::exception& error) {
     return {Judgement::kWrong, error.what()};
   }
+}
+
+void check_listing(const std::string& folder, const std::error_code& error) {
+  if (error) throw InvalidInput(folder + ": the folder cannot be listed: " + error.message());
 }
 
 }  // namespace
@@ -47,10 +52,15 @@ void RowTally::find_surplus(const std::string& logs,
                             const std::function<bool(const std::string& path, bool is_folder)>& is_expected) {
   namespace fs = std::filesystem;
   std::set<std::string> surplus;
-  std::error_code none;
-  for (const auto& entry : fs::recursive_directory_iterator(logs, none)) {
-    const std::string path = entry.path().generic_string();  // with /, as the names of rows
-    if (!is_expected(path, entry.is_directory(none))) surplus.insert(path);
+  std::error_code none, error;
+  fs::recursive_directory_iterator entry(logs, error);
+  if (error == std::errc::no_such_file_or_directory) return;  // each row says that its log is missing
+  check_listing(logs, error);
+  while (entry != fs::recursive_directory_iterator()) {
+    const std::string path = entry->path().generic_string();  // with /, as the names of rows
+    if (!is_expected(path, entry->is_directory(none))) surplus.insert(path);
+    entry.increment(error);
+    check_listing(path, error);
   }
   for (const std::string& path : surplus) add_wrong(path + ": no row of results.csv has this log");
 }

@@ -89,7 +89,7 @@ class SubmissionVerification {
                        "'; the settings of the logs are those of '" + std::string(judge_.preset()) + "'");
     if (phrase_) phrase_->each_gap([&](const std::string& sentence) { tally_.add_wrong(sentence); });
     tally_.find_surplus(folder_.logs(), [&](const std::string& path, bool is_folder) {
-      return is_folder || logs_.contains(path);
+      return is_folder ? !is_link(path) : logs_.contains(path);
     });
     return tally_.verdict();
   }

@@ -8,6 +8,7 @@
 #include "recording/sha256.hpp"
 #include "system/invalid_input.hpp"
 #include "tests/agents/experiment/verified.hpp"
+#include "tests/support/skip.hpp"
 
 using namespace racebeam;
 using namespace racebeam::test;
@@ -162,6 +163,27 @@ TEST_CASE("A submission's rows are confirmed without a plan, and every alteratio
     write(folder.plan(), kPlan);
     CHECK_FALSE(is_submission(folder));
   }
+}
+
+TEST_CASE("A link among the logs is surplus, and a folder that cannot be listed is named") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("submission"));
+  make_submission(folder);
+  const std::string link = folder.logs("elsewhere");
+  fs::create_directory_symlink(place.path(""), link);
+  const Verified found = of_submission(folder);
+  CHECK(found.verdict.wrong == 1);
+  CHECK(found.findings == link + ": no row of results.csv has this log\n");
+  fs::remove(link);
+  fs::create_directory(link);
+  fs::permissions(link, fs::perms::none);
+  std::error_code error;
+  const fs::directory_iterator listing(link, error);
+  if (!error)
+    leave_out("a folder that cannot be listed: this user may list all");
+  else
+    CHECK_THROWS_WITH(of_submission(folder), link + ": the folder cannot be listed: Permission denied");
+  fs::permissions(link, fs::perms::owner_all);
 }
 
 TEST_CASE("verify refuses an agent.toml in the words of the board") {
