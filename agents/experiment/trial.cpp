@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <string_view>
 
 #include "agents/experiment/cost.hpp"
 #include "recording/atomic_file.hpp"
@@ -23,6 +24,16 @@ AgentContext context_of(const Plan& plan, const Unit& unit, const AgentValues& v
 PlaySettings with_cpu(PlaySettings play, CpuKind cpu) {
   play.machine.cpu = cpu;
   return play;
+}
+
+// Whether a table has so many lines, all of one unit.
+bool is_table_of(const std::string& unit, std::string_view table, std::int64_t lines) {
+  for (; !table.empty(); --lines) {
+    const std::size_t end = table.find('\n');
+    if (end == table.npos || !table.starts_with(unit + ',')) return false;
+    table.remove_prefix(end + 1);
+  }
+  return lines == 0;
 }
 
 // Processor time of this thread: other programs do not change it.
@@ -162,11 +173,13 @@ void Trial::resume() {
     check_account();
     in.get(rows_);
     in.get(curves_);
+    check_tables();
     agent_->read(in);
     if (!in.at_end()) throw InvalidInput("it holds more than the agent reads");
   } catch (const InvalidInput& error) {
     throw InvalidInput("checkpoint " + path + ": " + error.what() +
-                       "; another version of the program wrote it. Remove it, and its unit begins anew");
+                       "; another unit or another version of the program wrote it. Remove it, and its unit "
+                       "begins anew");
   }
 }
 
@@ -185,6 +198,14 @@ void Trial::check_account() const {
                                    account_.evaluation_microseconds, account_.searched_frames})
     is_valid = is_valid && is_within(count, 0, kMost);
   if (!is_valid) throw InvalidInput("its counts of episodes, frames and times are invalid");
+}
+
+// The results would have the episodes of another unit.
+void Trial::check_tables() const {
+  if (!is_table_of(unit_.name, curves_, account_.trained) ||
+      !is_table_of(unit_.name, rows_, account_.evaluated))
+    throw InvalidInput("its tables are not those of " + std::to_string(account_.trained) + " training and " +
+                       std::to_string(account_.evaluated) + " evaluation episodes of " + unit_.name);
 }
 
 void Trial::write_checkpoint() const {

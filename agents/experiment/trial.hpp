@@ -63,6 +63,7 @@ class Trial {
   void keep_log(const Episode& episode, int number);
   void resume();
   void check_account() const;
+  void check_tables() const;
   void write_checkpoint() const;
   void finish();
 

@@ -158,6 +158,26 @@ TEST_CASE("A checkpoint with counts that its trial cannot have is refused") {
   CHECK_NOTHROW(run(plan, folder));
 }
 
+TEST_CASE("A checkpoint of another unit is refused") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan = bound_plan(
+      "games = [\"beamfall\"]\nagents = [\"random\"]\nenvironment = \"max_episode_frames=200\"\n"
+      "[agent.random]\ntrials = 2\nevaluation_episodes = 3\n");
+  const std::vector<Unit> units = units_of(plan);
+  fs::create_directories(folder.work());
+  const Images images;
+  Trial trial(plan, units[0], folder, *images.find("beamfall"), nullptr, CpuKind::kAuto);
+  trial.run(std::chrono::milliseconds(0), [episodes = 0]() mutable { return episodes++ == 1; });
+  fs::copy_file(folder.checkpoint(units[0].name), folder.checkpoint(units[1].name));
+  fs::remove_all(folder.logs());  // an experiment begins in a folder without logs
+  CHECK_THROWS_WITH(run(plan, folder),
+                    Catch::Contains("its tables are not those of 0 training and 1 evaluation episodes of "
+                                    "beamfall-random-2; another unit or another version of the program"));
+  fs::remove(folder.checkpoint(units[1].name));
+  CHECK_NOTHROW(run(plan, folder));
+}
+
 TEST_CASE("A damaged checkpoint, and a background of another game, are refused") {
   const Scratch place;
   const ResultsFolder folder(place.path("results"));
