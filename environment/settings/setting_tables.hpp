@@ -39,12 +39,12 @@ inline constexpr std::array<Setting, 24> kSettings = {{
     {"rules", "ale-0.12 or fixed", "rules of score and end: those of the reference, or corrected ones", false},
     {"color_averaging", "0 or 1", "blend each screen with the one before it", false},
     {"sound", "0 or 1", "generate the samples of the field audio", false},
-    {"scheme", "auto or a scheme's name, with _ for a blank", "how the cartridge switches its banks, where auto detects it", false},
+    {"scheme", "auto or a scheme's name, with _ for a blank", "how the cartridge switches its banks; auto detects it", false},
     {"left", "joystick, paddles, keyboard, driving, booster, genesis, light_gun, trackball, atari_mouse, amiga_mouse or none", "controller in the left port", false},
     {"right", "joystick, paddles, keyboard, driving, booster, genesis, light_gun, trackball, atari_mouse, amiga_mouse or none", "controller in the right port", false},
-    {"format", "auto, ntsc, pal, pal60 or secam", "television standard, where auto detects it", false},
+    {"format", "auto, ntsc, pal, pal60 or secam", "television standard; auto detects it", false},
     {"ystart", "0 to 50", "first line of the picture", false},
-    {"height", "100 to 256", "lines of the picture, 200 at least; PAL and SECAM make 250 of 210", false},
+    {"height", "100 to 256", "lines of the picture, 200 at least; with PAL and SECAM, 210 means 250", false},
 }};
 
 inline constexpr std::array<Preset, 4> kPresets = {{

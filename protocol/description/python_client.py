@@ -10,12 +10,6 @@ FOLDER = "clients/python/racebeam/wire"
 FIELDS, COMMANDS = f"{FOLDER}/fields.py", f"{FOLDER}/commands.py"
 SINGLE_FILE = "clients/python/single_file/client.py"
 WIDTH = 120
-RESULTS = {
-    "first": "The values of the first group of the reply.",
-    "groups": "The values of each group after the first.",
-    "list": "The list of the reply.",
-    "ints": "The numbers of the reply.",
-}
 TYPES = {
     "int": "int",
     "seed": "int | str",
@@ -85,13 +79,48 @@ def explained(argument):
     return folded(f"{name}: {about}", " " * 12, "    ")
 
 
+def listed(names):
+    names = [f"`{name}`" for name in names]
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def values_of(reply, fields):
+    """Says what a dictionary of the reply has."""
+    always = [key for key in reply if not key.endswith("?")]
+    sometimes = [key.removesuffix("?") for key in reply if key.endswith("?")]
+    parts = [fields] if fields else []
+    if always:
+        parts.append(listed(always))
+    if sometimes:
+        parts.append(f"{listed(sometimes)} where {'it applies' if len(sometimes) == 1 else 'they apply'}")
+    return ", and ".join(parts)
+
+
+def shown(command, group):
+    """The fields that a group has."""
+    return {group: "the selected fields", "asked": "these fields"}.get(command.shows, "")
+
+
+def result_of(command):
+    """The sentence of a docstring that says what a method returns."""
+    kind, _, key = command.returns.partition(" ")
+    if kind in ("list", "ints"):
+        return f"The list `{key}` of the reply, as {'texts' if kind == 'list' else 'numbers'}."
+    if kind == "groups":
+        subject = "A dictionary for each machine" if command.shows else "A dictionary for each session"
+        values = values_of(command.groups, shown(command, "groups"))
+        return f"{subject}, with {values}."
+    settings = ", and each setting" if command.echoes else ""
+    values = values_of(command.reply, shown(command, "first"))
+    return f"A dictionary with {values}{settings}."
+
+
 def docstring(command):
     text = folded(f'"""{sentence(command.summary)}', " " * 8)
     if command.arguments:
         text += "\n        Args:\n" + "".join(map(explained, all_arguments(command)))
-    result = RESULTS.get(command.returns.partition(" ")[0])
-    if result:
-        text += f"\n        Returns:\n            {result}\n"
+    if command.returns != "nothing":
+        text += "\n        Returns:\n" + folded(result_of(command), " " * 12)
     return text + '        """\n' if "\n\n" in text else text[:-1] + '"""\n'
 
 

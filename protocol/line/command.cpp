@@ -41,7 +41,7 @@ const Command& CommandTable::find(std::string_view name) const {
 
 void refuse_without_token(std::string_view name) {
   throw RequestError(ErrorCode::kUnauthorized,
-                     "this server requires a token before " + quote(name) + "; hello token=TOKEN");
+                     "this server requires a token before " + quote(name) + "; send hello token=TOKEN first");
 }
 
 void check(const Command& command, const Context& context, std::size_t arguments) {

@@ -125,7 +125,9 @@ std::optional<StackSettings> parse_stack(std::string_view& name) {
     return stack_of(alone ? "1" : height, kSmallSide, kSmallSide);
   }
   if (depth.empty() || depth.find('x') != std::string_view::npos)
-    throw RequestError(ErrorCode::kBadArguments, "a stack is written as in grey84x84x4 or rgb100x50x4");
+    throw RequestError(
+        ErrorCode::kBadArguments,
+        quote(name) + " is not a stack of screens; accepted: greyWxHxN and rgbWxHxN, such as grey84x84x4");
   name = rgb ? kRgbStack : kGreyStack;
   return stack_of(depth, size_within(width, "the width of a stack", 1, 2 * kScreenWidth),
                   size_within(height, "the height of a stack", kLeastHeight, kMostHeight));
@@ -162,11 +164,13 @@ Field parse_field(std::string_view word) {
   }
   if (!encoded) return {&*row, row->usual, stack, std::move(written)};
   if (row->number)
-    throw RequestError(ErrorCode::kBadArguments, written + " is a number, and has no encoding");
+    throw RequestError(ErrorCode::kBadArguments,
+                       "the field " + written + " is a number, so it takes no encoding");
   const auto chosen = encoding_of(encoding);
   if (!chosen) refuse_name("encoding", encoding, names_of(encodings()));
   if (chosen == Encoding::kDelta && name == kAllAudio)
-    throw RequestError(ErrorCode::kBadArguments, "audio_all has another size in each reply, and no delta");
+    throw RequestError(ErrorCode::kBadArguments,
+                       "the size of audio_all changes from reply to reply, so delta is not accepted");
   return {&*row, *chosen, stack, std::move(written)};
 }
 
@@ -174,10 +178,12 @@ Field parse_field(std::string_view word) {
 void add(std::vector<Field>& fields, Field field) {
   for (const Field& other : fields) {
     if (other.row == field.row)
-      throw RequestError(ErrorCode::kBadArguments, std::string(field.row->name) + " is asked for twice");
-    if (other.stack && field.stack)
       throw RequestError(ErrorCode::kBadArguments,
-                         other.name + " and " + field.name + " are two stacks; there can be one");
+                         "the field " + std::string(field.row->name) + " is given twice");
+    if (other.stack && field.stack)
+      throw RequestError(
+          ErrorCode::kBadArguments,
+          other.name + " and " + field.name + " are two stacks of screens; a session can select one");
   }
   fields.push_back(std::move(field));
 }
@@ -211,7 +217,7 @@ std::vector<Field> parse_fields(Words words) {
   for (const std::string_view word : words) {
     if (word == "none") {
       if (words.size() == 1) break;
-      throw RequestError(ErrorCode::kBadArguments, "none accepts no other field beside it");
+      throw RequestError(ErrorCode::kBadArguments, "none cannot be combined with other fields");
     }
     if (word == "ends") {
       add(fields, parse_field("terminated"));

@@ -168,7 +168,7 @@ void Session::take(const LineReader::Line& line) {
   context_.statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
   if (line.kind == LineReader::Kind::kLine) return execute(line.text);
   if (line.kind == LineReader::Kind::kHalf)
-    throw RequestError(ErrorCode::kHalfLine, "the input ended within a line; it was not carried out");
+    throw RequestError(ErrorCode::kHalfLine, "the input ended within a line; the server did not execute it");
   if (line.kind == LineReader::Kind::kCut) {
     throw RequestError(ErrorCode::kLimit, "the server has no memory for a line of more than " +
                                               std::to_string(input_.capacity()) + " bytes; it was skipped");

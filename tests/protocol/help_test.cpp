@@ -69,7 +69,7 @@ std::multimap<std::string, std::string> all_names() {
       if (!is_topic_or_command(found->str())) add(found->str(), row.arguments);
   }
   add("grey84x4", "a stack of N screens");
-  add("rgb100x50x4", "the same in colour");
+  add("rgb100x50x4", "a stack of N screens, W x H, in colour");
   for (const Command& row : commands()) {
     // NAME of a session, or of a folder
     const bool is_other = row.name == "share" || row.name == "watch" || row.name == "log";
@@ -99,7 +99,7 @@ TEST_CASE("help explains each name of each table, on one line") {
   LineClient client;
   for (const auto& [name, text] : all_names()) {
     INFO(name);
-    if (name == "settings" && text == "the settings in effect")
+    if (name == "settings" && text == "show the settings in effect")
       continue;  // a topic is preferred to the command
     const std::string reply = client.say("help " + name + "\n");
     CHECK_THAT(reply, StartsWith("ok ") && Contains(text));
@@ -157,7 +157,8 @@ TEST_CASE("Similar names are suggested, for every kind of name") {
       {"load beamfall stiky=0", "; did you mean sticky? Accepted: preset"},
       {"load inline imgae=AAAA", "; did you mean image? Accepted: preset"},
       {"load beamfall is=pong", "; did you mean as? Accepted: preset"},
-      {"set mod=1", "'mod' can't be set while a game runs; did you mean mode? Accepted: mode and difficulty"},
+      {"set mod=1",
+       "'mod' cannot be set while a game runs; did you mean mode? Accepted: mode and difficulty"},
       {"set dificulty=1", "; did you mean difficulty? Accepted:"},
       {"load beamfall preset=dqn", "; did you mean dqn2015? It takes paper2013"},
       {"load beamfall rules=fix", "; did you mean fixed? It takes ale-0.12 or fixed"},
@@ -185,7 +186,7 @@ TEST_CASE("A name without similar ones gets the list of names") {
   LineClient client;
   client.ask(kLoad);
   CHECK_THAT(client.ask("xyzzy"), Contains("unknown command 'xyzzy'; accepted: hello help"));
-  CHECK_THAT(client.ask("load plughplugh"), EndsWith("; games lists the available ones"));
+  CHECK_THAT(client.ask("load plughplugh"), EndsWith("; games lists the available games"));
   CHECK(client.ask("restore a") == "error no-state unknown state 'a'; accepted: none");
 }
 

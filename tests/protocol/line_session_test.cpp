@@ -286,7 +286,7 @@ TEST_CASE("Errors name what is accepted") {
   CHECK_THAT(client.ask("open 2 same-step"), Contains("; accepted: autoreset="));
   CHECK_THAT(client.ask("save a b"), Contains("save takes generator="));
   CHECK_THAT(client.ask("hello tok=1"), Contains("hello takes token="));
-  CHECK_THAT(client.ask("observe none reward"), Contains("none accepts no other field"));
+  CHECK_THAT(client.ask("observe none reward"), Contains("none cannot be combined with other fields"));
   CHECK_THAT(client.ask("load updraft as=x"), Contains("games all lists"));
   CHECK_THAT(client.ask("load beamfall rules=x"), Contains("ale-0.12 or fixed"));
   CHECK(client.ask("modes now") == "error bad-arguments modes takes no arguments, not 1: modes");
@@ -299,7 +299,7 @@ TEST_CASE("Names of states and recordings cannot lead out of their folder") {
        {std::string("../a"), std::string("a/b"), std::string("."), std::string(65, 'a')}) {
     CHECK(code(client.ask("save " + name)) == "bad-value");
   }
-  CHECK_THAT(client.ask("save all"), Contains("drop all drops them all"));
+  CHECK_THAT(client.ask("save all"), Contains("drop all deletes all states"));
   CHECK_THAT(client.ask("record gif a"), Contains("--record-dir"));
 }
 

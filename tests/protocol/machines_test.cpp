@@ -165,7 +165,7 @@ TEST_CASE("open names the limit of machines") {
 TEST_CASE("open refuses keys that it does not have, and those of frames with acts") {
   LineClient client;
   client.ask("load beamfall life_loss_ends=1");
-  CHECK(client.ask("open 1 pool=0") == "error bad-arguments pool= goes with steps=frames");
+  CHECK(client.ask("open 1 pool=0") == "error bad-arguments pool= requires steps=frames");
   CHECK(client.ask("open 1 steps=frames") ==
         "error bad-value a step of frames takes only life_loss for the effect of lost lives");
   CHECK(code(client.ask("open 1 steps=halves")) == "bad-value");
@@ -350,7 +350,7 @@ TEST_CASE("Stacks of any size are observed, one at a time") {
        {"grey84x", "grey84x4x", "grey10", "rgb84", "rgb84x4", "grey1x2x3x4", "greyWxHxN"})
     CHECK_FALSE(code(client.ask("observe " + field)).empty());
   CHECK(client.ask("observe grey84x4 rgb20x20x1") ==
-        "error bad-arguments grey84x4 and rgb20x20x1 are two stacks; there can be one");
+        "error bad-arguments grey84x4 and rgb20x20x1 are two stacks of screens; a session can select one");
   CHECK(client.ask("observe grey321x84x1") ==
         "error bad-value the width of a stack is '321'; it takes a whole number from 1 to 320");
   CHECK(client.ask("observe grey84x421x1") ==

@@ -141,7 +141,7 @@ TEST_CASE("Many lists of a branch that end at once are played in slices") {
 TEST_CASE("What is there twice is refused before the words that follow it are read") {
   LineClient client;
   client.ask("load beamfall");
-  CHECK(client.ask("look ram ends ram nonsense") == "error bad-arguments ram is asked for twice");
+  CHECK(client.ask("look ram ends ram nonsense") == "error bad-arguments the field ram is given twice");
   CHECK(client.ask("load beamfall sticky=0 sticky=0 nonsense=1") ==
         "error bad-arguments sticky is given twice");
 }

@@ -4,7 +4,7 @@ export const PROTOCOL: 1;
 /** A group of a reply. Numbers come as numbers, fields that are bytes as Uint8Array, the rest as strings. */
 export type Group = Record<string, any>;
 
-/** Such as { seed: 7, frame_skip: 4, preset: "dqn2015" }. */
+/** Settings of a request, such as { seed: 7, frame_skip: 4, preset: "dqn2015" }. */
 export type Settings = Record<string, string | number | boolean>;
 
 /** An action's name or number, with the marks of the protocol: "FIRE", 3, "UP*10", "5/LEFT@0.5". */
@@ -21,30 +21,30 @@ export interface Branch extends Group {
 export interface Options {
   /** The token of servers that require one. */
   token?: string;
-  /** Milliseconds to wait for a connection, and for each reply. Without it, for ever. */
+  /** Milliseconds to wait for a connection, and for each reply. Default: no limit. */
   timeout?: number;
   /** Options of node:tls, such as { ca }. */
   tls?: import("node:tls").ConnectionOptions;
   /** The class WebSocket for ws:// and wss:// addresses, if the platform lacks it (Node before 22). */
   WebSocket?: unknown;
-  /** Bytes. A server that sends a longer line is taken for broken. */
+  /** The most bytes of a line of a reply. A longer line ends the session. */
   longestReply?: number;
 }
 
 /**
- * A session of the server at an address: tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT, wss://HOST:PORT, unix:PATH, pipes:PREFIX
+ * Opens a session with the server at an address: tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT, wss://HOST:PORT, unix:PATH, pipes:PREFIX
  * (named pipes), stdio (the streams of this process) or file:PATH (the first address in the server's ready file or announce file,
- * with the token of the latter; file:PATH?wait=SECONDS waits for the server). Without one, the variable RACEBEAM_ADDRESS has it.
+ * with the token of the latter; file:PATH?wait=SECONDS waits for the server). Default: the address in the environment variable RACEBEAM_ADDRESS.
  *
  * In a browser: ws://HOST:PORT or wss://HOST:PORT; without an address, the server that the page came from.
  */
 export function connect(address?: string, options?: Options): Promise<Session>;
 
-/** A session with a server that it starts, and that ends with it. Not in a browser. */
+/** Starts a server, and opens a session with it. The server stops when the session ends. Not in a browser. */
 export function launch(settings?: {
-  /** The program racebeam. Without it, that of RACEBEAM_PROGRAM, or of the PATH. */
+  /** The path of the program racebeam. Default: that of RACEBEAM_PROGRAM, else the one on the PATH. */
   program?: string;
-  /** Of `racebeam serve`, such as ["--roms", DIR]. */
+  /** Options of `racebeam serve`, such as ["--roms", DIR]. */
   options?: string[];
   timeout?: number;
   longestReply?: number;
@@ -61,91 +61,117 @@ export class Session {
   disconnect(): Promise<void>;
   [Symbol.asyncDispose](): Promise<void>;
 
-  /** Any request: words, and objects that stand for settings. Returns the groups of the reply. */
+  /** Sends any request: words, and objects that stand for settings. Returns the groups of the reply. */
   request(...parts: (Action | Settings | Action[])[]): Promise<Group[]>;
 
+  /** Explain a command, setting, field, preset, encoding or error code, as a text for people. */
   help(...topic: string[]): Promise<string>;
-  /** What the server knows about one game. */
+  /** Describe a game. */
   game(name: string): Promise<Group>;
   /** Power on with an image and begin an episode. image: the bytes of a cartridge, if the game is "inline". */
   load(game: string, settings?: Settings & { image?: Uint8Array } | Record<string, any>): Promise<Group>;
-  /** Names by number. */
+  /** List the actions that act accepts. Returns their names by number. */
   actions(): Promise<Map<number, string>>;
-  /** Names for bytes of the fields ram, by their indices, and tia, in their order. */
+  /** Name bytes of the fields ram, by their indices, and tia, in their order. */
   names(): Promise<{ ram: Map<number, string>; tia: string[] }>;
   /** The colour of each value of a pixel, 0xAABBGGRR: what a Uint32Array over the bytes of an ImageData takes. */
   palette(): Promise<Uint32Array>;
+  /** Read bytes of RAM. index: the index of the first byte, 0 to 127; count: the number of bytes, by default 1. */
   peek(index: number, count?: number): Promise<Uint8Array>;
+  /** Write bytes of RAM. index: the index of the first byte, 0 to 127. */
   poke(index: number, bytes: Uint8Array | number[]): Promise<void>;
-  /** episode: 1 for the score, the progress of the episode and the stack of screens, too; whole is its old name. */
+  /**
+   * Export a state, for later or for another process.
+   * episode: whether to include the score, the progress of the episode and the stack of screens; whole is its old name
+   */
   exportState(name: string, settings?: { episode?: 0 | 1 | boolean; whole?: 0 | 1 | boolean }): Promise<Uint8Array>;
+  /** Save an exported state under a name. */
   importState(name: string, bytes: Uint8Array): Promise<void>;
-  /** Each list is played from the state. */
+  /**
+   * Play lists of actions from a state; the session itself does not change.
+   * keep: the prefix of names under which the states at the ends of the lists are saved
+   */
   branch(name: string, lists: Action[][], settings?: { keep?: string }): Promise<Branch[]>;
   /**
-   * Saves a picture of the screen as a PNG file. In a browser, offers the file for download under this name.
-   * machine: one of those of open, 0 the first
+   * Save a picture of the screen as a PNG file. In a browser, offer the file for download under this name.
+   * machine: the index of a machine of open, from 0
    */
   savePng(path: string, machine?: number): Promise<void>;
+  /** End the recording. Returns what was kept. */
   stopRecording(): Promise<Group>;
 
   // generated: commands, from protocol/protocol.toml
   /**
-   * The server's name, version and limits.
-   * token: that the server requires
+   * Greet the server; the reply has its name, version and limits.
+   * token: a token that the server accepts
    */
   hello(token?: string | { token?: string }): Promise<Group>;
-  /** List the games whose image is here, or all known games; or describe one. */
+  /**
+   * List the games whose image is here, or all known games; or describe one.
+   * which: all for all known games, or the name of a game to describe
+   */
   games(which?: string): Promise<string[]>;
-  /** The settings in effect. */
+  /** Show the settings in effect. */
   settings(): Promise<Group>;
   /**
    * Change the mode, from the next reset on, or the difficulty, at once.
-   * mode: see modes
-   * difficulty: see difficulties
+   * mode: a number that modes lists
+   * difficulty: a number that difficulties lists
    */
   set(settings?: { mode?: number; difficulty?: number; }): Promise<Group>;
-  /** The game's modes. */
+  /** List the game's modes. */
   modes(): Promise<number[]>;
-  /** The game's difficulties. */
+  /** List the game's difficulties. */
   difficulties(): Promise<number[]>;
   /**
    * Select the fields of replies.
-   * fields: without them, asks for the selection
+   * fields: the fields, such as lives or screen:rle, or none; without them, the selection does not change
    */
   observe(...fields: string[]): Promise<string[]>;
-  /** Show these fields once; without fields, the selected ones. */
+  /**
+   * Show these fields once; without fields, the selected ones.
+   * fields: the fields, such as lives or screen:rle
+   */
   look(...fields: string[]): Promise<Group>;
-  /** Play actions until the episode ends. */
+  /**
+   * Play actions until the episode ends.
+   * actions: names or numbers of actions, also with marks, such as RIGHT*10
+   */
   act(...actions: Action[]): Promise<Group>;
   /**
    * Begin an episode; with a seed, power on anew with it.
-   * seed: powers on anew with it
+   * seed: the seed with which the console is powered on anew, or random
    */
   reset(seed?: number | "random" | { seed?: number | "random" }): Promise<Group>;
   /**
    * Save the state; generator=1: with the random generator.
-   * generator: 1: with the random generator
-   * machine: one of those of open, 0 the first
+   * name: a name for the state
+   * generator: 1: the state includes the random generator
+   * machine: the index of a machine of open, from 0
    */
   save(name: string, settings?: { generator?: 0 | 1 | boolean; machine?: number; random?: 0 | 1 | boolean; }): Promise<void>;
   /**
    * Restore a saved state.
-   * machine: one of those of open, 0 the first
+   * name: the name of the state
+   * machine: the index of a machine of open, from 0
    */
   restore(name: string, machine?: number | { machine?: number }): Promise<Group>;
-  /** Delete states. */
+  /**
+   * Delete states.
+   * names: the names of the states, or all
+   */
   drop(...names: string[]): Promise<void>;
-  /** The names of the states. */
+  /** List the names of the states. */
   states(): Promise<string[]>;
   /**
    * Create N machines with the loaded game and settings; their seeds count up.
+   * count: the number of machines
    * autoreset: what happens at the end of an episode
    * steps: what a step is
-   * start: how an episode begins; with steps=frames
+   * start: how an episode begins; requires steps=frames
    * life_loss: what a lost life does
-   * stack: what a stack of screens begins with; with steps=frames
-   * pool: which frames a stack shows; with steps=frames
+   * stack: what a stack of screens begins with; requires steps=frames
+   * pool: which frames a stack shows; requires steps=frames
    */
   open(count: number, settings?: {
     autoreset?: "next-step" | "disabled" | "same-step";
@@ -156,18 +182,24 @@ export class Session {
     pool?: 0 | 1 | boolean;
     lives?: "ignored" | "told" | "end" | "restart";
   }): Promise<Group[]>;
-  /** Play one act on each machine: an action each, or one for all. */
+  /**
+   * Play one act on each machine: an action each, or one for all.
+   * actions: an action for each machine, or one for all
+   */
   step(...actions: Action[]): Promise<Group[]>;
   /**
    * Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
-   * seed: powers on anew: machine 0 with N, machine 1 with N + 1, and so on
+   * mask: a 0 or a 1 for each machine, such as 0110
+   * seed: the seed with which machine 0 is powered on anew; machine 1 gets the next one, and so on
    */
   restart(mask?: string | Settings, seed?: number | "random" | { seed?: number | "random" }): Promise<Group[]>;
   /** Close the machines. */
   closeMachines(): Promise<void>;
   /**
    * Record frames, sound or both into the server's folder.
-   * machine: one of those of open, 0 the first
+   * kinds: the kinds of files, separated by commas, such as gif,wav
+   * name: a name for the files, without an extension
+   * machine: the index of a machine of open, from 0
    */
   record(kinds: string, name: string, machine?: number | { machine?: number }): Promise<Group>;
   /**
@@ -181,7 +213,7 @@ export class Session {
    * phrase: the phrase that the episodes' seeds follow from, with _ for a blank
    * role: what the agent is
    * link: a page about the agent
-   * machine: one of those of open, 0 the first
+   * machine: the index of a machine of open, from 0
    */
   log(name: string, settings?: {
     agent?: string;
@@ -197,24 +229,27 @@ export class Session {
   /**
    * Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
    * name: a name for the file, without .png
-   * machine: one of those of open, 0 the first
+   * machine: the index of a machine of open, from 0
    */
   shot(name?: string | Settings, machine?: number | { machine?: number }): Promise<Group>;
   /**
    * Let other sessions watch the game under this name.
-   * watchers: how many may watch at the same time
+   * name: a name for the shared session
+   * watchers: the most sessions that may watch at the same time
    */
   share(name: string, watchers?: number | { watchers?: number }): Promise<Group>;
-  /** End what share has begun. */
+  /** Stop sharing the game. */
   unshare(): Promise<void>;
   /** List the shared sessions. */
   shared(): Promise<Group[]>;
   /**
-   * Show a shared session as it was lately.
+   * Show the latest copy of a shared session.
+   * name: the name of the shared session
    * since: the frame of the last reply; the fields come only if there is a newer one
+   * fields: fields among screen, ram and palette, such as screen:delta
    */
   watch(name: string, settings?: { since?: number; }, ...fields: string[]): Promise<Group>;
-  /** Counters of this session. */
+  /** Show counters of this session. */
   stats(): Promise<Group>;
   /** End the session. */
   quit(): Promise<void>;
@@ -242,11 +277,15 @@ export class LostError extends Error {}
 /** The server did not answer in time. */
 export class TimeoutError extends LostError {}
 
-/** The encodings of fields. They throw a RangeError if the text has another form. */
+// Decoders of fields. Each throws a RangeError if the text has another form.
+
+/** Decodes two digits a byte. */
 export function hex(text: string): Uint8Array;
+/** Decodes runs: value and length. */
 export function rle(text: string): Uint8Array;
+/** Decodes base64. */
 export function base64(text: string): Uint8Array;
-/** Not in a browser, where inflating takes a promise. */
+/** Decodes zlib in base64. Not in a browser, where decompression is asynchronous. */
 export function zlib(text: string): Uint8Array;
 /** Changes an array by a delta. */
 export function applyDelta(array: Uint8Array, text: string): void;

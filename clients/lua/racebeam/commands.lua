@@ -39,102 +39,111 @@ local function ints(session, key, ...)
   return found
 end
 
--- The server's name, version and limits.
--- token: that the server requires.
+-- Greet the server; the reply has its name, version and limits.
+-- token: a token that the server accepts.
 function methods:hello(token)
   return first(self, "hello", keyed("token", token))
 end
 
 -- List the games whose image is here, or all known games; or describe one.
+-- which: all for all known games, or the name of a game to describe.
 function methods:games(which)
   return list(self, "games", "games", which or "")
 end
 
--- The settings in effect.
+-- Show the settings in effect.
 function methods:settings()
   return first(self, "settings")
 end
 
 -- Change the mode, from the next reset on, or the difficulty, at once.
--- mode: see modes.
--- difficulty: see difficulties.
+-- mode: a number that modes lists.
+-- difficulty: a number that difficulties lists.
 function methods:set(settings)
   return first(self, "set", settings or "")
 end
 
--- The game's modes.
+-- List the game's modes.
 function methods:modes()
   return ints(self, "modes", "modes")
 end
 
--- The game's difficulties.
+-- List the game's difficulties.
 function methods:difficulties()
   return ints(self, "difficulties", "difficulties")
 end
 
 -- Select the fields of replies.
--- fields: without them, asks for the selection.
+-- fields: the fields, such as lives or screen:rle, or none; without them, the selection does not change.
 function methods:observe(...)
   return list(self, "fields", "observe", ...)
 end
 
 -- Show these fields once; without fields, the selected ones.
+-- fields: the fields, such as lives or screen:rle.
 function methods:look(...)
   return first(self, "look", ...)
 end
 
 -- Play actions until the episode ends.
+-- actions: names or numbers of actions, also with marks, such as RIGHT*10.
 function methods:act(...)
   return first(self, "act", ...)
 end
 
 -- Begin an episode; with a seed, power on anew with it.
--- seed: powers on anew with it.
+-- seed: the seed with which the console is powered on anew, or random.
 function methods:reset(seed)
   return first(self, "reset", keyed("seed", seed))
 end
 
 -- Save the state; generator=1: with the random generator.
--- generator: 1: with the random generator.
--- machine: one of those of open, 0 the first.
+-- name: a name for the state.
+-- generator: 1: the state includes the random generator.
+-- machine: the index of a machine of open, from 0.
 function methods:save(name, settings)
   nothing(self, "save", name, settings or "")
 end
 
 -- Restore a saved state.
--- machine: one of those of open, 0 the first.
+-- name: the name of the state.
+-- machine: the index of a machine of open, from 0.
 function methods:restore(name, machine)
   return first(self, "restore", name, keyed("machine", machine))
 end
 
 -- Delete states.
+-- names: the names of the states, or all.
 function methods:drop(...)
   nothing(self, "drop", ...)
 end
 
--- The names of the states.
+-- List the names of the states.
 function methods:states()
   return list(self, "states", "states")
 end
 
 -- Create N machines with the loaded game and settings; their seeds count up.
+-- count: the number of machines.
 -- autoreset: what happens at the end of an episode.
 -- steps: what a step is.
--- start: how an episode begins; with steps=frames.
+-- start: how an episode begins; requires steps=frames.
 -- life_loss: what a lost life does.
--- stack: what a stack of screens begins with; with steps=frames.
--- pool: which frames a stack shows; with steps=frames.
+-- stack: what a stack of screens begins with; requires steps=frames.
+-- pool: which frames a stack shows; requires steps=frames.
 function methods:open(count, settings)
   return rest(self, "open", count, settings or "")
 end
 
 -- Play one act on each machine: an action each, or one for all.
+-- actions: an action for each machine, or one for all.
 function methods:step(...)
   return rest(self, "step", ...)
 end
 
 -- Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
--- seed: powers on anew: machine 0 with N, machine 1 with N + 1, and so on.
+-- mask: a 0 or a 1 for each machine, such as 0110.
+-- seed: the seed with which machine 0 is powered on anew; machine 1 gets the next one, and so on.
 function methods:restart(mask, seed)
   return rest(self, "restart", mask or "", keyed("seed", seed))
 end
@@ -145,7 +154,9 @@ function methods:close_machines()
 end
 
 -- Record frames, sound or both into the server's folder.
--- machine: one of those of open, 0 the first.
+-- kinds: the kinds of files, separated by commas, such as gif,wav.
+-- name: a name for the files, without an extension.
+-- machine: the index of a machine of open, from 0.
 function methods:record(kinds, name, machine)
   return first(self, "record", kinds, name, keyed("machine", machine))
 end
@@ -160,25 +171,26 @@ end
 -- phrase: the phrase that the episodes' seeds follow from, with _ for a blank.
 -- role: what the agent is.
 -- link: a page about the agent.
--- machine: one of those of open, 0 the first.
+-- machine: the index of a machine of open, from 0.
 function methods:log(name, settings)
   return first(self, "log", name, settings or "")
 end
 
 -- Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
 -- name: a name for the file, without .png.
--- machine: one of those of open, 0 the first.
+-- machine: the index of a machine of open, from 0.
 function methods:shot(name, machine)
   return first(self, "shot", name or "", keyed("machine", machine))
 end
 
 -- Let other sessions watch the game under this name.
--- watchers: how many may watch at the same time.
+-- name: a name for the shared session.
+-- watchers: the most sessions that may watch at the same time.
 function methods:share(name, watchers)
   return first(self, "share", name, keyed("watchers", watchers))
 end
 
--- End what share has begun.
+-- Stop sharing the game.
 function methods:unshare()
   nothing(self, "unshare")
 end
@@ -188,13 +200,15 @@ function methods:shared()
   return rest(self, "shared")
 end
 
--- Show a shared session as it was lately.
+-- Show the latest copy of a shared session.
+-- name: the name of the shared session.
 -- since: the frame of the last reply; the fields come only if there is a newer one.
+-- fields: fields among screen, ram and palette, such as screen:delta.
 function methods:watch(name, settings, ...)
   return first(self, "watch", name, settings or "", ...)
 end
 
--- Counters of this session.
+-- Show counters of this session.
 function methods:stats()
   return first(self, "stats")
 end

@@ -1361,7 +1361,7 @@ class Commands(Exchange):
 
         Args:
             path: Path of the file, on this computer.
-            machine: One of those of open, 0 the first.
+            machine: The index of a machine of open, from 0. Default: the machine of load.
         """
         data = base64.b64decode(self.ask("shot", *key_values(machine=machine))[0]["data"])
         with open(path, "wb") as file:
@@ -1374,13 +1374,14 @@ class Commands(Exchange):
     # generated: commands, from protocol/protocol.toml
 
     def hello(self, token: str | None = None) -> Values:
-        """The server's name, version and limits.
+        """Greet the server; the reply has its name, version and limits.
 
         Args:
-            token: That the server requires.
+            token: A token that the server accepts.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with `server`, `protocol`, `max_line`, `max_machines`, `max_states`, `max_request_frames`,
+            `max_reply`, `max_idle`, `threads`, `recording`, `admitted`, `encodings` and `presets`.
         """
         return self._first("hello", *key_values(token=token))
 
@@ -1388,18 +1389,19 @@ class Commands(Exchange):
         """List the games whose image is here, or all known games; or describe one.
 
         Args:
-            which: `all|GAME` of the request.
+            which: All for all known games, or the name of a game to describe.
 
         Returns:
-            The list of the reply.
+            The list `games` of the reply, as texts.
         """
         return self._list_of("games", "games", *optional_words(which))
 
     def settings(self) -> Values:
-        """The settings in effect.
+        """Show the settings in effect.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with `game`, `md5`, `rule`, `width`, `height` and `format`, and `image` where it applies, and
+            each setting.
         """
         return self._first("settings")
 
@@ -1407,27 +1409,27 @@ class Commands(Exchange):
         """Change the mode, from the next reset on, or the difficulty, at once.
 
         Args:
-            mode: See modes.
-            difficulty: See difficulties.
+            mode: A number that modes lists.
+            difficulty: A number that difficulties lists.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with `mode` and `difficulty`.
         """
         return self._first("set", *key_values(mode=mode, difficulty=difficulty))
 
     def modes(self) -> list[int]:
-        """The game's modes.
+        """List the game's modes.
 
         Returns:
-            The numbers of the reply.
+            The list `modes` of the reply, as numbers.
         """
         return self._ints_of("modes", "modes")
 
     def difficulties(self) -> list[int]:
-        """The game's difficulties.
+        """List the game's difficulties.
 
         Returns:
-            The numbers of the reply.
+            The list `difficulties` of the reply, as numbers.
         """
         return self._ints_of("difficulties", "difficulties")
 
@@ -1435,10 +1437,10 @@ class Commands(Exchange):
         """Select the fields of replies.
 
         Args:
-            *fields: Without them, asks for the selection.
+            *fields: The fields, such as lives or screen:rle, or none; without them, the selection does not change.
 
         Returns:
-            The list of the reply.
+            The list `fields` of the reply, as texts.
         """
         return self._list_of("fields", "observe", *fields)
 
@@ -1446,10 +1448,10 @@ class Commands(Exchange):
         """Show these fields once; without fields, the selected ones.
 
         Args:
-            *fields: `FIELD[:ENCODING]...` of the request.
+            *fields: The fields, such as lives or screen:rle.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with these fields, and `over` where it applies.
         """
         return self._first("look", *fields)
 
@@ -1457,10 +1459,10 @@ class Commands(Exchange):
         """Play actions until the episode ends.
 
         Args:
-            *actions: `A[@STRENGTH][/B[@STRENGTH]][*TIMES]...` of the request.
+            *actions: Names or numbers of actions, also with marks, such as RIGHT*10.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with the selected fields, and `recording_ended`, `log_ended` and `over` where they apply.
         """
         return self._first("act", *actions)
 
@@ -1468,10 +1470,10 @@ class Commands(Exchange):
         """Begin an episode; with a seed, power on anew with it.
 
         Args:
-            seed: Powers on anew with it.
+            seed: The seed with which the console is powered on anew, or random.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with the selected fields.
         """
         return self._first("reset", *key_values(seed=seed))
 
@@ -1485,9 +1487,9 @@ class Commands(Exchange):
         """Save the state; generator=1: with the random generator.
 
         Args:
-            name: `NAME` of the request.
-            generator: 1: with the random generator.
-            machine: One of those of open, 0 the first.
+            name: A name for the state.
+            generator: 1: the state includes the random generator.
+            machine: The index of a machine of open, from 0.
             random: Old name of `generator`.
         """
         self.ask("save", name, *key_values(generator=generator, machine=machine, random=random))
@@ -1496,11 +1498,11 @@ class Commands(Exchange):
         """Restore a saved state.
 
         Args:
-            name: `NAME` of the request.
-            machine: One of those of open, 0 the first.
+            name: The name of the state.
+            machine: The index of a machine of open, from 0.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with the selected fields, and `over` where it applies.
         """
         return self._first("restore", name, *key_values(machine=machine))
 
@@ -1508,15 +1510,15 @@ class Commands(Exchange):
         """Delete states.
 
         Args:
-            *names: `NAME...|all` of the request.
+            *names: The names of the states, or all.
         """
         self.ask("drop", *names)
 
     def states(self) -> list[str]:
-        """The names of the states.
+        """List the names of the states.
 
         Returns:
-            The list of the reply.
+            The list `states` of the reply, as texts.
         """
         return self._list_of("states", "states")
 
@@ -1534,17 +1536,17 @@ class Commands(Exchange):
         """Create N machines with the loaded game and settings; their seeds count up.
 
         Args:
-            count: `N` of the request.
+            count: The number of machines.
             autoreset: What happens at the end of an episode.
             steps: What a step is.
-            start: How an episode begins; with steps=frames.
+            start: How an episode begins; requires steps=frames.
             life_loss: What a lost life does.
-            stack: What a stack of screens begins with; with steps=frames.
-            pool: Which frames a stack shows; with steps=frames.
+            stack: What a stack of screens begins with; requires steps=frames.
+            pool: Which frames a stack shows; requires steps=frames.
             lives: Old name of `life_loss`.
 
         Returns:
-            The values of each group after the first.
+            A dictionary for each machine, with the selected fields.
         """
         return self._rest(
             "open",
@@ -1558,10 +1560,10 @@ class Commands(Exchange):
         """Play one act on each machine: an action each, or one for all.
 
         Args:
-            *actions: `ACTION...` of the request.
+            *actions: An action for each machine, or one for all.
 
         Returns:
-            The values of each group after the first.
+            A dictionary for each machine, with the selected fields, and `over` where it applies.
         """
         return self._rest("step", *actions)
 
@@ -1569,11 +1571,11 @@ class Commands(Exchange):
         """Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
 
         Args:
-            mask: `MASK` of the request.
-            seed: Powers on anew: machine 0 with N, machine 1 with N + 1, and so on.
+            mask: A 0 or a 1 for each machine, such as 0110.
+            seed: The seed with which machine 0 is powered on anew; machine 1 gets the next one, and so on.
 
         Returns:
-            The values of each group after the first.
+            A dictionary for each machine, with the selected fields, and `over` where it applies.
         """
         return self._rest("restart", *optional_words(mask), *key_values(seed=seed))
 
@@ -1585,12 +1587,13 @@ class Commands(Exchange):
         """Record frames, sound or both into the server's folder.
 
         Args:
-            kinds: `png|gif|y4m|wav|webm|mp4[,...` of the request.
-            name: `NAME` of the request.
-            machine: One of those of open, 0 the first.
+            kinds: The kinds of files, separated by commas, such as gif,wav.
+            name: A name for the files, without an extension.
+            machine: The index of a machine of open, from 0.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with `recording`, `recorded`, `frames`, `bytes`, `complete` and `recording_ended` where they
+            apply.
         """
         return self._first("record", kinds, name, *key_values(machine=machine))
 
@@ -1619,10 +1622,11 @@ class Commands(Exchange):
             phrase: The phrase that the episodes' seeds follow from, with _ for a blank.
             role: What the agent is.
             link: A page about the agent.
-            machine: One of those of open, 0 the first.
+            machine: The index of a machine of open, from 0.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with `log`, `unit`, `logged`, `unlogged`, `complete`, `log_ended`, `episode`, `row`, `bytes`
+            and `data` where they apply.
         """
         return self._first(
             "log",
@@ -1645,10 +1649,10 @@ class Commands(Exchange):
 
         Args:
             name: A name for the file, without .png.
-            machine: One of those of open, 0 the first.
+            machine: The index of a machine of open, from 0.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with `width`, `height` and `bytes`, and `picture` and `data` where they apply.
         """
         return self._first("shot", *optional_words(name), *key_values(machine=machine))
 
@@ -1656,44 +1660,46 @@ class Commands(Exchange):
         """Let other sessions watch the game under this name.
 
         Args:
-            name: `NAME` of the request.
-            watchers: How many may watch at the same time.
+            name: A name for the shared session.
+            watchers: The most sessions that may watch at the same time.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with `share` and `watchers`.
         """
         return self._first("share", name, *key_values(watchers=watchers))
 
     def unshare(self) -> None:
-        """End what share has begun."""
+        """Stop sharing the game."""
         self.ask("unshare")
 
     def shared(self) -> list[Values]:
         """List the shared sessions.
 
         Returns:
-            The values of each group after the first.
+            A dictionary for each session, with `name`, `game`, `frame`, `score`, `episode` and `fps`.
         """
         return self._rest("shared")
 
     def watch(self, name: str, *fields: str, since: int | None = None) -> Values:
-        """Show a shared session as it was lately.
+        """Show the latest copy of a shared session.
 
         Args:
-            name: `NAME` of the request.
-            *fields: `FIELD[:ENCODING]...` of the request.
+            name: The name of the shared session.
+            *fields: Fields among screen, ram and palette, such as screen:delta.
             since: The frame of the last reply; the fields come only if there is a newer one.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with these fields, and `game`, `frame`, `score`, `episode`, `over`, `lives`, `reward`, `action`
+            and `height`.
         """
         return self._first("watch", name, *key_values(since=since), *fields)
 
     def stats(self) -> Values:
-        """Counters of this session.
+        """Show counters of this session.
 
         Returns:
-            The values of the first group of the reply.
+            A dictionary with `requests`, `errors`, `acts`, `frames`, `episodes`, `bytes_in`, `bytes_out`, `states` and
+            `machines`.
         """
         return self._first("stats")
 

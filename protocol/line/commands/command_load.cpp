@@ -29,13 +29,13 @@ void add_names(Reply& reply, const Names& names) {
   if (find_game(name)) {
     throw RequestError(ErrorCode::kUnknownGame,
                        "the image of " + std::string(name) +
-                           " is missing; games lists the available ones; load inline takes one");
+                           " is missing; games lists the available games, and load inline accepts an image");
   }
   std::string similar = did_you_mean(name, images.names());
   if (similar.empty()) similar = did_you_mean(name, game_names());
   throw RequestError(
       ErrorCode::kUnknownGame,
-      "unknown game " + quote(name) + ';' + (similar.empty() ? " games lists the available ones" : similar));
+      "unknown game " + quote(name) + ';' + (similar.empty() ? " games lists the available games" : similar));
 }
 
 void add_console(Reply& reply, const Cartridge& cartridge) {
@@ -107,7 +107,7 @@ Cartridge find_cartridge(Context& context, std::string_view name, const LoadWord
   if (name == kInline) {
     cartridge.image = sent_image(context, words);
   } else {
-    if (words.image) throw RequestError(ErrorCode::kBadArguments, "image= goes with load inline");
+    if (words.image) throw RequestError(ErrorCode::kBadArguments, "image= requires load inline");
     const Cartridge* found = context.service.images->find(name);
     if (found == nullptr) refuse_game(*context.service.images, name);
     cartridge = *found;
@@ -210,7 +210,7 @@ void run_set(Context& context, Words arguments, Reply& reply) {
     const std::string_view key = key_value(word).key;
     if (std::ranges::find(kKeysOfSet, key) != kKeysOfSet.end()) continue;
     throw RequestError(ErrorCode::kBadArguments,
-                       quote(key) + " can't be set while a game runs;" +
+                       quote(key) + " cannot be set while a game runs;" +
                            advice(key, kKeysOfSet, "accepted: mode and difficulty; load takes the others"));
   }
   read_settings(arguments, changed);

@@ -204,8 +204,8 @@ void run_log(Context& context, Words arguments, Reply& reply) {
   if (is_stop || is_last) {
     if (arguments.size() > 1)
       throw RequestError(ErrorCode::kBadArguments, quote(arguments[1]) + " is not accepted here; log " +
-                                                       std::string(name) + " stands without words");
-    if (!context.media.log) refuse_log("no episodes are logged; log NAME or log inline begins it");
+                                                       std::string(name) + " takes no further words");
+    if (!context.media.log) refuse_log("no episodes are being logged; log NAME or log inline begins that");
     return is_stop ? stop_log(context, reply) : hand_over(context, reply);
   }
   if (context.media.log) refuse_log("episodes are logged already; log stop ends it");

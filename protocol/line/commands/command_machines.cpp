@@ -84,7 +84,7 @@ OpenSettings read_open_settings(const Context& context, Words words) {
     row->read(settings, value);
   }
   if (settings.slot.steps == Steps::kActs && !of_frames.empty())
-    throw RequestError(ErrorCode::kBadArguments, std::string(of_frames) + "= goes with steps=frames");
+    throw RequestError(ErrorCode::kBadArguments, std::string(of_frames) + "= requires steps=frames");
   if (std::ranges::find(keys, "start") == keys.end())
     settings.slot.fire_at_reset = settings.slot.steps == Steps::kFrames;
   return settings;

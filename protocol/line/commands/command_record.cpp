@@ -155,7 +155,7 @@ void run_record(Context& context, Words arguments, Reply& reply) {
                        "this server does not record; it was started without --record-dir");
   if (context.media.recording)
     throw RequestError(ErrorCode::kRecording,
-                       context.media.recording->names() + " has not been stopped; record stop does it");
+                       context.media.recording->names() + " is still being recorded; record stop ends it");
   const std::string_view name = checked_name(arguments[1], "recording");
   std::optional<std::string_view> machine;
   if (arguments.size() > 2) machine = value_of(arguments[2], "machine", "record");

@@ -17,7 +17,7 @@ void take_token(Context& context, std::string_view word) {
   if (context.peer.admitted) return;
   if (context.service.admission(token)) return void(context.peer.admitted = true);
   context.peer.quitting = ++context.peer.wrong_tokens >= kGuesses;
-  throw RequestError(ErrorCode::kUnauthorized, "that token is not one of this server's");
+  throw RequestError(ErrorCode::kUnauthorized, "the token is not one of this server's tokens");
 }
 
 }  // namespace

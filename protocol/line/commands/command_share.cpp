@@ -44,7 +44,7 @@ constexpr std::size_t kMostSimilar = 256;  // names that are compared: more woul
 std::unique_ptr<Share::Place> place_of(const std::shared_ptr<Share>& share) {
   if (auto place = Share::place(share)) return place;
   throw RequestError(ErrorCode::kLimit, share->name() + " has " + std::to_string(share->most_watchers()) +
-                                            " watchers, as many as it may have");
+                                            " watchers, the most that it allows");
 }
 
 // Makes room for one more name. Names that are no longer shared are forgotten first.
@@ -97,7 +97,9 @@ void run_share(Context& context, Words arguments, Reply& reply) {
   }
   if (context.sharing && context.sharing->share().name() == name) context.sharing.reset();
   auto sharing = Sharing::open(context.service.shares, name, most);
-  if (!sharing) throw RequestError(ErrorCode::kBadValue, "the name " + quote(name) + " is taken");
+  if (!sharing)
+    throw RequestError(ErrorCode::kBadValue,
+                       "another session is shared as " + quote(name) + "; choose another name");
   context.sharing = std::move(sharing);
   reply.add("share", name);
   reply.add("watchers", most);
@@ -105,7 +107,8 @@ void run_share(Context& context, Words arguments, Reply& reply) {
 
 void run_unshare(Context& context, Words, Reply&) {
   if (context.service.share_all)
-    throw RequestError(ErrorCode::kBadValue, "this server shares all sessions (--watch all)");
+    throw RequestError(ErrorCode::kBadValue,
+                       "unshare is not possible: this server shares all sessions (--watch all)");
   context.sharing.reset();
 }
 

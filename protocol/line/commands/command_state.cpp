@@ -52,7 +52,8 @@ void keep(Context& context, std::string_view name, Slot::Saved place) {
 
 std::string_view state_name(std::string_view word) {
   if (word == "all")
-    throw RequestError(ErrorCode::kBadValue, "'all' is not a name for a state: drop all drops them all");
+    throw RequestError(ErrorCode::kBadValue,
+                       "a state cannot be named 'all', because drop all deletes all states");
   return checked_name(word, "state");
 }
 

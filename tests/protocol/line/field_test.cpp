@@ -102,16 +102,18 @@ TEST_CASE("A stack may have each size up to its limits") {
 TEST_CASE("A stack that is not whole is refused with an example, and what begins like one by name") {
   for (const std::string word :
        {"grey84x", "grey83", "grey85x2", "rgb84", "rgb84x4", "grey1x9", "grey1x9x1x1"})
-    CHECK(refusal(word) == "a stack is written as in grey84x84x4 or rgb100x50x4");
+    CHECK(refusal(word) ==
+          "'" + word + "' is not a stack of screens; accepted: greyWxHxN and rgbWxHxN, such as grey84x84x4");
   for (const std::string word : {"greyish", "rgba", "greyWxHxN", "rgbWxHxN", "grey:x84"})
     CHECK_THAT(refusal(word), Contains("unknown ") || Contains("accepted"));
 }
 
 TEST_CASE("A number has no encoding, and bytes have those of the table, without delta for audio_all") {
-  CHECK(refusal("reward:hex") == "reward is a number, and has no encoding");
+  CHECK(refusal("reward:hex") == "the field reward is a number, so it takes no encoding");
   CHECK(refusal("screen:delta audio_all:rle") == "accepted");
   CHECK(refusal("audio:delta") == "accepted");
-  CHECK(refusal("audio_all:delta") == "audio_all has another size in each reply, and no delta");
+  CHECK(refusal("audio_all:delta") ==
+        "the size of audio_all changes from reply to reply, so delta is not accepted");
   CHECK_THAT(refusal("ram:"), Contains("encoding ''") && Contains("hex"));
   CHECK(fields_of("ram:zlib").at(0).encoding == Encoding::kZlib);
   CHECK(fields_of("ram").at(0).encoding == Encoding::kHex);

@@ -283,7 +283,7 @@ TEST_CASE("An invalid log is refused, and leaves nothing") {
   }
   CHECK(code(desk.ask("log a machine=0")) == "no-machines");
   CHECK_THAT(desk.ask("log stop"),
-             Contains("no-log no episodes are logged; log NAME or log inline begins it"));
+             Contains("no-log no episodes are being logged; log NAME or log inline begins that"));
   CHECK(code(desk.ask("log last")) == "no-log");
   CHECK(test::files_in(desk.folder.path("")) == 0);
   CHECK(code(desk.ask("log a")) == "");

@@ -146,7 +146,7 @@ TEST_CASE("An invalid recording is refused, with what is accepted") {
   CHECK(code(studio.ask("record stop")) == "recording");
   CHECK(test::files_in(studio.folder.path("")) == 0);
   CHECK(studio.ask("record gif a machine=1") == "ok recording=a.gif");
-  CHECK_THAT(studio.ask("record gif b"), Contains("a.gif has not been stopped; record stop does it"));
+  CHECK_THAT(studio.ask("record gif b"), Contains("a.gif is still being recorded; record stop ends it"));
 }
 
 TEST_CASE("The frames that begin an episode are not recorded") {

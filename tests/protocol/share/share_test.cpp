@@ -214,7 +214,8 @@ TEST_CASE("share and watch refuse what they cannot do") {
   server.share();
   LineClient other(server.service);
   other.ask(kLoad);
-  CHECK(other.ask("share room") == "error bad-value the name 'room' is taken");
+  CHECK(other.ask("share room") ==
+        "error bad-value another session is shared as 'room'; choose another name");
   for (const auto& name : std::vector<std::string>{"a/b", "a=b", "\"", std::string(65, 'a')})
     CHECK_THAT(other.ask("share " + name), StartsWith("error bad-value the name "));
   CHECK_THAT(other.ask("share " + std::string(64, 'a') + " watchers=1"), StartsWith("ok "));
@@ -233,7 +234,7 @@ TEST_CASE("A shared session has as many watchers as its client allows") {
   CHECK_THAT(server.watcher.ask("watch room"), StartsWith("ok "));
   {
     LineClient other(server.service);
-    CHECK(other.ask("watch room") == "error limit room has 1 watchers, as many as it may have");
+    CHECK(other.ask("watch room") == "error limit room has 1 watchers, the most that it allows");
   }
   server.player.ask("share room2 watchers=1");
   LineClient other(server.service);

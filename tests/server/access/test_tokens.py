@@ -59,7 +59,7 @@ class TestTokens(Folder):
             delays = [0.1, 0.2, 0.4, 0.8, 1.6, 2, 2]  # the longest: half of --handshake
             for number in range(len(delays)):
                 reply = ask(self.connect_from(server, "127.0.0.2"), wrong)
-                assert reply.startswith(b"error unauthorized that token is not")
+                assert reply.startswith(b"error unauthorized the token is not")
                 assert time.monotonic() - start >= sum(delays[: number + 1])
             server.wait_for("client 7: a wrong token from 127.0.0.2, number 7 in a row")
             assert ask(self.connect_from(server, "127.0.0.2"), right).startswith(b"ok ")
@@ -90,7 +90,7 @@ class TestTokens(Folder):
             wire, start = connect_tcp(server.port()), time.monotonic()
             wire.send(3 * wrong)
             for delay in (0.1, 0.1 + 0.2, 0.1 + 0.2 + 0.4):
-                assert wire.line().startswith(b"error unauthorized that token is not")
+                assert wire.line().startswith(b"error unauthorized the token is not")
                 assert time.monotonic() - start >= delay
             assert wire.rest() == b""
             wire.close()

@@ -27,7 +27,7 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * The server's name, version and limits.
+   * Greet the server; the reply has its name, version and limits.
    *
    * @return the first group of the reply
    * @throws IOException if the session has ended
@@ -37,9 +37,9 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * The server's name, version and limits.
+   * Greet the server; the reply has its name, version and limits.
    *
-   * @param token that the server requires
+   * @param token a token that the server accepts
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -60,7 +60,7 @@ public abstract sealed class Commands permits Session {
   /**
    * List the games whose image is here, or all known games; or describe one.
    *
-   * @param which all|GAME
+   * @param which all for all known games, or the name of a game to describe
    * @return the list games of the reply
    * @throws IOException if the session has ended
    */
@@ -69,7 +69,7 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * The settings in effect.
+   * Show the settings in effect.
    *
    * @return the first group of the reply
    * @throws IOException if the session has ended
@@ -91,7 +91,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Change the mode, from the next reset on, or the difficulty, at once.
    *
-   * @param settings mode: see modes; difficulty: see difficulties
+   * @param settings mode: a number that modes lists; difficulty: a number that difficulties lists
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -100,7 +100,7 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * The game's modes.
+   * List the game's modes.
    *
    * @return the list modes of the reply
    * @throws IOException if the session has ended
@@ -110,7 +110,7 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * The game's difficulties.
+   * List the game's difficulties.
    *
    * @return the list difficulties of the reply
    * @throws IOException if the session has ended
@@ -122,7 +122,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Select the fields of replies.
    *
-   * @param fields without them, asks for the selection
+   * @param fields the fields, such as lives or screen:rle, or none; without them, the selection does not change
    * @return the list fields of the reply
    * @throws IOException if the session has ended
    */
@@ -133,7 +133,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Show these fields once; without fields, the selected ones.
    *
-   * @param fields FIELD[:ENCODING]...
+   * @param fields the fields, such as lives or screen:rle
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -144,7 +144,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Play actions until the episode ends.
    *
-   * @param actions A[&#64;STRENGTH][/B[&#64;STRENGTH]][*TIMES]...
+   * @param actions names or numbers of actions, also with marks, such as RIGHT*10
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -165,7 +165,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Begin an episode; with a seed, power on anew with it.
    *
-   * @param seed powers on anew with it
+   * @param seed the seed with which the console is powered on anew, or random
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -176,7 +176,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Save the state; generator=1: with the random generator.
    *
-   * @param name NAME
+   * @param name a name for the state
    * @throws IOException if the session has ended
    */
   public void save(String name) throws IOException {
@@ -186,8 +186,8 @@ public abstract sealed class Commands permits Session {
   /**
    * Save the state; generator=1: with the random generator.
    *
-   * @param name NAME
-   * @param settings generator: 1: with the random generator; machine: one of those of open, 0 the first
+   * @param name a name for the state
+   * @param settings generator: 1: the state includes the random generator; machine: the index of a machine of open, from 0
    * @throws IOException if the session has ended
    */
   public void save(String name, Map<String, ?> settings) throws IOException {
@@ -197,7 +197,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Restore a saved state.
    *
-   * @param name NAME
+   * @param name the name of the state
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -208,8 +208,8 @@ public abstract sealed class Commands permits Session {
   /**
    * Restore a saved state.
    *
-   * @param name NAME
-   * @param machine one of those of open, 0 the first
+   * @param name the name of the state
+   * @param machine the index of a machine of open, from 0
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -220,7 +220,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Delete states.
    *
-   * @param names NAME...|all
+   * @param names the names of the states, or all
    * @throws IOException if the session has ended
    */
   public void drop(String... names) throws IOException {
@@ -228,7 +228,7 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * The names of the states.
+   * List the names of the states.
    *
    * @return the list states of the reply
    * @throws IOException if the session has ended
@@ -240,7 +240,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Create N machines with the loaded game and settings; their seeds count up.
    *
-   * @param count N
+   * @param count the number of machines
    * @return the groups after the first
    * @throws IOException if the session has ended
    */
@@ -251,8 +251,8 @@ public abstract sealed class Commands permits Session {
   /**
    * Create N machines with the loaded game and settings; their seeds count up.
    *
-   * @param count N
-   * @param settings autoreset: what happens at the end of an episode; steps: what a step is; start: how an episode begins; with steps=frames; life_loss: what a lost life does; stack: what a stack of screens begins with; with steps=frames; pool: which frames a stack shows; with steps=frames
+   * @param count the number of machines
+   * @param settings autoreset: what happens at the end of an episode; steps: what a step is; start: how an episode begins; requires steps=frames; life_loss: what a lost life does; stack: what a stack of screens begins with; requires steps=frames; pool: which frames a stack shows; requires steps=frames
    * @return the groups after the first
    * @throws IOException if the session has ended
    */
@@ -263,7 +263,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Play one act on each machine: an action each, or one for all.
    *
-   * @param actions ACTION...
+   * @param actions an action for each machine, or one for all
    * @return the groups after the first
    * @throws IOException if the session has ended
    */
@@ -284,7 +284,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
    *
-   * @param seed powers on anew: machine 0 with N, machine 1 with N + 1, and so on
+   * @param seed the seed with which machine 0 is powered on anew; machine 1 gets the next one, and so on
    * @return the groups after the first
    * @throws IOException if the session has ended
    */
@@ -295,7 +295,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
    *
-   * @param mask MASK
+   * @param mask a 0 or a 1 for each machine, such as 0110
    * @return the groups after the first
    * @throws IOException if the session has ended
    */
@@ -306,8 +306,8 @@ public abstract sealed class Commands permits Session {
   /**
    * Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
    *
-   * @param mask MASK
-   * @param seed powers on anew: machine 0 with N, machine 1 with N + 1, and so on
+   * @param mask a 0 or a 1 for each machine, such as 0110
+   * @param seed the seed with which machine 0 is powered on anew; machine 1 gets the next one, and so on
    * @return the groups after the first
    * @throws IOException if the session has ended
    */
@@ -327,8 +327,8 @@ public abstract sealed class Commands permits Session {
   /**
    * Record frames, sound or both into the server's folder.
    *
-   * @param kinds png|gif|y4m|wav|webm|mp4[,...
-   * @param name NAME
+   * @param kinds the kinds of files, separated by commas, such as gif,wav
+   * @param name a name for the files, without an extension
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -339,9 +339,9 @@ public abstract sealed class Commands permits Session {
   /**
    * Record frames, sound or both into the server's folder.
    *
-   * @param kinds png|gif|y4m|wav|webm|mp4[,...
-   * @param name NAME
-   * @param machine one of those of open, 0 the first
+   * @param kinds the kinds of files, separated by commas, such as gif,wav
+   * @param name a name for the files, without an extension
+   * @param machine the index of a machine of open, from 0
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -364,7 +364,7 @@ public abstract sealed class Commands permits Session {
    * Log the episodes from the next reset on, so that anybody can verify them.
    *
    * @param name a name for the submission, or inline; last answers with the last log, and stop ends logging
-   * @param settings agent: the agent's name (default: agent); version: the agent's version (default: 1); agent_seed: the agent's seed (default: 0); trial: the number of the trial (default: 1); training_frames: frames that the agent was trained on (default: 0); phrase: the phrase that the episodes' seeds follow from, with _ for a blank; role: what the agent is; link: a page about the agent; machine: one of those of open, 0 the first
+   * @param settings agent: the agent's name (default: agent); version: the agent's version (default: 1); agent_seed: the agent's seed (default: 0); trial: the number of the trial (default: 1); training_frames: frames that the agent was trained on (default: 0); phrase: the phrase that the episodes' seeds follow from, with _ for a blank; role: what the agent is; link: a page about the agent; machine: the index of a machine of open, from 0
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -385,7 +385,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
    *
-   * @param machine one of those of open, 0 the first
+   * @param machine the index of a machine of open, from 0
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -408,7 +408,7 @@ public abstract sealed class Commands permits Session {
    * Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
    *
    * @param name a name for the file, without .png
-   * @param machine one of those of open, 0 the first
+   * @param machine the index of a machine of open, from 0
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -419,7 +419,7 @@ public abstract sealed class Commands permits Session {
   /**
    * Let other sessions watch the game under this name.
    *
-   * @param name NAME
+   * @param name a name for the shared session
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -430,8 +430,8 @@ public abstract sealed class Commands permits Session {
   /**
    * Let other sessions watch the game under this name.
    *
-   * @param name NAME
-   * @param watchers how many may watch at the same time
+   * @param name a name for the shared session
+   * @param watchers the most sessions that may watch at the same time
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -440,7 +440,7 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * End what share has begun.
+   * Stop sharing the game.
    *
    * @throws IOException if the session has ended
    */
@@ -459,10 +459,10 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * Show a shared session as it was lately.
+   * Show the latest copy of a shared session.
    *
-   * @param name NAME
-   * @param fields FIELD[:ENCODING]...
+   * @param name the name of the shared session
+   * @param fields fields among screen, ram and palette, such as screen:delta
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -471,11 +471,11 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * Show a shared session as it was lately.
+   * Show the latest copy of a shared session.
    *
-   * @param name NAME
+   * @param name the name of the shared session
    * @param since the frame of the last reply; the fields come only if there is a newer one
-   * @param fields FIELD[:ENCODING]...
+   * @param fields fields among screen, ram and palette, such as screen:delta
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
@@ -484,7 +484,7 @@ public abstract sealed class Commands permits Session {
   }
 
   /**
-   * Counters of this session.
+   * Show counters of this session.
    *
    * @return the first group of the reply
    * @throws IOException if the session has ended
