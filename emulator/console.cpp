@@ -174,7 +174,7 @@ std::shared_ptr<const FrameBuffer> Console::with_pixels(std::shared_ptr<FrameBuf
   return picture;
 }
 
-void Console::rest() {
+void Console::release_caches() {
   impl_->spare = {};
   impl_->board.tia.forget_lines();
 }

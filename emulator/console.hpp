@@ -73,7 +73,7 @@ class Console {
 
   // Releases caches that only make drawing faster, half of a console's memory. For a console that will not
   // run for a while; the next frames allocate them again.
-  void rest();
+  void release_caches();
 
   // A picture of a saved state with its pixels: the same buffer, or a drawn copy.
   std::shared_ptr<const FrameBuffer> with_pixels(std::shared_ptr<FrameBuffer> picture) const;

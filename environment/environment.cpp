@@ -114,7 +114,7 @@ void Environment::watch(std::function<void()> each_frame) { impl_->each_frame = 
 void Environment::set_drawing(Drawing drawing) { impl_->drawing = drawing; }
 Drawing Environment::drawing() const { return impl_->drawing; }
 
-void Environment::rest() { impl_->console.rest(); }
+void Environment::release_caches() { impl_->console.release_caches(); }
 
 void Environment::reset_game() { impl_->reset(); }
 

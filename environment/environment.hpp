@@ -87,7 +87,7 @@ class Environment {
 
   // Releases the caches of drawing, about 40 KiB, or 80 KiB if objects flicker, of a machine that will not
   // act for a while. The next frames allocate them again.
-  void rest();
+  void release_caches();
 
   // Sets the function that is called after each frame of an act, but not of a reset, for example to record
   // it. An empty function stops the calls.

@@ -39,7 +39,7 @@ bool LineSession::refused() const { return session_->refused(); }
 int LineSession::wrong_tokens() const { return session_->context().peer.wrong_tokens; }
 bool LineSession::finished() const { return session_->finished(); }
 void LineSession::cancel() { session_->cancel(); }
-void LineSession::rest() { session_->rest(); }
+void LineSession::release_caches() { session_->release_caches(); }
 
 std::string LineSession::summary() const {
   const Statistics& all = session_->context().statistics;

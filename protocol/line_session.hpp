@@ -54,7 +54,7 @@ class LineSession {
   bool refused() const;      // ended by an error, with LineService::strict
   bool finished() const;     // there will be no more replies: send the output, then close
   void cancel();             // the client has disconnected: the request in progress is cancelled
-  void rest();               // releases caches; called when no request has come for a while
+  void release_caches();     // called when no request has come for a while
 
   std::string summary() const;  // for the log: what was played
  private:

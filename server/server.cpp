@@ -42,15 +42,15 @@ class Server {
  private:
   void start();
   void open_http();
-  void tell_limits() const;       // writes the limits to the log
+  void log_limits() const;
   int files_for_clients() const;  // throws std::runtime_error if no file is left
   void publish();                 // writes the ready file and the announce file
   std::string announcement() const;
-  Task<> obey();  // handles signals
+  Task<> handle_signals();
   Task<> stop_when_idle();
   void stop(const std::string& reason);  // `reason` is for the log
   Task<> wind_down();                    // waits for the grace period, then ends all sessions
-  Task<> look_again();
+  Task<> wait_for_next_check();
   Task<> end_with_recordings();
   bool sessions_ended() const;
   bool all_ended() const;
@@ -72,7 +72,8 @@ class Server {
   std::shared_ptr<Recorder> recorder_;  // null: recording is off
   std::list<StreamSession> streams_;
   std::unique_ptr<Http> http_;
-  bool told_to_stop_ = false, patient_ = true;
+  bool stopping_ = false;           // after a signal, or after --until-idle
+  bool graceful_ = true;            // until the second one, which ends the grace period
   std::string reason_;              // why the server stops; empty once it is logged
   Clock::time_point grace_;         // the end of the grace period, once the server is told to stop
   std::atomic<bool> ready_ = true;  // for /readyz
@@ -100,7 +101,7 @@ Server::Server(const ServerSettings& settings, const Services& services)
   if (!settings.http.empty()) http_ = std::make_unique<Http>(first_, parse_host_and_port(settings.http));
 }
 
-void Server::tell_limits() const {
+void Server::log_limits() const {
   log("threads: " + std::to_string(settings_.threads) + ", limited by " + settings_.threads_limited_by,
       {{"event", "threads"}});
   if (!settings_.sessions_limited_by.empty()) {
@@ -145,13 +146,14 @@ void Server::publish() {
 }
 
 void Server::start() {
-  if (!acceptor_.empty()) tell_limits();
+  if (!acceptor_.empty()) log_limits();
   if (!acceptor_.empty() || http_) acceptor_.open(files_for_clients());
   if (http_) open_http();
   idle_monitor_.start();
   for (StreamSession& stream : streams_) {
     stream.start([this] {
-      insist([this] { keep_running(first_, "the end", [this] { return end_with_recordings(); }); });
+      retry_until_memory(
+          [this] { keep_running(first_, "the end", [this] { return end_with_recordings(); }); });
     });
   }
   publish();  // may throw
@@ -170,7 +172,7 @@ void Server::open_http() {
 
 int Server::run() {
   loops_.start();  // first, so that a client that reads that the server is ready finds a thread
-  keep_running(first_, "handling signals", [this] { return obey(); });
+  keep_running(first_, "handling signals", [this] { return handle_signals(); });
   if (settings_.until_idle_seconds > 0)
     keep_running(first_, "looking for sessions", [this] { return stop_when_idle(); });
   start();
@@ -178,13 +180,13 @@ int Server::run() {
   return status();
 }
 
-Task<> Server::obey() {
+Task<> Server::handle_signals() {
   for (;;) {
     const int number = co_await signals_.async_wait(use_task);
     if (number == reading_signal()) {
       access_.read_again();
-    } else if (told_to_stop_) {
-      patient_ = false;
+    } else if (stopping_) {
+      graceful_ = false;
     } else {
       stop("told to stop");
     }
@@ -204,27 +206,27 @@ Task<> Server::stop_when_idle() {
     if (metrics_.admitted_open > 0 || !streams_ended() || admitted != counted) used = Clock::now();
     counted = admitted;
   }
-  if (!told_to_stop_) stop("no session for " + std::to_string(settings_.until_idle_seconds) + " seconds");
+  if (!stopping_) stop("no session for " + std::to_string(settings_.until_idle_seconds) + " seconds");
 }
 
 // Does not fail, since the signal that asks the server to stop may not come again.
 void Server::stop(const std::string& reason) {
   grace_ = Clock::now() + std::chrono::seconds(settings_.grace_seconds);
-  insist([&] {
+  retry_until_memory([&] {
     reason_ = reason;
     keep_running(first_, "the end", [this] { return wind_down(); });
   });
-  told_to_stop_ = true;
+  stopping_ = true;
 }
 
-Task<> Server::look_again() { return pause(first_, kBetweenSteps); }
+Task<> Server::wait_for_next_check() { return pause(first_, kBetweenSteps); }
 
 // Ends the server after the last session. Unless the server is told to stop, recordings take as long as they
 // need.
 Task<> Server::end_with_recordings() {
   if (!sessions_ended()) co_return;
-  while (!all_ended()) co_await look_again();
-  if (!told_to_stop_) loops_.stop();
+  while (!all_ended()) co_await wait_for_next_check();
+  if (!stopping_) loops_.stop();
 }
 
 // Sessions on streams have no grace period: their client is the one that stops the server.
@@ -239,20 +241,21 @@ Task<> Server::wind_down() {
         {{"event", "stopping"}});
     reason_.clear();
   }
-  for (; !all_ended() && patient_ && Clock::now() < grace_; co_await look_again()) stop_streams(false);
+  for (; !all_ended() && graceful_ && Clock::now() < grace_; co_await wait_for_next_check())
+    stop_streams(false);
   idle_monitor_.end_all();
   const auto farewell = Clock::now() + kFarewell;
-  for (; !all_ended() && Clock::now() < farewell; co_await look_again()) stop_streams(true);
+  for (; !all_ended() && Clock::now() < farewell; co_await wait_for_next_check()) stop_streams(true);
   // Waits for connections that are being closed while their last bytes are sent.
   const auto last = Clock::now() + kLastBytes;
-  while (loops_.sessions() > 0 && Clock::now() < last) co_await look_again();
+  while (loops_.sessions() > 0 && Clock::now() < last) co_await wait_for_next_check();
   loops_.stop();
 }
 
 bool Server::all_ended() const { return sessions_ended() && (!recorder_ || recorder_->idle()); }
 
 bool Server::sessions_ended() const {
-  return streams_ended() && (told_to_stop_ || acceptor_.empty()) && metrics_.sessions_open == 0;
+  return streams_ended() && (stopping_ || acceptor_.empty()) && metrics_.sessions_open == 0;
 }
 
 void Server::stop_streams(bool at_once) {
@@ -264,7 +267,7 @@ bool Server::streams_ended() const {
 }
 
 int Server::status() const {
-  if (told_to_stop_) return 0;
+  if (stopping_) return 0;
   for (const StreamSession& stream : streams_) {
     if (stream.status() != 0) return stream.status();
   }

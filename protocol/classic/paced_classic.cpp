@@ -33,8 +33,8 @@ void PacedClassic::answer() {
 // If the saved states exceed the memory budget, the oldest one is dropped, because the protocol has no
 // errors.
 void PacedClassic::account() {
-  rests_ = memory_.is_short();
-  if (rests_) machine_->rest();
+  caches_released_ = memory_.is_short();
+  if (caches_released_) machine_->release_caches();
   const std::size_t bytes = footprint();
   if (bytes <= memory_.bytes()) {
     memory_.set(bytes);
@@ -46,14 +46,14 @@ void PacedClassic::account() {
 std::size_t PacedClassic::footprint() const {
   constexpr std::size_t kSession = std::size_t{64} << 10, kState = std::size_t{96} << 10;
   constexpr std::size_t kResting = std::size_t{100} << 10;
-  const std::size_t machine = rests_ ? kResting : MachineMemory::kMost;
+  const std::size_t machine = caches_released_ ? kResting : MachineMemory::kMost;
   return kSession + machine + session_->saved_states() * kState;
 }
 
-void PacedClassic::rest() {
+void PacedClassic::release_caches() {
   if (!machine_ || !session_) return;
-  machine_->rest();
-  rests_ = true;
+  machine_->release_caches();
+  caches_released_ = true;
   memory_.set(footprint());
 }
 

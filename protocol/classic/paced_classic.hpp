@@ -47,7 +47,7 @@ class PacedClassic {
   void received(std::size_t count) { session_->received(count); }
   int take_frames() { return session_ ? session_->take_frames() : 0; }
   const Environment& machine() const { return *machine_; }  // after check_machine()
-  void rest();                       // releases caches; called when no request has come for a while
+  void release_caches();                                    // called when no request has come for a while
   void leave() { pacer_.cancel(); }  // the destructor, on any thread, only frees memory then
   std::size_t bytes() const { return memory_.bytes(); }
 
@@ -60,8 +60,8 @@ class PacedClassic {
   MemoryShare memory_;
   std::optional<Environment> machine_;  // powered on by the first slices
   std::optional<ClassicSession> session_;
-  bool rests_ = false;     // the machine has released its caches
-  bool is_ready_ = false;  // reply() has a result
+  bool caches_released_ = false;  // the machine has released its caches
+  bool is_ready_ = false;         // reply() has a result
   std::optional<std::string_view> reply_;
   std::exception_ptr failure_;
   std::chrono::steady_clock::duration worked_{};

@@ -204,7 +204,7 @@ std::size_t Encoder::footprint() const {
   return before_.capacity() + (deflater_ ? deflater_->footprint() : 0);
 }
 
-void Encoder::rest() { deflater_.reset(); }
+void Encoder::release_caches() { deflater_.reset(); }
 
 void Encoder::append(std::string& out, Bytes bytes, std::string& raw, const BetweenPieces& pause) {
   switch (encoding_) {

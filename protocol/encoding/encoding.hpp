@@ -55,7 +55,7 @@ class Encoder {
 
   Encoding encoding() const { return encoding_; }
   std::size_t footprint() const;  // bytes of memory
-  void rest();                    // releases memory that the next value can allocate again
+  void release_caches();          // releases memory that the next value can allocate again
   // Writes a value into the line `out`. `raw` gets the bytes that follow the line, with kRaw. Only a stack of
   // screens is so long that it is written in several pieces.
   void append(std::string& out, std::span<const std::uint8_t> bytes, std::string& raw,

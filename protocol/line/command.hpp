@@ -28,7 +28,7 @@ struct Command {
   bool has_old;  // old words among its arguments (old_words.hpp)
 
   // Writes the reply, which begins with "ok". Throws RequestError. It runs as the body of context.pacer: long
-  // work is suspended between frames, or where it calls breathe().
+  // work is suspended between frames, or where it calls yield_if_due().
   void (*run)(Context& context, Words arguments, Reply& reply);
 
   // The keys of replies: "KEY:TYPE KEY?:TYPE", where ? marks an optional key.

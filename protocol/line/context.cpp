@@ -77,8 +77,8 @@ void Context::stop_recording_machines() {
   if (media.log && !media.log->shows(loaded)) media.log.reset();
 }
 
-void Context::spoil_log(std::string why) {
-  if (media.log && media.log->shows(game.loaded->slot())) media.log->spoil(std::move(why));
+void Context::drop_log(std::string why) {
+  if (media.log && media.log->shows(game.loaded->slot())) media.log->drop_log(std::move(why));
 }
 
 void Context::run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const {
@@ -104,9 +104,9 @@ void Context::publish() {
   sharing->share().publish(std::move(snapshot), statistics.frames);
 }
 
-void Context::rest() {
-  if (game.loaded) game.loaded->rest();
-  machines.rest();
+void Context::release_caches() {
+  if (game.loaded) game.loaded->release_caches();
+  machines.release_caches();
   discard(scratch.actions, scratch.actions.capacity() * sizeof(Action));
   std::vector<Act>().swap(scratch.acts);
 }

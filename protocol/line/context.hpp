@@ -94,13 +94,13 @@ class Context {
   // Ends a recording or a log of machines of `open` before they are destroyed.
   void stop_recording_machines();
   // Spoils the log of the loaded machine's episode, which something other than acts changed.
-  void spoil_log(std::string why);
+  void drop_log(std::string why);
   void run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
 
   // These act on the session, not on a request:
   void publish();                 // to watchers
   void leave();                   // ends everything that other sessions can see
-  void rest();                    // releases what the next request can make again
+  void release_caches();          // releases what the next request can make again
   bool waits_for_disk() const;    // a recording has no room for another frame
   std::size_t footprint() const;  // bytes of memory
 };

@@ -247,7 +247,7 @@ View::View(std::vector<Field> fields, BetweenPieces pause)
   for (const Field& field : fields_) encoders_.emplace_back(field.encoding);
 }
 
-std::size_t View::most_held(const std::vector<Field>& fields) {
+std::size_t View::max_footprint(const std::vector<Field>& fields) {
   constexpr std::size_t kDeflater = std::size_t{300} << 10;
   std::size_t bytes = 0;
   for (const Field& field : fields) {
@@ -267,8 +267,8 @@ std::size_t View::footprint() const {
   return bytes;
 }
 
-void View::rest() {
-  for (Encoder& encoder : encoders_) encoder.rest();
+void View::release_caches() {
+  for (Encoder& encoder : encoders_) encoder.release_caches();
   std::vector<std::uint8_t>().swap(scratch_);
 }
 

@@ -56,9 +56,10 @@ class View {
   // `pause` is called in the middle of long values.
   explicit View(std::vector<Field> fields, BetweenPieces pause = {});
 
-  static std::size_t most_held(const std::vector<Field>& fields);  // bytes of memory that it may come to hold
-  std::size_t footprint() const;                                   // bytes that it holds
-  void rest();  // releases memory that the next reply can allocate again
+  static std::size_t max_footprint(
+      const std::vector<Field>& fields);  // bytes of memory that it may come to hold
+  std::size_t footprint() const;          // bytes that it holds
+  void release_caches();                  // releases memory that the next reply can allocate again
   // Bytes of memory for the fields in the longest reply about any machine.
   static std::size_t longest_text(const std::vector<Field>& fields);
 

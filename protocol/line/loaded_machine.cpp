@@ -48,18 +48,18 @@ void LoadedMachine::allow_actions() {
     allowed_b_.set(index(action));
 }
 
-std::size_t LoadedMachine::most_held(const std::vector<Field>& fields) {
-  return MachineMemory::kMost + View::most_held(fields);
+std::size_t LoadedMachine::max_footprint(const std::vector<Field>& fields) {
+  return MachineMemory::kMost + View::max_footprint(fields);
 }
 
-void LoadedMachine::rest() {
-  memory_.rest(slot_);
-  view_.rest();
+void LoadedMachine::release_caches() {
+  memory_.release_caches(slot_);
+  view_.release_caches();
 }
 
 void LoadedMachine::observe(std::vector<Field> fields) {
   racebeam::observe(slot_, fields);
-  view_ = View(std::move(fields), [&pacer = pacer_] { pacer.breathe(); });
+  view_ = View(std::move(fields), [&pacer = pacer_] { pacer.yield_if_due(); });
 }
 
 }  // namespace racebeam

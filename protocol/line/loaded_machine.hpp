@@ -32,12 +32,12 @@ class LoadedMachine {
   AllowedActions allowed() const { return {machine().game().name, allowed_, allowed_b_}; }
 
   // Bytes of memory that a machine with these fields may come to hold.
-  static std::size_t most_held(const std::vector<Field>& fields);
+  static std::size_t max_footprint(const std::vector<Field>& fields);
   // Bytes that this machine holds. Its view counts with at least `least_of_view` of them.
   std::size_t footprint(std::size_t least_of_view = 0) const {
     return memory_.held(slot_) + std::max(view_.footprint(), least_of_view);
   }
-  void rest();  // releases caches
+  void release_caches();
 
   void observe(std::vector<Field> fields);
   void append_view(std::string& out, std::string& raw) { view_.append(out, raw, slot_); }

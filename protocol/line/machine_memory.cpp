@@ -9,8 +9,8 @@ constexpr std::size_t kMachine = std::size_t{14} << 10;  // without pictures and
 
 }  // namespace
 
-void MachineMemory::rest(Slot& slot) {
-  slot.environment().rest();
+void MachineMemory::release_caches(Slot& slot) {
+  slot.environment().release_caches();
   rested_ = frame_of(slot);
 }
 

@@ -15,7 +15,7 @@ class MachineMemory {
  public:
   explicit MachineMemory(const Slot& slot) : first_frame_(frame_of(slot)) {}
 
-  void rest(Slot& slot);                     // releases caches
+  void release_caches(Slot& slot);
   std::size_t held(const Slot& slot) const;  // bytes
 
   static constexpr std::size_t kMost = std::size_t{240} << 10;  // of a machine whose objects do not flicker

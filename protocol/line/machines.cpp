@@ -105,17 +105,17 @@ void Machines::observe(const std::vector<Field>& fields) {
   for (std::size_t number = 0; number < size(); ++number) {
     racebeam::observe(opened_->vector.slot(number), fields);
     opened_->host.observe(number, fields);
-    context_.pacer.breathe();
+    context_.pacer.yield_if_due();
   }
 }
 
-void Machines::rest() {
+void Machines::release_caches() {
   if (empty()) return;
   const std::size_t bytes = opened_->host.held();
   for (std::size_t number = 0; number < size(); ++number) {
     Seat& seat = opened_->host.seat(number);
-    seat.memory->rest(slot(number));
-    seat.view->rest();
+    seat.memory->release_caches(slot(number));
+    seat.view->release_caches();
   }
   auto texts = opened_->host.take_texts();
   context_.discard(texts, bytes);
@@ -127,7 +127,7 @@ std::size_t Machines::check(const std::vector<Field>& fields, std::size_t count,
   const std::size_t once = text_size(fields, context_.game.loaded->machine());
   const std::size_t reply = count * (autoreset == Autoreset::kSameStep ? 2 * once : once);
   context_.check_reply(reply, std::to_string(count) + " machines with these fields");
-  context_.memory.check(count * (sizeof(Seat) + LoadedMachine::most_held(fields)) + 2 * reply,
+  context_.memory.check(count * (sizeof(Seat) + LoadedMachine::max_footprint(fields)) + 2 * reply,
                         std::to_string(count) + " machines with these fields");
   return reply;
 }
@@ -205,14 +205,15 @@ void Machines::add_texts(Reply& reply) {
       out += seat->text;
       more += seat->raw;
     });
-    context_.pacer.breathe();
+    context_.pacer.yield_if_due();
   }
 }
 
 // Long values are written in the machine's own work, or in that of a request about only this machine.
 void Machines::Host::observe(std::size_t number, const std::vector<Field>& fields) {
-  seats_[number]->view.emplace(
-      fields, [this, &own = seats_[number]->pacer] { (own.in_progress() ? own : context_.pacer).breathe(); });
+  seats_[number]->view.emplace(fields, [this, &own = seats_[number]->pacer] {
+    (own.in_progress() ? own : context_.pacer).yield_if_due();
+  });
 }
 
 std::size_t Machines::Host::held() const {

@@ -34,8 +34,8 @@ class Machines {
   std::size_t number_of(std::string_view text) const;
   void add_view(std::size_t number, Reply& reply);  // what this machine shows
   void observe(const std::vector<Field>& fields);   // may throw RequestError, and changes nothing then
-  void rest();                                      // releases caches
-  std::size_t footprint() const;                    // bytes of memory
+  void release_caches();
+  std::size_t footprint() const;  // bytes of memory
 
   // Each writes its reply. All may throw RequestError; `open` then keeps the machines that
   // were there.

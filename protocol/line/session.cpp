@@ -63,7 +63,7 @@ bool Session::run(std::chrono::microseconds slice) {
   if (!context_.pacer.in_progress()) began_ = begin;
   bool more = true;
   for (bool late = false; more && !late && !done_ && !pauses() && !waits(); late = looked_ >= end)
-    more = go_on(end);
+    more = resume(end);
   worked_ = looked_ - begin;
   return more && !done_;
 }
@@ -85,9 +85,9 @@ bool Session::pauses() const {
 bool Session::waits() const { return context_.pacer.in_progress() && context_.waits_for_disk(); }
 
 // Works on a request until `end`. Returns false if it can only wait for more input.
-bool Session::go_on(Clock::time_point end) {
+bool Session::resume(Clock::time_point end) {
   if (context_.pacer.in_progress()) {
-    guarded([&] { context_.pacer.go_on(end); });
+    guarded([&] { context_.pacer.resume(end); });
   } else {
     const auto line = next_line();
     if (!line) {
@@ -199,7 +199,7 @@ void Session::read_words(std::string_view line) {
   words_.clear();
   for (auto word = next_word(line); !word.empty(); word = next_word(line)) {
     words_.push_back(word);
-    if (words_.size() % kWordsBetweenLooks == 0) context_.pacer.breathe();
+    if (words_.size() % kWordsBetweenLooks == 0) context_.pacer.yield_if_due();
   }
 }
 
@@ -248,7 +248,7 @@ std::size_t Session::footprint() const {
   if (reply < kLongReply) reply = 0;
   std::size_t bytes = kSession + std::max(reply, reply_.capacity()) + input_.capacity() +
                       context_.footprint() + words_.capacity() * sizeof(std::string_view);
-  if (game.loaded) bytes += game.loaded->footprint(reply > 0 ? View::most_held(context_.fields) : 0);
+  if (game.loaded) bytes += game.loaded->footprint(reply > 0 ? View::max_footprint(context_.fields) : 0);
   return bytes;
 }
 
@@ -272,7 +272,7 @@ void Session::cancel() {
   done_ = true;
 }
 
-void Session::rest() {
+void Session::release_caches() {
   if (context_.pacer.in_progress()) return;
   // Watchers see where a session has paused.
   if (context_.game.loaded && context_.sharing) context_.publish();
@@ -283,7 +283,7 @@ void Session::rest() {
 void Session::release() {
   // A request may wait until its client reads. Its words are in use.
   if (context_.pacer.in_progress()) return;
-  context_.rest();
+  context_.release_caches();
   if (reply_.text().empty()) context_.discard(reply_.text_memory());
   context_.discard(reply_.raw_memory());
   std::vector<std::string_view>().swap(words_);

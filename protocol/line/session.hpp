@@ -40,14 +40,14 @@ class Session {
   bool refused() const { return context_.service.strict && context_.statistics.errors > 0; }
   void cancel();
   void leave() { context_.leave(); }  // the destructor, on any thread, only frees memory then
-  void rest();
+  void release_caches();
 
  private:
   using Clock = Pacer::Clock;
 
   bool has_enough() const;
   bool pauses() const;
-  bool go_on(Clock::time_point end);
+  bool resume(Clock::time_point end);
   std::optional<LineReader::Line> next_line();
   bool ignores(const LineReader::Line& line);
   void begin_request();

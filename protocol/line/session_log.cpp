@@ -52,7 +52,7 @@ SessionLog::SessionLog(Order order, const PlaySettings& settings, std::shared_pt
 
 SessionLog::~SessionLog() { slot_.set_watcher(nullptr); }
 
-void SessionLog::spoil(std::string why) {
+void SessionLog::drop_log(std::string why) {
   if (!is_playing_) return;
   is_playing_ = false;
   std::vector<std::uint8_t>().swap(actions_);
@@ -103,24 +103,25 @@ void SessionLog::began() {
   const Environment& machine = slot_.environment();
   const std::uint32_t seed = machine.settings().random_seed;
   if (!order_.phrase.empty() && seed != seed_of_phrase_now())
-    return spoil("its seed is " + std::to_string(seed) + "; the phrase gives " +
-                 std::to_string(seed_of_phrase_now()));
+    return drop_log("its seed is " + std::to_string(seed) + "; the phrase gives " +
+                    std::to_string(seed_of_phrase_now()));
   if (seed == 0 || seed > kMostSeed)
-    return spoil("its seed is " + std::to_string(seed) + "; a log takes 1 to " + std::to_string(kMostSeed));
+    return drop_log("its seed is " + std::to_string(seed) + "; a log takes 1 to " +
+                    std::to_string(kMostSeed));
   if (const std::string words = words_without_seed(settings_, machine); words != first_settings_)
-    spoil("its settings are '" + words + "'; those of the log are '" + first_settings_ + "'");
+    drop_log("its settings are '" + words + "'; those of the log are '" + first_settings_ + "'");
 }
 
 void SessionLog::leave() {
-  if (account_.decisions() > 0) spoil("it was left before its end");
+  if (account_.decisions() > 0) drop_log("it was left before its end");
 }
 
 void SessionLog::played(const Act& act, int frames) {
   if (!is_playing_) return;
-  if (act.b != Act{}.b) return spoil("player B acted in it; a log has the actions of player A");
+  if (act.b != Act{}.b) return drop_log("player B acted in it; a log has the actions of player A");
   const bool turns = act.strength_a != Act{}.strength_a || !strengths_.empty();
   if (const int most = turns ? kMostTurns : kMostDecisions; account_.decisions() >= most)
-    return spoil("it has more than " + std::to_string(most) + (turns ? " acts with strengths" : " acts"));
+    return drop_log("it has more than " + std::to_string(most) + (turns ? " acts with strengths" : " acts"));
   if (turns) {
     strengths_.resize(actions_.size(), Act{}.strength_a);
     strengths_.push_back(act.strength_a);
@@ -154,7 +155,7 @@ void SessionLog::finish_episode() {
 // Waits for the log before it, so that one log at a time is in memory beside the last.
 void SessionLog::write(EpisodeLog log) {
   await(pacer_);
-  if (writer_->cut()) return spoil("the logs before it have reached a limit, or the disk is full");
+  if (writer_->cut()) return drop_log("the logs before it have reached a limit, or the disk is full");
   const auto charge = std::make_shared<MemoryShare>(memory_);
   charge->set(3 * size_of(log));  // itself, its contents as text, and these deflated
   writer_->add(std::move(log), charge);

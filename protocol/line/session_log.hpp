@@ -50,7 +50,7 @@ class SessionLog final : public SlotWatcher {
   LogWriter* writer() { return writer_.get(); }
   const Counts& counts() const { return counts_; }
   void watch() { slot_.set_watcher(this); }  // again
-  void spoil(std::string why);               // the episode, which has no log then
+  void drop_log(std::string why);            // the episode, which has no log then
   void leave();                              // the episode, before its end
 
   // The last episode that ended. Throws RequestError if no episode has ended, or the last one lacks a log.
@@ -64,7 +64,7 @@ class SessionLog final : public SlotWatcher {
   std::uint32_t next_seed() override;
   void began() override;
   void played(const Act& act, int frames) override;
-  void restored() override { spoil("a state was restored in it"); }
+  void restored() override { drop_log("a state was restored in it"); }
 
  private:
   void finish_episode();

@@ -44,7 +44,7 @@ void Watched::choose(const std::vector<Field>& fields, int height) {
   height_ = height;
   encoders_.clear();
   for (const Field& field : fields) encoders_.emplace_back(field.encoding);
-  footprint_ = View::most_held(fields);
+  footprint_ = View::max_footprint(fields);
 }
 
 void Watched::append(std::string& out, std::string& raw, const std::vector<Field>& fields,

@@ -25,7 +25,7 @@ struct Fiber::Run {
     done = true;
   }
 
-  bool go_on() {  // returns whether the body has returned
+  bool resume() {  // returns whether the body has returned
     context.enter();
     return done;
   }
@@ -46,7 +46,7 @@ bool Fiber::start(void (*body)(void*), void* context) {
 }
 
 bool Fiber::resume() {
-  if (!run_->go_on()) return false;
+  if (!run_->resume()) return false;
   const std::exception_ptr failure = std::exchange(run_, nullptr)->failure;
   if (failure) std::rethrow_exception(failure);
   return true;
@@ -61,7 +61,7 @@ void Fiber::suspend() {
 void Fiber::cancel() {
   if (!run_) return;
   run_->cancelled = true;
-  while (!run_->go_on()) continue;
+  while (!run_->resume()) continue;
   run_.reset();
 }
 

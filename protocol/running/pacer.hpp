@@ -24,7 +24,7 @@ class Pacer final : public Pace {
     end_ = end;
     return in_progress() ? fiber_.resume() : fiber_.start(std::move(body));
   }
-  bool go_on(Clock::time_point end) {
+  bool resume(Clock::time_point end) {
     end_ = end;
     return fiber_.resume();
   }
@@ -38,11 +38,11 @@ class Pacer final : public Pace {
 
   void frame() override {
     count(1);
-    if (--frames_before_look_ <= 0) look();
+    if (--frames_before_look_ <= 0) check_clock();
   }
 
   // Suspends the body if its slice is over: for loops that take long without running frames.
-  void breathe() {
+  void yield_if_due() {
     if (Clock::now() >= end_) pause();
   }
 
@@ -65,7 +65,7 @@ class Pacer final : public Pace {
  private:
   static constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
 
-  void look() {
+  void check_clock() {
     const auto now = Clock::now();
     frames_before_look_ = now - looked_ < tuning::kLongBetweenLooks ? tuning::kFramesBetweenLooks : 1;
     looked_ = now;

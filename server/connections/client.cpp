@@ -23,11 +23,11 @@ Client::Client(Socket connection, Loop& home, std::string who, const std::shared
 Client::~Client() { --loop.sessions; }
 
 void Client::enter_loop() { loop.clients.insert(this); }
-void Client::left() { loop.clients.erase(this); }
+void Client::leave_loop() { loop.clients.erase(this); }
 
 void Client::received(std::size_t bytes) {
   const auto answered = active_;
-  is_active();
+  mark_active();
   quick_ = loop.busy.received_after(active_ - answered);
   loop.meter.bytes_in.add(static_cast<std::int64_t>(bytes));
 }
@@ -38,14 +38,14 @@ void Client::begin_sending(std::size_t bytes) {
 }
 
 void Client::sent(std::size_t bytes) {
-  is_active();
+  mark_active();
   unsent_ -= std::min(unsent_, bytes);
   loop.meter.bytes_out.add(static_cast<std::int64_t>(bytes));
   if (quick_) loop.busy.begin();
 }
 
-void Client::rest() {
-  if (on_rest && !std::exchange(rests_, true)) on_rest();
+void Client::release_caches() {
+  if (on_idle && !std::exchange(caches_released_, true)) on_idle();
 }
 
 void Client::end(ErrorCode code, const std::string& sentence) {

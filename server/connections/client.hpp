@@ -33,11 +33,11 @@ class Client {
   Client& operator=(const Client&) = delete;
 
   void enter_loop();  // adds this client to the loop's clients
-  void left();
+  void leave_loop();
 
-  void is_active() {
+  void mark_active() {
     active_ = Clock::now();
-    rests_ = false;
+    caches_released_ = false;
   }
   void received(std::size_t bytes);
   void sent(std::size_t bytes);
@@ -60,11 +60,11 @@ class Client {
   Clock::time_point sends_since() const { return sends_since_; }  // while there are unsent bytes
 
   // The client is idle. In each pause, the first call makes the session release its caches.
-  void rest();
-  std::function<void()> on_rest;  // empty if the session has no caches
+  void release_caches();
+  std::function<void()> on_idle;  // empty if the session has no caches
 
-  Clock::time_point came() const { return came_; }
-  Clock::time_point active() const { return active_; }  // when bytes were last received or sent
+  Clock::time_point connected_at() const { return connected_at_; }
+  Clock::time_point last_active() const { return active_; }  // when bytes were last received or sent
 
   Socket socket;
   Loop& loop;
@@ -82,8 +82,8 @@ class Client {
   MemoryShare carrier_;
   std::size_t unsent_ = 0;
   Clock::time_point sends_since_{};
-  Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};
-  bool rests_ = false;
+  Clock::time_point connected_at_ = Clock::now(), active_ = connected_at_, ended_{};
+  bool caches_released_ = false;
   bool quick_ = false;  // its next request came at once
   ErrorCode code_{};
   std::string farewell_, reason_;

@@ -24,7 +24,7 @@ using boost::system::error_code;
 using namespace std::chrono_literals;
 
 // Waits for the session's turn on its loop.
-Task<> take_turn(Client& client) {
+Task<> wait_for_turn(Client& client) {
   client.working = true;
   co_await client.loop.turns.wait(client.loop.context, client.usage);
   client.working = false;
@@ -35,7 +35,7 @@ Task<> work(Client& client, PacedClassic& session) {
   Turns& turns = client.loop.turns;
   DisconnectDetector detector;
   for (bool done = false; !done;) {
-    if (!turns.may_work(client.usage)) co_await take_turn(client);
+    if (!turns.may_work(client.usage)) co_await wait_for_turn(client);
     if (client.ending()) throw std::runtime_error("closed: " + client.reason());
     done = session.work(turns.slice());
     turns.worked(client.usage, session.worked());
@@ -97,8 +97,8 @@ Task<> serve_connection(Stream& stream, Client& client, LineSession& session, Me
   };
   bool piece = false;
   for (;;) {
-    if (!turns.may_work(client.usage)) co_await take_turn(client);
-    if (client.ending()) co_await take_leave(stream, client);
+    if (!turns.may_work(client.usage)) co_await wait_for_turn(client);
+    if (client.ending()) co_await send_farewell(stream, client);
     Next next = loop.work(run);
     if (session.admitted()) count_admission(client, metrics);
     if (client.token_attempts) co_await delay_requests(client, update_admission(client, session, metrics));
@@ -123,12 +123,12 @@ Task<> serve_connection(Stream& stream, Client& client, LineSession& session, Me
 template <typename Stream>
 Task<> play(Stream& stream, Client& client, const ClassicService& service, Metrics& metrics) {
   count_admission(client, metrics);
-  ClassicPlace place(service, client.memory());
-  PacedClassic& session = place.session();
+  ClassicSessionScope scope(service, client.memory());
+  PacedClassic& session = scope.session();
   co_await work(client, session);
   session.check_machine();
   log(client.name + ": " + describe(session.machine()), {{"client", client.name}, {"event", "came"}});
-  const Resting resting(client, [&session] { session.rest(); });
+  const CacheRelease release(client, [&session] { session.release_caches(); });
   co_await serve_connection(stream, client, session, metrics);
 }
 
@@ -136,7 +136,7 @@ template <typename Stream>
 Task<> play(Stream& stream, Client& client, const LineService& service, Metrics& metrics) {
   LineSession session(service, &client.loop.meter, client.memory());
   log(client.name + ": came", {{"client", client.name}, {"event", "came"}});
-  const Resting resting(client, [&session] { session.rest(); });
+  const CacheRelease release(client, [&session] { session.release_caches(); });
   co_await serve_connection(stream, client, session, metrics);
   log(client.name + ": " + session.summary(), {{"client", client.name}, {"event", "left"}});
 }
@@ -159,7 +159,7 @@ Task<> play_over_http(ByteStream stream, Client& client, const Service& service,
   co_await socket.accept(*carrier.request);
   carrier.request.reset();
   client.greeted = true;
-  socket.on_control([&client] { client.is_active(); });
+  socket.on_control([&client] { client.mark_active(); });
   ++metrics.sessions_line;
   co_await play(socket, client, std::get<LineService>(service), metrics);
   co_await socket.leave({}, client.admitted ? CloseCode::kNormal : CloseCode::kPolicyViolation);
@@ -198,7 +198,7 @@ Task<> play_over_tls(std::shared_ptr<Client> client, const Service& service, Car
 Task<> serve_connection(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
                         Metrics& metrics) {
   try {
-    const Presence presence(*client);
+    const LoopMembership membership(*client);
     if (carrier.tls) {
       co_await play_over_tls(client, service, carrier, metrics);
     } else {
@@ -209,7 +209,7 @@ Task<> serve_connection(std::shared_ptr<Client> client, const Service& service, 
   }
   client->open.reset();
   client->admitted_open.reset();
-  co_await close_gently(client);
+  co_await lingering_close(client);
 }
 
 }  // namespace racebeam

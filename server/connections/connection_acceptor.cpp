@@ -177,7 +177,7 @@ void ConnectionAcceptor::open(int most_connections) {
   max_connections_ = std::min(most_connections, settings_.max_connections);
   for (Listener& listener : listeners_) {
     keep_running(loops_.first().context, "accepting clients on " + listener.name(),
-                 [this, &listener] { return welcome(listener); });
+                 [this, &listener] { return accept_clients(listener); });
     log("listening on " + listener.described(), {{"event", "listening"}, {"address", listener.full_name()}});
   }
 }
@@ -187,10 +187,10 @@ void ConnectionAcceptor::close() {
   for (Listener& listener : listeners_) listener.close();
 }
 
-Task<> ConnectionAcceptor::welcome(Listener& listener) {
+Task<> ConnectionAcceptor::accept_clients(Listener& listener) {
   bool failed = false;  // the last attempt failed, and the log says so
   while (!closed_) {
-    Loop& loop = loops_.idlest();
+    Loop& loop = loops_.least_loaded();
     error_code error;
     Socket socket =
         co_await listener.acceptor().async_accept(loop.context, net::redirect_error(use_task, error));
@@ -209,7 +209,7 @@ Task<> ConnectionAcceptor::welcome(Listener& listener) {
 
 // If there are too many sessions, closes the oldest one without a token. That session ends as soon as its
 // loop handles the event.
-std::optional<std::string> ConnectionAcceptor::obstacle(const Service& service) {
+std::optional<std::string> ConnectionAcceptor::reason_to_refuse(const Service& service) {
   if (!has_memory_for_one_more(service)) return "the server's sessions hold all the memory that they may";
   if (loops_.sessions() > max_connections_) return "the server may open no more files";
   if (metrics_.sessions_open < settings_.max_sessions) return std::nullopt;
@@ -227,25 +227,25 @@ void ConnectionAcceptor::admit(Socket socket, Loop& loop, Listener& listener) {
   if (endpoint.tls) carrier.tls = access_.tls()->context();
   if (endpoint.web) carrier.site = &access_.site();
   const Service& service = service_of(listener);
-  receive(std::make_shared<Client>(std::move(socket), loop, std::move(name), memory_of(service),
-                                   carrier_bytes(endpoint)),
-          service, std::move(carrier), endpoint);
+  admit_when_memory_allows(std::make_shared<Client>(std::move(socket), loop, std::move(name),
+                                                    memory_of(service), carrier_bytes(endpoint)),
+                           service, std::move(carrier), endpoint);
 }
 
 void ConnectionAcceptor::admit_over_http(Socket socket, HttpRequest request, const std::string& address) {
-  Loop& idlest = loops_.idlest();
-  Loop& loop = has_moved(socket, idlest) ? idlest : loops_.first();
+  Loop& least_loaded = loops_.least_loaded();
+  Loop& loop = has_moved(socket, least_loaded) ? least_loaded : loops_.first();
   set_options(socket);
   std::string name = address + " client " + std::to_string(++from_http_);
   const Endpoint endpoint{TcpAddress(), false, false, true};
   const Service& service = access_.guarded();
-  receive(std::make_shared<Client>(std::move(socket), loop, std::move(name), memory_of(service),
-                                   carrier_bytes(endpoint)),
-          service, Carrier{nullptr, &access_.site(), std::move(request)}, endpoint);
+  admit_when_memory_allows(std::make_shared<Client>(std::move(socket), loop, std::move(name),
+                                                    memory_of(service), carrier_bytes(endpoint)),
+                           service, Carrier{nullptr, &access_.site(), std::move(request)}, endpoint);
 }
 
-void ConnectionAcceptor::receive(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
-                                 const Endpoint& endpoint) {
+void ConnectionAcceptor::admit_when_memory_allows(std::shared_ptr<Client> client, const Service& service,
+                                                  Carrier carrier, const Endpoint& endpoint) {
   if (has_memory_for_one_more(service) || waiting_ >= kMostWaiting)
     admit(std::move(client), service, std::move(carrier), endpoint);
   else
@@ -258,7 +258,7 @@ void ConnectionAcceptor::receive(std::shared_ptr<Client> client, const Service& 
 Task<> ConnectionAcceptor::admit_after_relief(std::shared_ptr<Client> client, const Service& service,
                                               Carrier carrier, Endpoint endpoint) {
   const Waiting place(waiting_);
-  const auto end = client->came() + kReliefTimeout;
+  const auto end = client->connected_at() + kReliefTimeout;
   while (!has_memory_for_one_more(service) && Clock::now() < end)
     co_await pause(loops_.first().context, kBetweenChecks);
   if (!closed_) admit(std::move(client), service, std::move(carrier), endpoint);
@@ -267,13 +267,13 @@ Task<> ConnectionAcceptor::admit_after_relief(std::shared_ptr<Client> client, co
 void ConnectionAcceptor::admit(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
                                const Endpoint& endpoint) {
   auto& context = client->loop.context;
-  if (const auto why = obstacle(service)) {
+  if (const auto why = reason_to_refuse(service)) {
     ++metrics_.refused_busy;
     log_warning(client->name + ": refused, " + *why);
     client->end(ErrorCode::kBusy, *why + "; try again later");
     std::string text = refusal(endpoint, *client);
-    const bool gently = loops_.sessions() <= max_connections_;
-    spawn(context, turn_away(std::move(client), std::move(text), gently));
+    const bool lingering = loops_.sessions() <= max_connections_;
+    spawn(context, refuse_connection(std::move(client), std::move(text), lingering));
     return;
   }
   client->open.emplace(metrics_.sessions_open);

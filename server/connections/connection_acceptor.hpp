@@ -43,12 +43,12 @@ class ConnectionAcceptor {
   void listen_inherited(const Endpoint& endpoint, const std::string& name);
   void check(const Listener& listener) const;  // throws unless it is safe
   const Service& service_of(const Listener& listener) const;
-  Task<> welcome(Listener& listener);
+  Task<> accept_clients(Listener& listener);
   // Returns why there cannot be one more session; nothing if there can.
-  std::optional<std::string> obstacle(const Service& service);
+  std::optional<std::string> reason_to_refuse(const Service& service);
   // Admits the client at once, or after memory has been freed for it. Runs on the first loop's thread.
-  void receive(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
-               const Endpoint& endpoint);
+  void admit_when_memory_allows(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
+                                const Endpoint& endpoint);
   Task<> admit_after_relief(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
                             Endpoint endpoint);
   void admit(std::shared_ptr<Client> client, const Service& service, Carrier carrier,

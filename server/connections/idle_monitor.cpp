@@ -26,7 +26,7 @@ std::string why_not_admitted(const Client& client, int handshake_seconds) {
 
 void IdleMonitor::start() {
   for (Loop& loop : loops_.all())
-    keep_running(loop.context, "looking after sessions", [this, &loop] { return look_after(loop); });
+    keep_running(loop.context, "looking after sessions", [this, &loop] { return monitor(loop); });
 }
 
 void IdleMonitor::end_all() {
@@ -40,35 +40,35 @@ void IdleMonitor::end_all() {
   }
 }
 
-Task<> IdleMonitor::look_after(Loop& loop) {
+Task<> IdleMonitor::monitor(Loop& loop) {
   net::steady_timer timer(loop.context);
   MemoryRelief relief(loops_.all().size());
   for (;;) {
     timer.expires_after(tuning::kBetweenIdleLooks);
     co_await timer.async_wait(use_task);
-    for (Client* client : loop.clients) look_at(*client);
-    metrics_.ended_busy += relief.look_at(loop.clients);
-    if (&loop == &loops_.first()) heap_keeper_.look_at(metrics_.sessions_open);
+    for (Client* client : loop.clients) check(*client);
+    metrics_.ended_busy += relief.relieve(loop.clients);
+    if (&loop == &loops_.first()) heap_keeper_.update(metrics_.sessions_open);
     write_log();
   }
 }
 
-void IdleMonitor::look_at(Client& client) {
+void IdleMonitor::check(Client& client) {
   const auto now = Clock::now();
   const auto idle = seconds(settings_.idle_seconds), handshake = seconds(settings_.handshake_seconds);
   if (client.ending()) {
     client.end(ErrorCode::kIdle, {});  // disconnects the client, if it has had time to read the error
-  } else if (!client.admitted && now - client.came() > handshake) {
+  } else if (!client.admitted && now - client.connected_at() > handshake) {
     ++metrics_.ended_handshake;
     client.end(ErrorCode::kUnauthorized, why_not_admitted(client, settings_.handshake_seconds));
   } else if (client.working) {
     return;
-  } else if (idle > 0s && now - client.active() > idle) {
+  } else if (idle > 0s && now - client.last_active() > idle) {
     ++metrics_.ended_idle;
     client.end(ErrorCode::kIdle,
                "nothing came or went for " + std::to_string(settings_.idle_seconds) + " seconds");
-  } else if (now - client.active() > tuning::kIdlePause) {
-    client.rest();
+  } else if (now - client.last_active() > tuning::kIdlePause) {
+    client.release_caches();
   }
 }
 

@@ -18,8 +18,8 @@ class IdleMonitor {
   void end_all();  // ends all sessions because the server stops
 
  private:
-  Task<> look_after(Loop& loop);
-  void look_at(Client& client);
+  Task<> monitor(Loop& loop);
+  void check(Client& client);
 
   const ServerSettings& settings_;
   Loops& loops_;

@@ -15,7 +15,7 @@ CloseTimer::CloseTimer(const std::shared_ptr<Client>& client) : timer_(client->s
   });
 }
 
-Task<> close_gently(std::shared_ptr<Client> client) {
+Task<> lingering_close(std::shared_ptr<Client> client) {
   error_code error;
   client->socket.shutdown(Socket::shutdown_send, error);
   const CloseTimer timer(client);
@@ -25,10 +25,10 @@ Task<> close_gently(std::shared_ptr<Client> client) {
   }
 }
 
-Task<> turn_away(std::shared_ptr<Client> client, std::string text, bool gently) {
+Task<> refuse_connection(std::shared_ptr<Client> client, std::string text, bool lingering) {
   error_code ignored;
   if (!text.empty()) client->socket.write_some(net::buffer(text), ignored);
-  if (gently) co_await close_gently(client);
+  if (lingering) co_await lingering_close(client);
 }
 
 }  // namespace racebeam

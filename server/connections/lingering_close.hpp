@@ -18,11 +18,12 @@ class CloseTimer {
   boost::asio::steady_timer timer_;
 };
 
-// Closing a socket with unread input would make the system discard output that the client has not read yet.
-Task<> close_gently(std::shared_ptr<Client> client);
+// Closes the sending end, and reads until the client closes its end. Closing a socket with unread input would
+// make the system discard output that the client has not read yet.
+Task<> lingering_close(std::shared_ptr<Client> client);
 
-// Closes the connection, after a last text, which may be empty. `gently`: waits for the client's end, so that
-// the text is certain to arrive.
-Task<> turn_away(std::shared_ptr<Client> client, std::string text, bool gently);
+// Sends a last text, which may be empty, and closes the connection. lingering: closes it by
+// lingering_close(), so that the text is certain to arrive.
+Task<> refuse_connection(std::shared_ptr<Client> client, std::string text, bool lingering);
 
 }  // namespace racebeam

@@ -28,7 +28,7 @@ Burden burden_of(const Client& client, Clock::time_point now) {
   const MemoryBudget& session = *client.memory();
   const MemoryBudget& owner = *session.whole();
   if (!holds_the_mean(session) || !holds_the_mean(owner)) return Burden::kNone;
-  if (!client.working && now - client.active() > kLongPause) return Burden::kIdle;
+  if (!client.working && now - client.last_active() > kLongPause) return Burden::kIdle;
   // An owner whose busy sessions hold most of the memory loses some of them, so that others have room.
   return owner.crowds_others_out() ? Burden::kActive : Burden::kNone;
 }
@@ -48,13 +48,13 @@ Client* most_burdensome(const std::unordered_set<Client*>& clients, Clock::time_
   return found;
 }
 
-int MemoryRelief::look_at(const std::unordered_set<Client*>& clients) {
+int MemoryRelief::relieve(const std::unordered_set<Client*>& clients) {
   if (clients.empty() || (*clients.begin())->memory() == nullptr) return 0;
   const MemoryBudget& all = (*clients.begin())->memory()->all();
   const auto now = Clock::now();
   if (!all.is_short()) return was_short_ = false, 0;
   for (Client* client : clients) {
-    if (!client->working && now - client->active() > kPause) client->rest();
+    if (!client->working && now - client->last_active() > kPause) client->release_caches();
   }
   if (!std::exchange(was_short_, true)) return 0;  // sessions take a moment to release their caches
   int ended = 0;

@@ -16,7 +16,7 @@ class MemoryRelief {
 
   // The caller calls it a few times a second, on the thread of the loop that has the clients. Returns how
   // many sessions it has ended.
-  int look_at(const std::unordered_set<Client*>& clients);
+  int relieve(const std::unordered_set<Client*>& clients);
 
  private:
   const std::size_t loops_;

@@ -12,24 +12,26 @@
 namespace racebeam {
 
 // The client is one of its loop's clients.
-class Presence {
+class LoopMembership {
  public:
-  explicit Presence(Client& client) : client_(client) { client.enter_loop(); }
-  ~Presence() { client_.left(); }
-  Presence(const Presence&) = delete;
-  Presence& operator=(const Presence&) = delete;
+  explicit LoopMembership(Client& client) : client_(client) { client.enter_loop(); }
+  ~LoopMembership() { client_.leave_loop(); }
+  LoopMembership(const LoopMembership&) = delete;
+  LoopMembership& operator=(const LoopMembership&) = delete;
 
  private:
   Client& client_;
 };
 
 // The session releases its caches in a pause.
-class Resting {
+class CacheRelease {
  public:
-  Resting(Client& client, std::function<void()> rest) : client_(client) { client_.on_rest = std::move(rest); }
-  ~Resting() { client_.on_rest = nullptr; }
-  Resting(const Resting&) = delete;
-  Resting& operator=(const Resting&) = delete;
+  CacheRelease(Client& client, std::function<void()> release) : client_(client) {
+    client_.on_idle = std::move(release);
+  }
+  ~CacheRelease() { client_.on_idle = nullptr; }
+  CacheRelease(const CacheRelease&) = delete;
+  CacheRelease& operator=(const CacheRelease&) = delete;
 
  private:
   Client& client_;
@@ -37,17 +39,17 @@ class Resting {
 
 // A session of the classic protocol. It may leave thousands of states, which `disposal` of the service
 // destroys.
-class ClassicPlace {
+class ClassicSessionScope {
  public:
-  ClassicPlace(const ClassicService& service, const std::shared_ptr<MemoryBudget>& memory)
+  ClassicSessionScope(const ClassicService& service, const std::shared_ptr<MemoryBudget>& memory)
       : disposal_(service.disposal), session_(std::make_unique<PacedClassic>(service, memory)) {}
-  ~ClassicPlace() {
+  ~ClassicSessionScope() {
     session_->leave();
     const std::size_t bytes = session_->bytes();
     dispose(disposal_, nullptr, bytes, std::move(session_));
   }
-  ClassicPlace(const ClassicPlace&) = delete;
-  ClassicPlace& operator=(const ClassicPlace&) = delete;
+  ClassicSessionScope(const ClassicSessionScope&) = delete;
+  ClassicSessionScope& operator=(const ClassicSessionScope&) = delete;
 
   PacedClassic& session() { return *session_; }
 

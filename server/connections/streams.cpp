@@ -24,7 +24,7 @@ constexpr int kRefused = 1;     // the first error of a strict session
 class StreamSession::Conversation {
  public:
   virtual ~Conversation() = default;
-  virtual int hold(BlockingPair& streams, const Halt& halt) = 0;  // returns the exit status
+  virtual int run(BlockingPair& streams, const Halt& halt) = 0;  // returns the exit status
   virtual std::string description() const = 0;
 };
 
@@ -73,7 +73,7 @@ class StreamSession::LineConversation final : public Conversation {
     session_.set_columns(columns);
   }
 
-  int hold(BlockingPair& streams, const Halt& halt) override {
+  int run(BlockingPair& streams, const Halt& halt) override {
     using Next = SessionLoop::Next;
     SessionLoop loop(session_);
     for (;;) {
@@ -91,7 +91,7 @@ class StreamSession::LineConversation final : public Conversation {
         session_.received(count);
         continue;
       }
-      if (halt.all) return say_farewell(streams), 0;
+      if (halt.all) return send_farewell(streams), 0;
       if (streams.reader_left()) return client_gone(halt);
       if (next == Next::kPause) std::this_thread::sleep_for(1ms);
     }
@@ -102,7 +102,7 @@ class StreamSession::LineConversation final : public Conversation {
 
  private:
   // Sends a last error. Called in the middle of a request whose reply has not begun.
-  void say_farewell(BlockingPair& streams) {
+  void send_farewell(BlockingPair& streams) {
     ++metrics_.ended_stopping;
     streams.write_at_once("error stopping the server stops\n");
   }
@@ -119,7 +119,7 @@ class StreamSession::ClassicConversation final : public Conversation {
     session_.check_machine();
   }
 
-  int hold(BlockingPair& streams, const Halt& halt) override {
+  int run(BlockingPair& streams, const Halt& halt) override {
     try {
       return converse(streams, halt) ? 0 : client_gone(halt);
     } catch (const ClassicError& error) {
@@ -201,7 +201,7 @@ void StreamSession::stop(bool at_once) {
 void StreamSession::serve() {
   const Counted open(metrics_.sessions_open);
   try {
-    if (!halt_.all && connect()) status_ = conversation_->hold(streams_, halt_);
+    if (!halt_.all && connect()) status_ = conversation_->run(streams_, halt_);
   } catch (const std::exception& error) {
     log(LogLevel::kError, error.what());
     status_ = 1;

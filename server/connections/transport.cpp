@@ -80,16 +80,16 @@ Task<std::size_t> receive(WebSocket& stream, Client& client, std::span<char> spa
 }
 
 template <typename Stream>
-Task<> take_leave(Stream& stream, Client& client) {
+Task<> send_farewell(Stream& stream, Client& client) {
   error_code ignored;
   co_await net::async_write(stream, net::buffer(client.farewell()), net::redirect_error(use_task, ignored));
   throw std::runtime_error("closed: " + client.reason());
 }
 
-template Task<> take_leave(Socket&, Client&);
-template Task<> take_leave(TlsStream&, Client&);
+template Task<> send_farewell(Socket&, Client&);
+template Task<> send_farewell(TlsStream&, Client&);
 
-Task<> take_leave(WebSocket& stream, Client& client) {
+Task<> send_farewell(WebSocket& stream, Client& client) {
   std::string_view line = client.farewell();
   line.remove_suffix(1);  // LF
   co_await stream.leave(line, close_code(client.code()));

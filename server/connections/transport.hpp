@@ -33,8 +33,8 @@ Task<std::size_t> receive(WebSocket& stream, Client& client, std::span<char> spa
 
 // Sends the last error when the server ends the session. Then throws std::runtime_error with the reason.
 template <typename Stream>
-Task<> take_leave(Stream& stream, Client& client);
-Task<> take_leave(WebSocket& stream, Client& client);
+Task<> send_farewell(Stream& stream, Client& client);
+Task<> send_farewell(WebSocket& stream, Client& client);
 
 // A message may be as long as the longest line and its end. `bytes` are without the end.
 template <typename Stream>

@@ -13,16 +13,16 @@ constexpr std::int64_t kWorthwhile = 16;  // sessions; fewer leave little memory
 
 }  // namespace
 
-void HeapKeeper::look_at(std::int64_t sessions, Clock::time_point now) {
+void HeapKeeper::update(std::int64_t sessions, Clock::time_point now) {
   most_ = std::max(most_, sessions);
   if (sessions != last_) changed_ = now;
   last_ = sessions;
   if (most_ - sessions < kWorthwhile || now - changed_ < kQuiet) return;
   most_ = sessions;
-  give_back();
+  trim();
 }
 
-void HeapKeeper::give_back() {
+void HeapKeeper::trim() {
   finish();
   try {
     thread_ = std::thread(trim_heap);

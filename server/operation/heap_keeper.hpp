@@ -19,12 +19,12 @@ class HeapKeeper {
   HeapKeeper& operator=(const HeapKeeper&) = delete;
 
   // The caller calls it a few times a second. sessions: how many are open now.
-  void look_at(std::int64_t sessions, Clock::time_point now = Clock::now());
+  void update(std::int64_t sessions, Clock::time_point now = Clock::now());
 
   std::int64_t times() const { return times_; }  // how often it has returned memory
 
  private:
-  void give_back();
+  void trim();
   void finish();
 
   std::int64_t most_ = 0, last_ = 0;  // sessions, since memory was returned

@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kAfterFailure = 100ms, kShortSleep = 10ms;
 constexpr auto kBetweenLines = 10s;  // of the log
 
-void tell(const std::string& what, const std::exception& failure) noexcept {
+void log_failure(const std::string& what, const std::exception& failure) noexcept {
   try {
     log(LogLevel::kError, what + " failed, and begins again: " + failure.what());
   } catch (const std::exception&) {
@@ -33,7 +33,7 @@ Task<> repeat(boost::asio::io_context& loop, std::string what, std::function<Tas
       co_await body();
       co_return;
     } catch (const std::exception& failure) {
-      if (Clock::now() - std::exchange(last_line, Clock::now()) > kBetweenLines) tell(what, failure);
+      if (Clock::now() - std::exchange(last_line, Clock::now()) > kBetweenLines) log_failure(what, failure);
     }
     if (failed) std::this_thread::sleep_for(kShortSleep);
   }
@@ -50,7 +50,7 @@ void keep_running(boost::asio::io_context& loop, std::string what, std::function
   spawn(loop, repeat(loop, std::move(what), std::move(body)));
 }
 
-void insist(const std::function<void()>& step) {
+void retry_until_memory(const std::function<void()>& step) {
   for (;;) {
     try {
       return step();

@@ -17,6 +17,6 @@ Task<> pause(boost::asio::io_context& loop, std::chrono::milliseconds time);
 void keep_running(boost::asio::io_context& loop, std::string what, std::function<Task<>()> body);
 
 // Calls `step` until it no longer throws std::bad_alloc. It blocks, so the thread must not have other work.
-void insist(const std::function<void()>& step);
+void retry_until_memory(const std::function<void()>& step);
 
 }  // namespace racebeam

@@ -29,7 +29,7 @@ void Loop::handle_events() {
 }
 
 // While a loop polls for one session, its other sessions get their turn, too.
-void Loop::go_on() {
+void Loop::handle_next() {
   if (!turns.empty()) {
     turns.wake_next();
     handle_events();
@@ -46,7 +46,7 @@ void Loop::run() {
   while (!context.stopped()) {
     std::exception_ptr failure;
     try {
-      go_on();
+      handle_next();
     } catch (...) {
       failure = std::current_exception();
     }
@@ -61,7 +61,7 @@ Loops::Loops(unsigned threads, std::chrono::microseconds busy_poll, Metrics& met
     loops_.emplace_back(metrics.add_meter(), busy_poll);
 }
 
-Loop& Loops::idlest() {
+Loop& Loops::least_loaded() {
   const auto fewer = [](const Loop& a, const Loop& b) { return a.sessions < b.sessions; };
   return *std::min_element(loops_.begin(), loops_.end(), fewer);
 }
@@ -74,7 +74,7 @@ int Loops::sessions() const {
 
 Loops::~Loops() {
   stop();
-  let_go();
+  run();  // ends threads that still wait for it
 }
 
 void Loops::start() {
@@ -98,9 +98,7 @@ void Loops::work(Loop& loop) {
   loop.run();
 }
 
-void Loops::run() { let_go(); }
-
-void Loops::let_go() {
+void Loops::run() {
   running_.open();
   threads_.clear();
 }

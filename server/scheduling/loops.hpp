@@ -36,7 +36,7 @@ struct Loop {
   boost::asio::io_context context{1};   // the last member, so that what waits in it is destroyed first
 
  private:
-  void go_on();  // handles the next turn or event
+  void handle_next();  // handles the next turn or event
 };
 
 class Loops {
@@ -50,7 +50,7 @@ class Loops {
   // threads, and std::bad_alloc if a thread gets no memory.
   void start();
   Loop& first() { return loops_.front(); }
-  Loop& idlest();  // the loop with the fewest sessions
+  Loop& least_loaded();  // the loop with the fewest sessions
   std::list<Loop>& all() { return loops_; }
   int sessions() const;
   void run();  // until stop() is called
@@ -58,7 +58,6 @@ class Loops {
 
  private:
   void work(Loop& loop);  // the body of the loop's thread
-  void let_go();
 
   std::list<Loop> loops_;
   std::exception_ptr failure_;  // of a thread that cannot run; read after it has started

@@ -54,10 +54,10 @@ bool Http::is_loopback() const { return acceptor_.local_endpoint().address().is_
 void Http::open(Site site, OnSession on_session) {
   site_ = std::move(site);
   on_session_ = std::move(on_session);
-  keep_running(loop_, "accepting clients on " + name_, [this] { return welcome(); });
+  keep_running(loop_, "accepting clients on " + name_, [this] { return accept_clients(); });
 }
 
-Task<> Http::welcome() {
+Task<> Http::accept_clients() {
   for (;;) {
     error_code error;
     tcp::socket socket = co_await acceptor_.async_accept(net::redirect_error(use_task, error));
@@ -73,7 +73,7 @@ Task<> Http::welcome() {
     try {
       spawn(loop_, std::move(serving));
     } catch (...) {
-      ended(connection);
+      remove(connection);
       throw;
     }
   }
@@ -95,7 +95,7 @@ bool Http::make_file_room() {
   return true;
 }
 
-void Http::ended(const Connection& connection) {
+void Http::remove(const Connection& connection) {
   connections_.remove(connection);
   error_code ignored;
   connection->socket.close(ignored);
@@ -120,15 +120,15 @@ void Http::close_after(std::chrono::seconds limit, const Connection& connection)
 
 Task<> Http::serve(Connection connection) {
   try {
-    co_await converse(connection);
+    co_await serve_requests(connection);
   } catch (const std::exception&) {
     report_failure(std::current_exception());
   }
-  ended(connection);
+  remove(connection);
 }
 
 // Answers requests until the client closes, times out, sends invalid HTTP, or opens a session.
-Task<> Http::converse(Connection connection) {
+Task<> Http::serve_requests(Connection connection) {
   ByteStream::Socket& socket = connection->socket;
   ByteStream stream(socket);
   boost::beast::flat_buffer buffer;
@@ -146,11 +146,11 @@ Task<> Http::converse(Connection connection) {
     on_session_(std::move(socket), std::move(*done.session));
     co_return;
   }
-  co_await await_end(connection);
+  co_await drain(connection);
 }
 
 // Closing a socket with unread input would make the system discard a reply that the client has not read yet.
-Task<> Http::await_end(Connection connection) {
+Task<> Http::drain(Connection connection) {
   ByteStream::Socket& socket = connection->socket;
   error_code error;
   socket.shutdown(net::socket_base::shutdown_send, error);

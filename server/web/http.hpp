@@ -46,15 +46,15 @@ class Http {
   };
   using Connection = std::shared_ptr<OpenConnection>;
 
-  Task<> welcome();
+  Task<> accept_clients();
   void make_room();       // for one more connection
   bool make_file_room();  // for the file of one more connection; returns false if that is impossible
   void close_oldest();
-  void ended(const Connection& connection);
+  void remove(const Connection& connection);
   static void close_after(std::chrono::seconds limit, const Connection& connection);
   Task<> serve(Connection connection);
-  Task<> converse(Connection connection);
-  Task<> await_end(Connection connection);
+  Task<> serve_requests(Connection connection);
+  Task<> drain(Connection connection);
 
   boost::asio::io_context& loop_;
   boost::asio::ip::tcp::acceptor acceptor_;

@@ -156,7 +156,7 @@ TEST_CASE("A pause in the middle of a request takes nothing that it needs") {
         REQUIRE(client->ask(line).starts_with("ok"));
     }
     resting.hand_in(request + "\n");
-    while (resting.session.run(0us) && resting.session.output().empty()) resting.session.rest();
+    while (resting.session.run(0us) && resting.session.output().empty()) resting.session.release_caches();
     const std::string reply(resting.session.output());
     CHECK(reply.starts_with("ok"));
     CHECK(reply == whole.ask(request) + "\n");

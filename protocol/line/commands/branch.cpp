@@ -61,7 +61,7 @@ class RewardRuns {  // the rewards of one act after the other, runs of equal one
     constexpr std::size_t kBetweenLooks = 4096;
     std::size_t appended = 0;
     for (const Run& run : runs_) {
-      if (++appended % kBetweenLooks == 0) pacer.breathe();
+      if (++appended % kBetweenLooks == 0) pacer.yield_if_due();
       if (&run != runs_.data()) out += ',';
       append_number(out, run.reward);
       if (run.times == 1) continue;
@@ -120,7 +120,7 @@ void play_branches(Context& context, const BranchRequest& request, Reply& reply)
       const BranchEnd& end = branching.end();
       add_end(reply, end, rewards, machine.game().has_second_reward(), context.pacer);
       context.count({.reward = end.reward, .reward_b = end.reward_b, .acts = end.acts, .frames = end.frames});
-      context.pacer.breathe();  // a list that ends at once runs no frame
+      context.pacer.yield_if_due();  // a list that ends at once runs no frame
       if (request.keep.empty()) continue;
       const std::string name = request.keep + std::to_string(i);
       reply.add("state", name);

@@ -179,7 +179,7 @@ void run_load(Context& context, Words arguments, Reply& reply) {
   std::unique_ptr<LoadedMachine> loaded;
   try {
     context.allow_resets(1);
-    context.memory.check(LoadedMachine::most_held(context.fields) + View::longest_text(context.fields),
+    context.memory.check(LoadedMachine::max_footprint(context.fields) + View::longest_text(context.fields),
                          "a machine");
     loaded = std::make_unique<LoadedMachine>(cartridge, settings, context.fields, context.pacer);
   } catch (const InvalidInput& error) {
@@ -223,7 +223,7 @@ void run_set(Context& context, Words arguments, Reply& reply) {
     machine.set_mode(mode);
     throw;
   }
-  context.spoil_log("set changed it");
+  context.drop_log("set changed it");
   if (changed.mode) context.game.settings.mode = changed.mode;
   if (changed.difficulty) context.game.settings.difficulty = changed.difficulty;
   reply.add("mode", machine.mode());

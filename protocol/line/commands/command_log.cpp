@@ -185,7 +185,7 @@ void stop_log(Context& context, Reply& reply) {
 void hand_over(Context& context, Reply& reply) {
   const EpisodeLog& log = context.media.log->last();
   context.memory.check(4 * (log.actions.size() + 4 * log.strengths.size() + 8 * log.hashes.size()), "a log");
-  const std::string bytes = bytes_of(log, [&context] { context.pacer.breathe(); });
+  const std::string bytes = bytes_of(log, [&context] { context.pacer.yield_if_due(); });
   context.check_reply(text_size(Encoding::kBase64, bytes.size()), "a log");
   std::string row = line_of(row_of(log, sha256_of(bytes)));
   row.pop_back();

@@ -74,7 +74,7 @@ void run_observe(Context& context, Words arguments, Reply& reply) {
   if (!arguments.empty()) {
     std::vector<Field> fields = parse_fields(arguments);
     check_sound(context, fields);
-    context.memory.check(View::most_held(fields) + View::longest_text(fields), "a view of these fields");
+    context.memory.check(View::max_footprint(fields) + View::longest_text(fields), "a view of these fields");
     if (context.game.loaded) stack_of(fields, context.game.loaded->slot());  // it can be made
     context.machines.observe(fields);
     context.fields = std::move(fields);
@@ -91,10 +91,10 @@ void run_look(Context& context, Words arguments, Reply& reply) {
   std::vector<Field> fields = parse_fields(arguments);
   check_sound(context, fields);
   check_look(fields);
-  context.memory.check(View::most_held(fields) + text_size(fields, loaded.machine()),
+  context.memory.check(View::max_footprint(fields) + text_size(fields, loaded.machine()),
                        "a look at these fields");
   const auto stack = stack_of(fields, loaded.slot());
-  View view(std::move(fields), [&context] { context.pacer.breathe(); });
+  View view(std::move(fields), [&context] { context.pacer.yield_if_due(); });
   reply.add_fields([&](std::string& out, std::string& raw) {
     view.append(out, raw, {loaded.machine(), loaded.slot().outcome(), stack ? &*stack : nullptr});
   });
@@ -143,7 +143,7 @@ void run_act(Context& context, Words arguments, Reply& reply) {
   for (const std::string_view word : arguments) {
     actions.push_back(parse_action(word, loaded.allowed()));
     acts += actions.back().times;
-    if (actions.size() % 256 == 0) context.pacer.breathe();
+    if (actions.size() % 256 == 0) context.pacer.yield_if_due();
   }
   const Autoreset autoreset = context.game.settings.autoreset;
   context.check_frames(acts, frames_of_reset(loaded.slot(), autoreset));
@@ -183,7 +183,7 @@ void run_poke(Context& context, Words arguments, Reply& reply) {
                                                  " on, RAM takes at least 1, and at most " +
                                                  std::to_string(kRamSize - index));
   }
-  context.spoil_log("poke wrote RAM in it");
+  context.drop_log("poke wrote RAM in it");
   for (std::size_t i = 0; i < bytes.size(); ++i)
     context.game.loaded->machine().set_ram(index + static_cast<int>(i), bytes[i]);
   add_bytes_of(context, index, bytes.size(), reply);

@@ -136,7 +136,7 @@ void run_watch(Context& context, Words arguments, Reply& reply) {
     words = words.subspan(1);
   }
   const std::vector<Field> fields = parse_watched_fields(words);
-  context.memory.check(View::most_held(fields), "a view of these fields");
+  context.memory.check(View::max_footprint(fields), "a view of these fields");
   Watched& subject = watched(context, arguments[0]);
   const auto snapshot = subject.newest();
   if (!snapshot) refuse_unknown(context, arguments[0]);

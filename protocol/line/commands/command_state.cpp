@@ -107,7 +107,7 @@ std::int64_t add_list(ActionLists& lists, std::string_view word, Context& contex
     word = rest;
     lists.actions.push_back(parse_action(action, context.game.loaded->allowed()));
     acts += lists.actions.back().times;
-    if (lists.actions.size() % kBetweenLooks == 0) context.pacer.breathe();
+    if (lists.actions.size() % kBetweenLooks == 0) context.pacer.yield_if_due();
   }
   lists.ends.push_back(lists.actions.size());
   return acts;
@@ -186,11 +186,11 @@ void run_drop(Context& context, Words arguments, Reply& reply) {
     std::size_t looked = 0;
     for (const std::string_view name : arguments) {
       find_state(context, name);
-      if (++looked % kBetweenLooks == 0) context.pacer.breathe();
+      if (++looked % kBetweenLooks == 0) context.pacer.yield_if_due();
     }
     for (const std::string_view name : arguments) {
       context.game.states.drop(name);
-      if (--looked % kBetweenLooks == 0) context.pacer.breathe();
+      if (--looked % kBetweenLooks == 0) context.pacer.yield_if_due();
     }
   }
   reply.add("count", static_cast<std::int64_t>(context.game.states.size()));
@@ -241,7 +241,7 @@ void run_branch(Context& context, Words arguments, Reply& reply) {
   check_memory(context, sequences);
   for (const std::string_view word : sequences) {
     acts += add_list(branch.lists, word, context);
-    context.pacer.breathe();
+    context.pacer.yield_if_due();
   }
   context.check_frames(acts);
   const std::size_t lists = branch.lists.size();

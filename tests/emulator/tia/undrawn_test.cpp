@@ -121,7 +121,7 @@ void play(unsigned seed, int frames) {
     drawn.console.step();
     other.console.step(random.percent(often), follows);
     compare(drawn.console, other.console, random, looks);
-    if (random.percent(5)) other.console.rest();
+    if (random.percent(5)) other.console.release_caches();
     if (random.percent(looks / 8)) saved.emplace_back(drawn.console, other.console);
     if (!saved.empty() && random.percent(10)) {
       const auto& [of_drawn, of_other] =

@@ -60,7 +60,7 @@ void play(const std::shared_ptr<const Image>& image, const std::shared_ptr<const
     if (draw(30) == 0) std::swap(one, other);
     if (draw(30) == 0) other.restore(*one.save(true));
     if (draw(60) == 0) one.reset_game();
-    if (draw(60) == 0) one.rest();
+    if (draw(60) == 0) one.release_caches();
     if (draw(200) == 0) one.reload(static_cast<std::uint32_t>(seed + draw(3)));
     const bool pooled = draw(3) != 0;
     const unsigned what = draw(32);

@@ -137,7 +137,7 @@ class Beside {
   void forget(std::size_t i) {
     Slot& slot = batch_.slot(i);
     slot.set_stack({});
-    slot.environment().rest();
+    slot.environment().release_caches();
     slot.set_stack(settings_.stack);
     singles_[i].begin(slot);
     show();

@@ -204,8 +204,8 @@ TEST_CASE("A view holds at most the estimated bytes, which are less than some me
       shown.next();
       const ScreenStack* const stack = shown.slot.stack();
       const std::size_t stacked = stack != nullptr ? stack->size() : 0;
-      CHECK(shown.view.footprint() + stacked <= View::most_held(shown.fields) + kRest);
-      CHECK(View::most_held(shown.fields) < 4'000'000);
+      CHECK(shown.view.footprint() + stacked <= View::max_footprint(shown.fields) + kRest);
+      CHECK(View::max_footprint(shown.fields) < 4'000'000);
     }
-  CHECK(View::most_held(fields_of("reward lives")) == 0);
+  CHECK(View::max_footprint(fields_of("reward lives")) == 0);
 }

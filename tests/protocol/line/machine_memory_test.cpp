@@ -24,7 +24,7 @@ struct Machine {
     return held();
   }
   std::size_t rested() {
-    memory.rest(slot);
+    memory.release_caches(slot);
     return held();
   }
 

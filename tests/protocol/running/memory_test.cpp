@@ -253,7 +253,7 @@ TEST_CASE("The words of a request count until the session rests") {
   CHECK(service.memory->taken() > before + 100'000 * sizeof(std::string_view));
   CHECK(service.memory->taken() < before + 8 * kMiB);
   client.ask("help act");  // the reader of lines has shrunk when it has read the next one
-  client.session.rest();
+  client.session.release_caches();
   CHECK(service.memory->taken() <= before);
 }
 
@@ -266,7 +266,7 @@ TEST_CASE("The actions of a request count until the session rests") {
   for (int n = 0; n < 20'000; ++n) line += " 0";
   CHECK(code(client.ask(line)) == "limit");
   const std::uint64_t held = service.memory->taken();
-  client.session.rest();
+  client.session.release_caches();
   CHECK(held - service.memory->taken() > 20'000 * (sizeof(std::string_view) + sizeof(Action)));
 }
 
@@ -275,7 +275,7 @@ TEST_CASE("Machines that rest hold less, and play on") {
   LineClient client(service), without_rest;
   for (LineClient* each : {&client, &without_rest}) each->say("load beamfall seed=7\nopen 20\nstep FIRE\n");
   const std::uint64_t played = service.memory->taken();
-  client.session.rest();
+  client.session.release_caches();
   CHECK(played - service.memory->taken() > 20 * 200 * sizeof(std::uint64_t));
   CHECK(client.ask("step FIRE*9") == without_rest.ask("step FIRE*9"));
 }
@@ -342,7 +342,7 @@ TEST_CASE("The reply of one act is counted before there is one") {
     CHECK(service.memory->taken() < observed * (doubles ? 2 : 1) + kMiB / 4);
     client.listen();
     CHECK(code(client.ask("observe none")) == "");
-    client.session.rest();
+    client.session.release_caches();
     CHECK(service.memory->taken() < kMiB);
   }
 }
@@ -360,7 +360,7 @@ TEST_CASE("All memory comes back") {
     client.ask("close");
     client.ask("drop all");
     client.ask("observe none");
-    client.session.rest();
+    client.session.release_caches();
     CHECK(service.memory->taken() < busy / 4);
     CHECK(service.memory->taken() < kMiB);
   }

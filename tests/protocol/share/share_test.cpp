@@ -93,7 +93,7 @@ TEST_CASE("The action shown is the last one that was played") {
   CHECK(value(server.seen_after("act LEFT 99"), "action") == "RIGHT");
   server.player.say("load beamfall seed=7 max_episode_frames=1\nact RIGHT\n");
   CHECK(value(server.seen_after("act LEFT"), "action") == "RIGHT");  // the episode is over
-  server.player.session.rest();
+  server.player.session.release_caches();
   CHECK(value(server.seen_after("settings"), "action") == "RIGHT");
   CHECK(value(server.seen_after("load beamfall"), "action") == "NOOP");
 }
@@ -185,7 +185,7 @@ TEST_CASE("A session that pauses shows where it stopped") {
   Server server;
   server.share();
   server.player.ask("act UP*5");
-  server.player.session.rest();
+  server.player.session.release_caches();
   CHECK(value(server.watcher.ask("watch room"), "frame") == "5");
 }
 

@@ -9,7 +9,7 @@ TEST_CASE("Memory goes back to the system once many sessions have ended, and no 
   HeapKeeper keeper;
   auto now = HeapKeeper::Clock::now();
   const auto look = [&](std::int64_t sessions, std::chrono::milliseconds later) {
-    keeper.look_at(sessions, now += later);
+    keeper.update(sessions, now += later);
     return keeper.times();
   };
   CHECK(look(100, 250ms) == 0);

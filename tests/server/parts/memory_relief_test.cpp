@@ -29,8 +29,8 @@ struct Hall {
 
   // The number of the session that would be ended so long after it was last active; -1: none.
   int first_to_end(Clock::duration idle = 1h) const {
-    for (const auto& client : clients) client->is_active();
-    const Client* const found = most_burdensome(set, clients.back()->active() + idle);
+    for (const auto& client : clients) client->mark_active();
+    const Client* const found = most_burdensome(set, clients.back()->last_active() + idle);
     for (std::size_t number = 0; number < clients.size(); ++number)
       if (clients[number].get() == found) return static_cast<int>(number);
     return -1;
@@ -111,8 +111,8 @@ TEST_CASE("sessions that end are not counted again, nor those without a limit") 
   CHECK(hall.first_to_end() == -1);
   Client unlimited(Socket(hall.loop.context), hall.loop, "unlimited", nullptr, 0);
   CHECK(most_burdensome({&unlimited}, Clock::now() + 1h) == nullptr);
-  CHECK(MemoryRelief(1).look_at({&unlimited}) == 0);
-  CHECK(MemoryRelief(1).look_at({}) == 0);
+  CHECK(MemoryRelief(1).relieve({&unlimited}) == 0);
+  CHECK(MemoryRelief(1).relieve({}) == 0);
 }
 
 TEST_CASE("at the second look, a loop ends sessions that hold its part of the shortage") {
@@ -121,8 +121,8 @@ TEST_CASE("at the second look, a loop ends sessions that hold its part of the sh
     for (int session = 0; session < 40; ++session) hall.enter(kHalfMiB).working = true;
     REQUIRE(hall.all->shortage() == 10 * kHalfMiB);
     MemoryRelief relief(loops);
-    CHECK(relief.look_at(hall.set) == 0);
-    CHECK(relief.look_at(hall.set) == ended);
+    CHECK(relief.relieve(hall.set) == 0);
+    CHECK(relief.relieve(hall.set) == ended);
     int ending = 0;
     for (const auto& client : hall.clients) ending += client->ending();
     CHECK(ending == ended);
@@ -133,20 +133,20 @@ TEST_CASE("memory that was enough meanwhile begins anew, and clients that pause 
   Hall hall{kMost};
   Client& client = *hall.clients[0];
   int rests = 0;
-  client.on_rest = [&rests] { ++rests; };
+  client.on_idle = [&rests] { ++rests; };
   client.working = true;
   MemoryRelief relief(1);
-  CHECK(relief.look_at(hall.set) == 0);
+  CHECK(relief.relieve(hall.set) == 0);
   client.memory()->give_back(kMost);
-  CHECK(relief.look_at(hall.set) == 0);
+  CHECK(relief.relieve(hall.set) == 0);
   client.memory()->take_anyway(kMost);
-  CHECK(relief.look_at(hall.set) == 0);
+  CHECK(relief.relieve(hall.set) == 0);
   CHECK(rests == 0);
   client.working = false;
-  client.is_active();
+  client.mark_active();
   for (const auto& [pause, expected] : {std::pair(0ms, 0), {300ms, 1}, {0ms, 1}}) {
     std::this_thread::sleep_for(pause);
-    CHECK(MemoryRelief(1).look_at(hall.set) == 0);
+    CHECK(MemoryRelief(1).relieve(hall.set) == 0);
     CHECK(rests == expected);
   }
 }
