@@ -19,9 +19,8 @@ void add_image_options(Subcommand& command, ImageOptions& options) {
       .one_a_time()
       .variable("RACEBEAM_ROMS");
   command
-      .option(
-          "--game-file", options.game_file,
-          "A game file, or a folder of them, with the rules of images of --roms or built in that they list")
+      .option("--game-file", options.game_file,
+              "A game file, or a folder of game files, with rules for images of --roms or built-in ones")
       .value_name("FILE");
   command.option("--threads", options.threads, "Threads that play; 0: one for each processor")
       .check(whole_number(0, kMostThreads))

@@ -69,8 +69,8 @@ void add_cpu_option(Subcommand& command, CpuKind& cpu) {
        {"interpreter", CpuKind::kInterpreter},
        {"translator", CpuKind::kTranslator}},
       "auto",
-      "How instructions are executed; auto: translated where that saves time and the system permits it; "
-      "translator: all are translated, at any cost; interpreter: none are translated");
+      "How instructions are executed; auto: they are translated where that saves time and the system permits "
+      "it; translator: they are always translated; interpreter: they are never translated");
 }
 
 void add_machine_options(Subcommand& command, MachineOptions& options) {
@@ -84,15 +84,15 @@ void add_machine_options(Subcommand& command, MachineOptions& options) {
   command
       .option(
           "--game-file", options.game_file,
-          "Use the rule of this game file for the image of --rom, and for the images of --roms or built "
-          "in that it lists. FILE may be a folder: each image then has the rule of the file that is for it")
+          "Use the rule of this game file for the image of --rom, and for those images of --roms and "
+          "built-in ones that the file lists. FILE may be a folder of game files, each for its own images")
       .value_name("FILE")
       .excludes(game);
   add_console_options(command, options.console);
   const auto add_seed = [&command](const std::string& name, std::uint32_t& seed, const std::string& help) {
     command.option(name, seed, help).check(whole_number(0, kMostSeed)).shows_default();
   };
-  add_seed("--seed", settings.random_seed, "Seed of the sticky actions; 0: from the clock");
+  add_seed("--seed", settings.random_seed, "Seed of the sticky actions; 0: drawn from the clock");
   add_seed("--system-seed", settings.system_seed, "Seed of the memory's contents at power-on");
   add_count(command, "--frame-skip", settings.frame_skip, 1, "Frames that an action lasts");
   command.option("--sticky", settings.sticky, "Probability that a frame repeats the previous action")

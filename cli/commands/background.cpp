@@ -45,7 +45,8 @@ void add_background(Subcommand& program) {
   Subcommand command =
       program.add_subcommand("background", "Discover the still part of a game's screen", kBackgroundFooter);
   add_discovery_options(command, *options);
-  add_screens_option(command, "--screens", options->samples.background_screens, "Screens that are looked at");
+  add_screens_option(command, "--screens", options->samples.background_screens,
+                     "Screens from which the background is discovered");
   command.runs([options] { write_background_files(*options); });
 }
 

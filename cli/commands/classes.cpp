@@ -49,9 +49,10 @@ void add_classes(Subcommand& program) {
   Subcommand command =
       program.add_subcommand("classes", "Discover the classes of objects in a game", kClassesFooter);
   add_discovery_options(command, *options);
-  add_screens_option(command, "--screens", samples.class_screens, "Screens that are looked at for classes");
+  add_screens_option(command, "--screens", samples.class_screens,
+                     "Screens from which the classes are discovered");
   add_screens_option(command, "--background-screens", samples.background_screens,
-                     "Screens that are looked at for the background");
+                     "Screens from which the background is discovered");
   command.runs([options] { write_class_files(*options); });
 }
 

@@ -28,7 +28,7 @@ Options:
   -game_controller NAME              fifo: standard streams;
                                      fifo_named: the pipes ale_fifo_out and ale_fifo_in;
                                      rlglue: an RL-Glue core at 127.0.0.1, port RLGLUE_PORT (4096)
-  -random_seed N                     0 or time: from the clock
+  -random_seed N                     0 or time: drawn from the clock
   -run_length_encoding true|false    whether screens are written in run lengths (true)
   -frame_skip N                      frames of an action (1)
   -repeat_action_probability P       probability that a frame repeats the previous action (0.25)

@@ -23,10 +23,11 @@ namespace racebeam {
 namespace {
 
 constexpr auto kExperimentFooter = R"(
-RESULTS is a folder. It gets the plan with every setting written out, results.csv with a row for each evaluation
-episode, curves.csv with a row for each training episode, agents.csv, times.csv, and a log of each evaluation episode.
-The command can be stopped at any time, and repeated: finished units are not run again, and unfinished ones go on.
-SIGINT, SIGHUP and SIGTERM end it after the decisions that are being made; a second signal at once.
+The folder of --into gets the plan with every setting written out, results.csv with a row for each evaluation episode,
+curves.csv with a row for each training episode, agents.csv, times.csv, and a log of each evaluation episode. A unit is
+one trial of one agent in one game. The command can be stopped at any time, and repeated: finished units are not run
+again, and unfinished ones continue from their checkpoints. SIGINT, SIGHUP and SIGTERM end it after the current
+decisions; a second signal ends it at once.
 
 Examples:
   racebeam experiment smoke --into results
@@ -201,7 +202,7 @@ void add_experiment(Subcommand& program) {
   command.flag("--dry-run", options->dry_run,
                "Only list the units, their cost, and the images that are missing; measures for some seconds");
   command.flag("--unmeasured", options->unmeasured,
-               "With --dry-run: measure nothing; every episode is as long as it may be");
+               "With --dry-run: measure nothing, and assume that every episode has the maximum length");
   command
       .option("--shard", options->shard, "Run a part, such as 3/100: each hundredth unit from the third on")
       .value_name("K/N")

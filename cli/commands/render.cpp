@@ -27,16 +27,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kRenderFooter =
-    R"(Plays the episode of a log again (docs/episodes.md), and writes what the machine shows. The ending of FILE says in
-which form:
+    R"(Replays the episode of a log (docs/episodes.md), and writes its pictures or its sound. The extension of FILE selects the
+form:
   .gif          an animation of every second frame, without sound
   .y4m          a video, 4:4:4, uncompressed, without sound
   .wav          the sound
   .webm, .mp4   a video with sound, made by ffmpeg, which must be installed
-  none          a folder of PNGs: 000000.png and so on
+  otherwise     a folder of PNGs: 000000.png and so on
 
-No file is replaced. If the machine does not give the score of the log, nothing is written; racebeam verify says more.
-SIGINT, SIGTERM and SIGHUP leave nothing behind.
+An existing file is never replaced. If the replay has another score than the log, nothing is written; racebeam verify
+says more. After SIGINT, SIGTERM or SIGHUP, no unfinished file is left.
 
 Examples:
   racebeam render results/logs/beamfall-random-1/1.episode --to episode.gif

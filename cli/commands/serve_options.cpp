@@ -102,8 +102,10 @@ void add_protocol(Subcommand& command, ServeOptions& options) {
 }
 
 void add_access(Subcommand& command, ServerSettings& server) {
-  add_file(command, "--token-file", server.token_file,
-           "File of tokens, one a line, that clients over TCP must send; required beyond this machine")
+  add_file(
+      command, "--token-file", server.token_file,
+      "File of tokens, one a line; clients over TCP must send one of them. Required for addresses that other "
+      "machines can reach, unless --announce is given")
       .group(kWhere);
   add_file(command, "--tls-cert", server.tls_certificate, "Certificate chain for tls:// and wss://, in PEM")
       .group(kWhere);
@@ -120,20 +122,22 @@ void add_transports(Subcommand& command, ServeOptions& options) {
 void add_limits(Subcommand& command, ServeOptions& options) {
   LineLimits& limits = options.limits;
   ServerSettings& server = options.server;
-  add_number(command, "--max-sessions", server.max_sessions, 1, "Sessions on sockets at the same time");
-  add_number(command, "--max-machines", limits.machines, 1, "Machines that a session may open");
-  add_number(command, "--max-states", limits.states, 1, "States that a session may keep");
-  add_number(command, "--max-line", limits.line, 256, "Bytes of a request");
+  add_number(command, "--max-sessions", server.max_sessions, 1,
+             "The most sessions on sockets at the same time");
+  add_number(command, "--max-machines", limits.machines, 1, "The most machines that a session may open");
+  add_number(command, "--max-states", limits.states, 1, "The most states that a session may keep");
+  add_number(command, "--max-line", limits.line, 256, "The most bytes of a request");
   add_number(command, "--max-output", limits.output, 1024,
-             "Buffered bytes for a slow reader; above them, its requests wait, too");
-  add_number(command, "--max-reply", limits.reply, 1 << 20, "Bytes of a reply, counted as in PROTOCOL.md");
-  add_number(command, "--max-request-frames", limits.request_frames, 1, "Frames of a request");
-  add_number(command, "--record-limit", limits.recording, 1, "Bytes of a recording");
+             "Bytes that are buffered for a slow reader; beyond that, its requests wait");
+  add_number(command, "--max-reply", limits.reply, 1 << 20,
+             "The most bytes of a reply, counted as in PROTOCOL.md");
+  add_number(command, "--max-request-frames", limits.request_frames, 1, "The most frames of a request");
+  add_number(command, "--record-limit", limits.recording, 1, "The most bytes of a recording");
   add_number(command, "--idle", server.idle_seconds, 0,
              "Seconds without a byte after which a session on a socket is closed; 0: never");
   add_number(command, "--handshake", server.handshake_seconds, 1, "Seconds for TLS and the client's token");
   add_number(command, "--grace", server.grace_seconds, 0,
-             "Seconds that sessions have to end after the server is asked to stop");
+             "Seconds that sessions may continue after the server is told to stop");
   add_number(command, "--until-idle", server.until_idle_seconds, 0,
              "Seconds without a session after which the server stops, as on SIGTERM; 0: never");
 }
@@ -175,13 +179,14 @@ void add_busy_poll(Subcommand& command, std::chrono::microseconds& busy_poll) {
 }
 
 void add_published_files(Subcommand& command, ServerSettings& server) {
-  add_file(
-      command, "--ready-file", server.ready_file,
-      "File for the addresses, one a line after # lines, written when all are served, removed at the end")
+  add_file(command, "--ready-file", server.ready_file,
+           "File into which the server writes its addresses, one a line after # lines, once it serves them "
+           "all; removed at the end")
       .group(kOperation);
-  add_file(command, "--announce", server.announce,
-           "File of JSON for clients (file:PATH): addresses, host, process, games and its own token, "
-           "which clients over TCP must send; readable only for its owner, removed at the end")
+  add_file(
+      command, "--announce", server.announce,
+      "JSON file for clients (file:PATH): addresses, host, process, games, and a token that clients over TCP "
+      "must send; only its owner can read it; removed at the end")
       .group(kOperation);
 }
 
@@ -198,7 +203,7 @@ void add_http(Subcommand& command, std::string& address) {
 void add_sharing(Subcommand& command, bool& all) {
   command
       .choice<bool>("--watch", all, {{"shared", false}, {"all", true}}, "shared",
-                    "Sessions that others may watch: shared, those whose client says share, or all")
+                    "Sessions that others may watch: shared, only those whose client has sent share; or all")
       .group(kOperation);
 }
 
@@ -236,8 +241,9 @@ void add_games(Subcommand& command, ServeOptions& options) {
   add_count(command, "--max-episode-frames", options.machine.settings.max_episode_frames, 0,
             "Frames after which an episode is truncated; 0: no limit");
   add_count(command, "--max-frames", options.protocol.max_num_frames, 0,
-            "Frames after which the session ends with DIE; 0: no limit");
-  command.flag("--full-screen", options.full_screen, "Write every pixel of a screen instead of runs");
+            "With --classic: frames after which the session ends with DIE; 0: no limit");
+  command.flag("--full-screen", options.full_screen,
+               "With --classic: write every pixel of a screen instead of runs");
   command.option("--roms", options.roms, "A folder with cartridge images that clients may load")
       .value_name("DIR");
   command.option("--record-dir", options.record_folder, "A folder that clients may record into")

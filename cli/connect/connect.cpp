@@ -176,12 +176,12 @@ void add_connect(Subcommand& program) {
   auto options = std::make_shared<ConnectOptions>();
   Subcommand command =
       program.add_subcommand("connect", "Talk to a server, by hand or from a script", kConnectFooter);
-  command.option("ADDRESS", options->address, "Where the server is").variable("RACEBEAM_ADDRESS");
+  command.option("ADDRESS", options->address, "The address of the server").variable("RACEBEAM_ADDRESS");
   command.option("--token-file", options->token_file, "Send the first token of this file").value_name("FILE");
   command
       .option("--authorities", options->client.authorities, "With tls://: trust these certificates, in PEM")
       .value_name("FILE");
-  command.option("--timeout", options->timeout, "Seconds to wait for a connection or a reply; 0: for ever")
+  command.option("--timeout", options->timeout, "Seconds to wait for a connection or a reply; 0: no limit")
       .check(number(0, 1e6))
       .shows_default();
   add_graphics_option(command, options->graphics);

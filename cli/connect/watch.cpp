@@ -164,7 +164,9 @@ void add_watch(Subcommand& program) {
   const auto options = std::make_shared<WatchOptions>();
   Subcommand command =
       program.add_subcommand("watch", "Look at the shared sessions of a server", kWatchFooter);
-  command.option("ADDRESS", options->address, "Where the server is").variable("RACEBEAM_ADDRESS").required();
+  command.option("ADDRESS", options->address, "The address of the server")
+      .variable("RACEBEAM_ADDRESS")
+      .required();
   command.flag("--terminal", options->terminal, "Draw in the terminal");
   add_graphics_option(command, options->graphics);
   command.option("--session", options->session, "Begin with the session of this name").value_name("NAME");

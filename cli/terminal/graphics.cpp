@@ -14,8 +14,8 @@ void add_graphics_option(Subcommand& command, Graphics& graphics) {
        {"sixel", Graphics::kSixel},
        {"kitty", Graphics::kKitty}},
       "auto",
-      "How pictures are drawn in the terminal: blocks are characters in 24-bit colours; auto is the "
-      "best that the terminal says it has");
+      "How pictures are drawn in the terminal: auto, blocks, sixel or kitty. blocks are characters in 24-bit "
+      "colours; auto is the best form that the terminal reports");
 }
 
 std::string inline_picture(Graphics graphics, const TerminalPicture& picture, const Room& room) {
