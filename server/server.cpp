@@ -125,7 +125,8 @@ int Server::files_for_clients() const {
   const std::uint64_t needed = open_files(files) + kOthers;
   if (files > needed) return static_cast<int>(files - needed);
   throw std::runtime_error("the server may open " + std::to_string(files) +
-                           " files (ulimit -n); with these settings it needs " + std::to_string(needed + 1));
+                           " files (ulimit -n), but with these settings it needs at least " +
+                           std::to_string(needed + 1));
 }
 
 std::string Server::announcement() const {

@@ -121,13 +121,14 @@ void ConnectionAcceptor::listen_inherited(const Endpoint& endpoint, const std::s
   for (const InheritedSocket& socket : inherited_sockets()) {
     if (!name.empty() && socket.name != name) continue;
     if (!taken_.insert(socket.descriptor).second)
-      throw std::runtime_error("the socket '" + socket.name + "' of systemd is listened on twice");
+      throw std::runtime_error("two addresses select the socket '" + socket.name +
+                               "' of systemd; name it once");
     check(listeners_.emplace_back(loops_.first().context.get_executor(), endpoint, socket));
     found = true;
   }
   if (found) return;
-  const std::string which = name.empty() ? "socket" : "socket of the name '" + name + "'";
-  throw std::runtime_error("systemd has passed on no " + which +
+  const std::string which = name.empty() ? "socket" : "socket named '" + name + "'";
+  throw std::runtime_error("systemd did not pass a " + which +
                            " (LISTEN_FDS, LISTEN_FDNAMES); start the unit's socket, not its service");
 }
 
@@ -144,7 +145,7 @@ void ConnectionAcceptor::check(const Listener& listener) const {
   if (!access_.requires_token()) {
     throw std::runtime_error(name +
                              " can be reached from other machines: give --token-file or --announce, so that "
-                             "not everyone can use this one, or listen on 127.0.0.1");
+                             "clients need a token, or listen on 127.0.0.1");
   }
   if (!listener.endpoint().tls) {
     log_warning(name +

@@ -68,9 +68,9 @@ class TestSystemd:
     def test_what_it_did_not_pass_on_is_an_error(self):
         with tempfile.TemporaryDirectory() as folder:
             process, notify = self.start(folder, ["--listen", "systemd:other"])
-            assert b"no socket of the name 'other'" in process.communicate(timeout=PATIENCE)[1]
+            assert b"a socket named 'other'" in process.communicate(timeout=PATIENCE)[1]
             assert process.returncode == 1
             notify.close()
         status, _, errors = run("serve", "--listen", "systemd")
         assert (status, len(errors)) == (1, 1), errors
-        assert "systemd has passed on no socket" in errors[0]
+        assert "systemd did not pass a socket" in errors[0]
