@@ -16,7 +16,7 @@ constexpr int kLastPosition = kLinePixels - 1, kLastMotion = 15;
 constexpr unsigned kUnusedOfNusiz = 0xC8, kUnusedOfCtrlpf = 0xC8, kUnusedCollision = 1U << 12;
 
 // The most draws from the system's generator. Repeating them takes a fraction of a second.
-constexpr std::uint32_t kMostDrawn = 1U << 27;
+constexpr std::uint32_t kMaxDrawn = 1U << 27;
 
 void check_cpu(const CpuState& cpu) {
   check_clear("the processor's status", cpu.P, 0x30);
@@ -115,7 +115,7 @@ void check_cartridge(const CartridgeState& state, const CartridgeSlot& slot) {
 
 void check_state(const State& state, const Video& video, const CartridgeSlot& slot) {
   check_range("the cycle", state.cycle, 0, kEndlessCycle - 1);
-  check_range("the number of draws at power-on", state.drawn, 0, kMostDrawn);
+  check_range("the number of draws at power-on", state.drawn, 0, kMaxDrawn);
   check_cpu(state.cpu);
   check_riot(state.riot);
   check_registers(state.tia);

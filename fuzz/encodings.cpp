@@ -121,9 +121,9 @@ void may_refuse(Read read) {
 void check_numbers(const std::string& text) {
   errno = 0;
   const long number = std::strtol(text.c_str(), nullptr, 10);
-  constexpr long kLeast = std::numeric_limits<int>::min(), kMost = std::numeric_limits<int>::max();
-  require(parse_integer(text.c_str()) == std::clamp(number, kLeast, kMost),
-          "parse_integer reads as atoi does", text);
+  constexpr long kMin = std::numeric_limits<int>::min(), kMax = std::numeric_limits<int>::max();
+  require(parse_integer(text.c_str()) == std::clamp(number, kMin, kMax), "parse_integer reads as atoi does",
+          text);
   std::array<int, 4> values{};
   require(parse_integers(text, values) <= values.size(), "no more numbers are read than there is room for");
 }

@@ -11,7 +11,7 @@ namespace racebeam::fuzz {
 namespace {
 
 enum Option : unsigned { kColours = 1, kMinimalActions = 2, kFewFrames = 4 };
-constexpr int kMostMessages = 64;
+constexpr int kMaxMessages = 64;
 
 Cartridge beamfall() {
   const auto image = load_image("builtin:beamfall");
@@ -40,7 +40,7 @@ void run(Bytes input) {
   Reader reader(input);
   Environment environment(cartridge.image, cartridge.game, {.random_seed = 1});
   RlGlueEnvironment session(environment, options_of(reader.byte()));
-  for (int message = 0; message < kMostMessages && !reader.empty(); ++message) {
+  for (int message = 0; message < kMaxMessages && !reader.empty(); ++message) {
     const std::uint32_t type = reader.byte();
     const std::size_t size = reader.byte();
     try {

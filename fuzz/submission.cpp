@@ -18,7 +18,7 @@ namespace racebeam::fuzz {
 namespace {
 
 constexpr std::string_view kDivision = "====\n", kDigest = "DIGEST";
-constexpr int kMostRows = 1000;  // of a plan
+constexpr int kMaxRows = 1000;  // of a plan
 
 std::string part_of(std::string_view& text) {
   const std::size_t end = std::min(text.find(kDivision), text.size());
@@ -51,7 +51,7 @@ bool is_long_plan(std::string_view text) {
     const Plan plan = parse_plan(text, "a plan");
     std::int64_t rows = 0;
     for (const Unit& unit : units_of(plan)) rows += unit.agent->length.evaluation_episodes;
-    return rows > kMostRows;
+    return rows > kMaxRows;
   } catch (const InvalidInput&) {
     return false;
   }

@@ -25,7 +25,7 @@ namespace net = boost::asio;
 using boost::system::error_code;
 
 constexpr std::string_view kRequests = "hello token=0123456789abcdef\nload beamfall\nact 0*60\n";
-constexpr int kMostFlights = 8;
+constexpr int kMaxFlights = 8;
 
 template <auto kFree>
 struct Freed {
@@ -149,7 +149,7 @@ void run(Bytes input) {
   connection.serve(serve(connection.socket(), tls.context(), outcome));
   Client client;
   bool altered = false;
-  for (unsigned number = 0; number < kMostFlights; ++number) {
+  for (unsigned number = 0; number < kMaxFlights; ++number) {
     std::string flight = client.flight(connection.answers());
     if (flight.empty()) break;
     for (const Alteration& change : changes)

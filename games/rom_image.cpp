@@ -32,8 +32,8 @@ std::string stem_of(std::filesystem::path path) {
 // Repeats the bytes of a cartridge of less than 2K until they fill 2K. The last copy ends at the end of the
 // 2K, since the vectors are there. Returns the size before, or 0 if it does nothing.
 std::size_t mirror(std::vector<std::uint8_t>& bytes) {
-  constexpr std::size_t kLeast = 32, kFull = 2048;
-  if (bytes.size() < kLeast || bytes.size() >= kFull) return 0;
+  constexpr std::size_t kMin = 32, kFull = 2048;
+  if (bytes.size() < kMin || bytes.size() >= kFull) return 0;
   std::vector<std::uint8_t> full(kFull);
   for (std::size_t i = 1; i <= kFull; ++i) full[kFull - i] = bytes[bytes.size() - 1 - (i - 1) % bytes.size()];
   std::swap(bytes, full);
@@ -79,11 +79,10 @@ constexpr std::string_view kSevenZip = "7z\xBC\xAF\x27\x1C";
 bool is_fork(const std::filesystem::path& path) { return path.filename().string().starts_with("._"); }
 
 std::string names_of(const std::vector<ZipEntry>& entries) {
-  constexpr std::size_t kMost = 8;
+  constexpr std::size_t kMax = 8;
   std::string names;
-  for (std::size_t i = 0; i < entries.size() && i < kMost; ++i)
-    names += (i > 0 ? ", " : "") + entries[i].name;
-  return entries.size() > kMost ? names + " and others" : names;
+  for (std::size_t i = 0; i < entries.size() && i < kMax; ++i) names += (i > 0 ? ", " : "") + entries[i].name;
+  return entries.size() > kMax ? names + " and others" : names;
 }
 
 // The one image of a zip archive. Its own name counts, not that of the archive.

@@ -56,7 +56,7 @@ class Aside {
     const fs::path whole(path);
     const std::string hidden = std::string(".").append(whole.filename().string()).append(".part");
     const std::string first = (whole.parent_path() / hidden).string();
-    for (int number = 0; descriptor_ < 0 && number < kMostNames; ++number) {
+    for (int number = 0; descriptor_ < 0 && number < kMaxNames; ++number) {
       name_ = number == 0 ? first : first + std::to_string(number);
       descriptor_ = make_marked_file(name_);
       if (descriptor_ < 0 && errno != EEXIST) break;
@@ -79,7 +79,7 @@ class Aside {
   }
 
  private:
-  static constexpr int kMostNames = 100;
+  static constexpr int kMaxNames = 100;
 
   std::string name_;  // empty once it is renamed
   int descriptor_ = -1;
@@ -87,9 +87,9 @@ class Aside {
 
 // The file that a symbolic link names, whether it exists or not.
 std::string target_of(std::string path) {
-  constexpr int kMostLinks = 40;
+  constexpr int kMaxLinks = 40;
   std::error_code none;
-  for (int links = 0; links < kMostLinks && fs::is_symlink(path, none); ++links)
+  for (int links = 0; links < kMaxLinks && fs::is_symlink(path, none); ++links)
     path = (fs::path(path).parent_path() / fs::read_symlink(path)).string();
   return path;
 }

@@ -19,9 +19,9 @@ constexpr SealedKind kKind = {
     .what = "episode log", .magic = "RBEPISOD", .version = 1, .most = std::size_t{2} << 20, .level = 9};
 constexpr std::array<WordFor<EpisodeOver>, 2> kOvers = {
     {{"terminated", EpisodeOver::kTerminated}, {"truncated", EpisodeOver::kTruncated}}};
-constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
-constexpr std::int64_t kMost64 = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
+constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
+constexpr std::int64_t kMax64 = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMaxSeed = std::numeric_limits<std::uint32_t>::max();
 
 // Appends a number, the lowest byte first.
 template <class Number>
@@ -93,21 +93,21 @@ class LogReader {
     std::string_view rest = text;
     origin.unit = value(rest, "unit");
     origin.agent = value(rest, "agent");
-    origin.trial = static_cast<int>(number_within(value(rest, "trial"), "trial", 1, kMostInt));
-    origin.episode = static_cast<int>(number_within(value(rest, "episode"), "episode", 1, kMostInt));
+    origin.trial = static_cast<int>(number_within(value(rest, "trial"), "trial", 1, kMaxInt));
+    origin.episode = static_cast<int>(number_within(value(rest, "episode"), "episode", 1, kMaxInt));
     origin.agent_seed =
-        static_cast<std::uint32_t>(number_within(value(rest, "agent_seed"), "agent_seed", 0, kMostSeed));
+        static_cast<std::uint32_t>(number_within(value(rest, "agent_seed"), "agent_seed", 0, kMaxSeed));
     origin.version = value(rest, "version");
   }
 
   void read_end(EpisodeEnd& end) {
     const std::string text = line("ended");
     std::string_view rest = text;
-    end.score = number_within(value(rest, "score"), "score", -kMost64, kMost64);
-    end.frames = number_within(value(rest, "frames"), "frames", 0, kMostInt);
-    end.decisions = number_within(value(rest, "decisions"), "decisions", 0, kMostInt);
+    end.score = number_within(value(rest, "score"), "score", -kMax64, kMax64);
+    end.frames = number_within(value(rest, "frames"), "frames", 0, kMaxInt);
+    end.decisions = number_within(value(rest, "decisions"), "decisions", 0, kMaxInt);
     end.over = value_for(value(rest, "end"), "end", kOvers);
-    end.lives = static_cast<int>(number_within(value(rest, "lives"), "lives", -kMostInt, kMostInt));
+    end.lives = static_cast<int>(number_within(value(rest, "lives"), "lives", -kMaxInt, kMaxInt));
   }
 
   void read_bytes(EpisodeLog& log) {
@@ -136,7 +136,7 @@ class LogReader {
 
 }  // namespace
 
-const std::size_t kMostLogBytes = kKind.most;
+const std::size_t kMaxLogBytes = kKind.most;
 
 std::string_view name_of(EpisodeOver over) { return word_for(kOvers, over); }
 

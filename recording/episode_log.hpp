@@ -11,8 +11,8 @@
 
 namespace racebeam {
 
-constexpr int kMostDecisions = 2'000'000;  // of an episode, so that its log has at most two MiB
-constexpr int kMostTurns = 400'000;        // if the log has strengths
+constexpr int kMaxDecisions = 2'000'000;   // of an episode, so that its log has at most two MiB
+constexpr int kMaxTurns = 400'000;         // if the log has strengths
 constexpr int kDecisionsPerStretch = 256;  // a log has the state's hash after each stretch
 
 enum class EpisodeOver { kTerminated, kTruncated };
@@ -57,7 +57,7 @@ std::string bytes_of(const EpisodeLog& log, const std::function<void()>& pause =
 EpisodeLog log_of(const std::string& name, std::string_view bytes);
 
 // The size of the largest log file, in bytes. A larger file is refused without being read.
-extern const std::size_t kMostLogBytes;
+extern const std::size_t kMaxLogBytes;
 
 // The words of `load` that restart this episode, which `machine` plays.
 std::string words_of(const PlaySettings& settings, const Environment& machine);

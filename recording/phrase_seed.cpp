@@ -10,7 +10,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kMostPhraseBytes = 1000;
+constexpr std::size_t kMaxPhraseBytes = 1000;
 
 }  // namespace
 
@@ -18,7 +18,7 @@ bool is_phrase(std::string_view text) {
   const bool is_plain = std::ranges::none_of(text, [](char letter) {
     return static_cast<unsigned char>(letter) < ' ' || letter == '\x7f' || letter == '"' || letter == '\\';
   });
-  return !text.empty() && text.size() <= kMostPhraseBytes && is_plain;
+  return !text.empty() && text.size() <= kMaxPhraseBytes && is_plain;
 }
 
 void check_phrase(std::string_view phrase) {

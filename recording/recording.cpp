@@ -10,7 +10,7 @@ namespace racebeam {
 namespace {
 
 // The most frames in the queue: some milliseconds of the encoders' work. A frame of only sound has six bytes.
-constexpr std::size_t kMostPictures = 16, kMostSounds = 1024;
+constexpr std::size_t kMaxPictures = 16, kMaxSounds = 1024;
 
 // The most memory that encoders need: buffers of six bytes a pixel, their output, and zlib's own memory.
 constexpr std::size_t kEncoderBytesAPixel = 12, kEncoderBytes = 1 << 19;
@@ -29,7 +29,7 @@ bool has_pictures(const std::vector<MediaKind>& kinds) {
 }
 
 std::size_t queue_length(const std::vector<MediaKind>& kinds) {
-  return has_pictures(kinds) ? kMostPictures : kMostSounds;
+  return has_pictures(kinds) ? kMaxPictures : kMaxSounds;
 }
 
 }  // namespace

@@ -68,14 +68,14 @@ class Deflater {
     stream_.next_in = const_cast<Bytef*>(bytes_of(piece));  // zlib does not write there
     stream_.avail_in = static_cast<uInt>(piece.size());
     stream_.next_out = reinterpret_cast<Bytef*>(out.data()) + size;
-    stream_.avail_out = static_cast<uInt>(std::min<std::size_t>(out.size() - size, kMostOut));
+    stream_.avail_out = static_cast<uInt>(std::min<std::size_t>(out.size() - size, kMaxOut));
     if (deflate(&stream_, is_last ? Z_FINISH : Z_NO_FLUSH) != (is_last ? Z_STREAM_END : Z_OK))
       throw std::runtime_error("zlib cannot compress");
     size = static_cast<std::size_t>(reinterpret_cast<char*>(stream_.next_out) - out.data());
   }
 
  private:
-  static constexpr std::size_t kMostOut = std::size_t{1} << 30;  // bytes for a piece, which has far fewer
+  static constexpr std::size_t kMaxOut = std::size_t{1} << 30;  // bytes for a piece, which has far fewer
 
   z_stream stream_{};
 };

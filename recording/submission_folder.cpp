@@ -29,7 +29,7 @@ using namespace std::chrono_literals;
 // How many bytes a log is charged for in addition to its own, so that the budget also limits the number of
 // files.
 constexpr std::size_t kBytesBesideLog = 4096;
-constexpr std::size_t kMostAgentBytes = std::size_t{1} << 16, kMostLineBytes = std::size_t{1} << 16;
+constexpr std::size_t kMaxAgentBytes = std::size_t{1} << 16, kMaxLineBytes = std::size_t{1} << 16;
 
 [[noreturn]] void fail(const std::string& what, const std::string& path) {
   const std::string reason = std::generic_category().message(errno);
@@ -140,7 +140,7 @@ void write_file(const std::string& path, std::string_view text, DiskBudget& budg
 std::string first_log(const std::string& folder) {
   std::string path;
   std::size_t number = 0;
-  each_line("results", folder + "/results.csv", kMostLineBytes, [&](std::string_view line, bool) {
+  each_line("results", folder + "/results.csv", kMaxLineBytes, [&](std::string_view line, bool) {
     if (++number != 2) return;
     const ResultRow row = row_of_line(line);
     path = folder + "/logs/" + row[0] + '/' + field(row, "episode") + ".episode";
@@ -191,7 +191,7 @@ void SubmissionFolder::check_earlier(std::string_view text) const {
   const std::string name = fs::path(order_.path).filename().string(), about = order_.path + "/agent.toml";
   if (fs::is_symlink(order_.path) || !fs::exists(about))
     throw std::runtime_error(name + " exists, and has no agent.toml; choose another name");
-  if (read_input_file("description of the agent", about, kMostAgentBytes) != text)
+  if (read_input_file("description of the agent", about, kMaxAgentBytes) != text)
     throw std::runtime_error(name + " has another agent.toml; choose another name, or the same words");
   const SharedTable table(table_path(), budget_);  // nobody appends a row while one is read
   if (table.size() == 0) table.append(line_of(kResultColumns));
@@ -201,7 +201,7 @@ void SubmissionFolder::check_earlier(std::string_view text) const {
 void SubmissionFolder::check_settings() const {
   const std::string path = first_log(order_.path);
   if (path.empty()) return;
-  const std::string bytes = read_input_file("episode log", path, kMostLogBytes);
+  const std::string bytes = read_input_file("episode log", path, kMaxLogBytes);
   const std::string settings =
       settings_without_seed(log_of(fs::path(path).filename().string(), bytes).settings);
   if (settings != order_.settings)

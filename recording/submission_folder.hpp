@@ -19,9 +19,9 @@ struct AboutAgent {  // agent.toml
   bool operator==(const AboutAgent&) const = default;
 };
 
-constexpr std::size_t kMostAgentName = 64;                         // letters, also of a version
-constexpr std::size_t kMostUnitName = 100;                         // GAME-AGENT-TRIAL; also of an episode
-constexpr std::int64_t kMostTrainingFrames = 999'999'999'999'999;  // the board accepts as many
+constexpr std::size_t kMaxAgentName = 64;                         // letters, also of a version
+constexpr std::size_t kMaxUnitName = 100;                         // GAME-AGENT-TRIAL; also of an episode
+constexpr std::int64_t kMaxTrainingFrames = 999'999'999'999'999;  // the board accepts as many
 constexpr std::array<std::string_view, 3> kAgentRoles = {"learner", "planner", "baseline"};
 
 // Whether a name is that of a file, and leads nowhere else; and the rule as errors state it.

@@ -35,7 +35,7 @@ class BusyPoll {
   bool again() {
     if (until_ == Clock::time_point{} || Clock::now() < until_) return until_ != Clock::time_point{};
     until_ = {};
-    to_skip_ = backoff_ = std::min(4 * backoff_ + 4, tuning::kMostSkippedPolls);
+    to_skip_ = backoff_ = std::min(4 * backoff_ + 4, tuning::kMaxSkippedPolls);
     return false;
   }
 

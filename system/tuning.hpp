@@ -9,7 +9,7 @@
 // middle of play and from power-on. "replies" are the replies of a server. "none": no command measures it.
 //
 // A row is a constant. In a build with RACEBEAM_TUNABLE, which only that command makes, a row takes another
-// value from the environment variable RACEBEAM_TUNING, as in "kMostWork=50 kLongestRun=64".
+// value from the environment variable RACEBEAM_TUNING, as in "kMaxWork=50 kLongestRun=64".
 #pragma once
 
 #ifdef RACEBEAM_TUNABLE
@@ -43,6 +43,6 @@ T tuned(const std::string& name, T usual) {
 namespace racebeam::tuning {
 
 // The most busy polls (busy_poll.hpp) that are skipped after polls in vain.
-RACEBEAM_TUNED(int, kMostSkippedPolls, 1024, "polls", "none");
+RACEBEAM_TUNED(int, kMaxSkippedPolls, 1024, "polls", "none");
 
 }  // namespace racebeam::tuning

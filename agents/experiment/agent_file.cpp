@@ -18,8 +18,8 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 16;
-constexpr std::size_t kMostLetters = 4000;  // of a text
+constexpr std::size_t kMaxBytes = std::size_t{1} << 16;
+constexpr std::size_t kMaxLetters = 4000;  // of a text
 constexpr std::array<std::string_view, 8> kKeys = {"agent", "version", "preset", "training_frames",
                                                    "words", "link",    "role",   "phrase"};
 constexpr std::size_t kRequired = 4;  // keys, the first ones
@@ -50,7 +50,7 @@ std::size_t letters_of(std::string_view text) {
       text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0U) != 0x80; }));
 }
 
-bool is_agent_name(std::string_view text) { return is_plain_name(text, kMostAgentName); }
+bool is_agent_name(std::string_view text) { return is_plain_name(text, kMaxAgentName); }
 
 bool is_link(std::string_view text) {
   const std::size_t begin = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : 0;
@@ -90,7 +90,7 @@ class AgentTable {
 
   std::optional<std::string> text(std::string_view key, const std::function<bool(std::string_view)>& is_good,
                                   const std::string& expected) const {
-    std::optional<std::string> text = this->text(key, 0, kMostLetters);
+    std::optional<std::string> text = this->text(key, 0, kMaxLetters);
     if (text && !is_good(*text)) refuse(key, expected);
     return text;
   }
@@ -119,17 +119,17 @@ class AgentTable {
 }  // namespace
 
 AgentFile read_agent_file(const std::string& path) {
-  const std::string text = read_input_file("description of the agent", path, kMostBytes);
+  const std::string text = read_input_file("description of the agent", path, kMaxBytes);
   const TomlSource source{text, path};
   const toml::table table = parse_toml(source);
   const AgentTable file(path, table);
   file.check_keys();
   AgentFile found;
-  found.agent = file.text("agent", is_agent_name, plain_name_rule(kMostAgentName)).value();
-  file.text("version", 1, kMostAgentName);
+  found.agent = file.text("agent", is_agent_name, plain_name_rule(kMaxAgentName)).value();
+  file.text("version", 1, kMaxAgentName);
   found.preset = file.choice("preset", presets()).value();
-  file.check_number("training_frames", kMostTrainingFrames);
-  file.text("words", 0, kMostLetters);
+  file.check_number("training_frames", kMaxTrainingFrames);
+  file.text("words", 0, kMaxLetters);
   file.text("link", is_link, "https://... or http://...");
   file.choice("role", {kAgentRoles.begin(), kAgentRoles.end()});
   found.phrase = file.text("phrase", is_phrase, std::string(kPhraseRule));

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostTableBytes = std::size_t{1} << 32;
+constexpr std::size_t kMaxTableBytes = std::size_t{1} << 32;
 constexpr std::chrono::seconds kBetweenCounts{10};  // a look at each unit may take long on a network's disk
 
 std::string first_difference(std::string_view ours, std::string_view theirs) {
@@ -36,7 +36,7 @@ std::string first_difference(std::string_view ours, std::string_view theirs) {
 }
 
 void check_plan(const ResultsFolder& folder, const std::string& text) {
-  const std::string there = read_input_file("plan", folder.plan(), kMostPlanBytes);
+  const std::string there = read_input_file("plan", folder.plan(), kMaxPlanBytes);
   if (there != text)
     throw InvalidInput(folder.root() + " holds results of another plan; the first difference is: " +
                        first_difference(text, there) + "; choose another folder");
@@ -50,13 +50,13 @@ void make_folder(const std::string& path) {
 
 // A lock in the folder `work`, which every process removes that finds all units finished.
 auto with_lock(const ResultsFolder& folder, const std::string& name, const auto& lock) {
-  constexpr int kMostAttempts = 10'000;
+  constexpr int kMaxAttempts = 10'000;
   for (int attempt = 1;; ++attempt) {
     make_folder(folder.work());
     try {
       return lock(folder.lock(name));
     } catch (const std::system_error& error) {
-      if (error.code() != std::errc::no_such_file_or_directory || attempt == kMostAttempts) throw;
+      if (error.code() != std::errc::no_such_file_or_directory || attempt == kMaxAttempts) throw;
     }
   }
 }
@@ -156,9 +156,9 @@ void merge_tables(const ResultsFolder& folder, const std::vector<Unit>& units) {
   for (const Unit& unit : units) {
     if (!is_finished(folder, unit)) continue;
     ++finished;
-    results += read_input_file("table", folder.unit(unit.name, "results"), kMostTableBytes);
-    curves += read_input_file("table", folder.unit(unit.name, "curves"), kMostTableBytes);
-    times += read_input_file("table", folder.unit(unit.name, "times"), kMostTableBytes);
+    results += read_input_file("table", folder.unit(unit.name, "results"), kMaxTableBytes);
+    curves += read_input_file("table", folder.unit(unit.name, "curves"), kMaxTableBytes);
+    times += read_input_file("table", folder.unit(unit.name, "times"), kMaxTableBytes);
   }
   replace_file(folder.agents(), table_of_agents(units), Durable::kLater);
   replace_file(folder.times(), times, Durable::kLater);

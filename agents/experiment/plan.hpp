@@ -63,7 +63,7 @@ struct Unit {
   int trial = 1;
 };
 
-constexpr std::size_t kMostPlanBytes = std::size_t{1} << 20;  // of a plan's file
+constexpr std::size_t kMaxPlanBytes = std::size_t{1} << 20;  // of a plan's file
 
 // Parses a plan. It may name games of the catalogue, and games with a rule among `images`. file: the name for
 // errors. Throws InvalidInput: "FILE:LINE: FIELD: sentence".

@@ -8,8 +8,8 @@
 
 namespace racebeam {
 
-constexpr int kMostNumberOfPlan = std::numeric_limits<int>::max();
-constexpr int kMostEpisodesOfPlan = 1000000;
+constexpr int kMaxNumberOfPlan = std::numeric_limits<int>::max();
+constexpr int kMaxEpisodesOfPlan = 1000000;
 
 struct LengthKey {
   std::string_view name;
@@ -18,10 +18,10 @@ struct LengthKey {
   int most;
 };
 constexpr std::array kLengthKeys = {
-    LengthKey{"trials", &TrialLength::trials, 1, kMostEpisodesOfPlan},
-    LengthKey{"training_episodes", &TrialLength::training_episodes, 0, kMostEpisodesOfPlan},
-    LengthKey{"training_frames", &TrialLength::training_frames, 0, kMostNumberOfPlan},
-    LengthKey{"evaluation_episodes", &TrialLength::evaluation_episodes, 1, kMostEpisodesOfPlan},
+    LengthKey{"trials", &TrialLength::trials, 1, kMaxEpisodesOfPlan},
+    LengthKey{"training_episodes", &TrialLength::training_episodes, 0, kMaxEpisodesOfPlan},
+    LengthKey{"training_frames", &TrialLength::training_frames, 0, kMaxNumberOfPlan},
+    LengthKey{"evaluation_episodes", &TrialLength::evaluation_episodes, 1, kMaxEpisodesOfPlan},
 };
 
 struct ScreensKey {

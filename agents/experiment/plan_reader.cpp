@@ -20,10 +20,10 @@
 namespace racebeam {
 namespace {
 
-constexpr int kMostEpisodeFrames = 1000000;  // a log holds this many decisions
-constexpr int kMostScreens = 10000000;
-constexpr int kMostFrameSkip = 1000;
-constexpr std::int64_t kMostUnits = 100000, kMostRows = 20000000;  // of results.csv: 4 GiB
+constexpr int kMaxEpisodeFrames = 1000000;  // a log holds this many decisions
+constexpr int kMaxScreens = 10000000;
+constexpr int kMaxFrameSkip = 1000;
+constexpr std::int64_t kMaxUnits = 100000, kMaxRows = 20000000;  // of results.csv: 4 GiB
 
 // Settings of the literature, which a plan then changes.
 struct PlanPreset {
@@ -67,12 +67,11 @@ class PlanReader {
     top_.allow(kTopKeys);
     plan_.name = top_.text("name").value_or("experiment");
     if (top_.node("name")) top_.guard(*top_.node("name"), "name", [&] { checked_name(plan_.name, "plan"); });
-    if (top_.node("seed"))
-      plan_.seed = static_cast<std::uint32_t>(*top_.number("seed", 0, kMostNumberOfPlan));
+    if (top_.node("seed")) plan_.seed = static_cast<std::uint32_t>(*top_.number("seed", 0, kMaxNumberOfPlan));
     plan_.phrase = top_.text("phrase").value_or("");
     if (top_.node("phrase")) top_.guard(*top_.node("phrase"), "phrase", [&] { check_phrase(plan_.phrase); });
     for (const ScreensKey& key : kScreensKeys)
-      if (top_.node(key.name)) plan_.*key.member = *top_.number(key.name, 1, kMostScreens);
+      if (top_.node(key.name)) plan_.*key.member = *top_.number(key.name, 1, kMaxScreens);
     plan_.version = top_.text("version").value_or("");
     read_preset();
     read_lengths(top_, learners_);
@@ -150,10 +149,10 @@ class PlanReader {
     if (has_seed(text))
       top_.refuse(node, key, "seed is not accepted here; all seeds follow from the plan's key 'seed'");
     const int limit = settings.machine.max_episode_frames;
-    if (limit < 1 || limit > kMostEpisodeFrames)
+    if (limit < 1 || limit > kMaxEpisodeFrames)
       top_.refuse(node, key,
                   "max_episode_frames is " + std::to_string(limit) + "; an experiment accepts 1 to " +
-                      std::to_string(kMostEpisodeFrames));
+                      std::to_string(kMaxEpisodeFrames));
   }
 
   // What an agent is made of cannot change between training and evaluation.
@@ -297,8 +296,8 @@ class PlanReader {
       if (top_.node(key)) top_.refuse(*top_.node(key), key, sentence);
       top_.refuse_missing(key, sentence);
     };
-    check("trials", units, " units", kMostUnits);
-    check("evaluation_episodes", rows, " evaluation episodes", kMostRows);
+    check("trials", units, " units", kMaxUnits);
+    check("evaluation_episodes", rows, " evaluation episodes", kMaxRows);
   }
 
   // Baselines learn nothing, and a search has an episode a trial, so that episodes run side by side.
@@ -316,7 +315,7 @@ class PlanReader {
     PlanAgent agent{&kind, AgentValues(kind.settings), length_for(kind),
                     kind.frame_skip.value_or(plan_.play.machine.frame_skip)};
     read_lengths(section, agent.length);
-    if (section.node("frame_skip")) agent.frame_skip = *section.number("frame_skip", 1, kMostFrameSkip);
+    if (section.node("frame_skip")) agent.frame_skip = *section.number("frame_skip", 1, kMaxFrameSkip);
     for (std::size_t i = 0; i < kind.settings.size(); ++i)
       if (section.node(kind.settings[i].name)) agent.values.set(i, value(section, kind.settings[i]));
     return agent;
@@ -370,7 +369,7 @@ Plan load_plan(const std::string& name_or_file, const Images& images) {
   if (name_or_file.find_first_of("./") == std::string::npos)
     throw InvalidInput("unknown plan " + quote(name_or_file) + "; accepted: " + list_of(shipped_plans()) +
                        ", or a file, whose name contains . or /");
-  return parse_plan(read_input_file("plan", name_or_file, kMostPlanBytes), name_or_file, images);
+  return parse_plan(read_input_file("plan", name_or_file, kMaxPlanBytes), name_or_file, images);
 }
 
 }  // namespace racebeam

@@ -18,13 +18,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::size_t kMostProbes = 60, kMostActions = 4;
+constexpr std::size_t kMaxProbes = 60, kMaxActions = 4;
 constexpr Seconds kLongestProbe{2};
-constexpr double kMostWaiting = 10;  // on a busy machine, a probe ends after this multiple of its share
-constexpr double kMostLearning = 8;  // a learner's speed may take this multiple of its share to settle
-// The probe discovers facts from fewer screens than an experiment: one in kMostShare, or more if that were
-// fewer than kLeastScreens.
-constexpr int kMostShare = 12, kLeastScreens = 600;
+constexpr double kMaxWaiting = 10;  // on a busy machine, a probe ends after this multiple of its share
+constexpr double kMaxLearning = 8;  // a learner's speed may take this multiple of its share to settle
+// The probe discovers facts from fewer screens than an experiment: one in kMaxShare, or more if that were
+// fewer than kMinScreens.
+constexpr int kMaxShare = 12, kMinScreens = 600;
 
 struct Enough {};  // ends an episode
 
@@ -62,14 +62,14 @@ class Probe {
 
   // Each of some of a kind's agents plays for a part of the time.
   Sums play(const std::vector<int>& actions, Seconds time) {
-    const std::size_t count = std::min(actions.size(), kMostActions);
+    const std::size_t count = std::min(actions.size(), kMaxActions);
     for (std::size_t i = 0; i < count; ++i) play(actions[i * actions.size() / count], time / count);
     return sums_;
   }
 
  private:
   static int share_of(const Plan& plan) {
-    return std::clamp(plan.background_screens / kLeastScreens, 1, kMostShare);
+    return std::clamp(plan.background_screens / kMinScreens, 1, kMaxShare);
   }
 
   static SampleSettings samples_of(const Plan& plan, const PlanGame& game) {
@@ -97,8 +97,8 @@ class Probe {
     const std::unique_ptr<Agent> agent = make(action);
     stage_.machine().set_drawing(agent->drawing());
     agent->set_learning(trains_);
-    const Seconds most = trains_ ? time * kMostLearning : time, start = time_of_thread();
-    const auto end = Clock::now() + most * kMostWaiting;
+    const Seconds most = trains_ ? time * kMaxLearning : time, start = time_of_thread();
+    const auto end = Clock::now() + most * kMaxWaiting;
     SettlingRate rate(time.count(), most.count());
     std::int64_t frames = 0;
     const PlayOptions options{.on_decision = [&](std::int64_t, std::int64_t frames_now) {
@@ -167,7 +167,7 @@ std::vector<const PlanGame*> some_games(const Plan& plan, const Images& images, 
 
 // A moment has few episodes of each learner, so that all learners of a game get the mean of their episodes.
 PlayRates measure_rates(const Plan& plan, const Images& images, std::chrono::duration<double> time) {
-  const std::vector<const PlanGame*> games = some_games(plan, images, kMostProbes / plan.agents.size());
+  const std::vector<const PlanGame*> games = some_games(plan, images, kMaxProbes / plan.agents.size());
   const auto count = static_cast<double>(games.size() * plan.agents.size());
   PlayRates rates;
   for (const PlanGame* const game : games) {

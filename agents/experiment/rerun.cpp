@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostCurveBytes = 1 << 16;  // of a line
+constexpr std::size_t kMaxCurveBytes = 1 << 16;  // of a line
 constexpr std::chrono::hours kNoCheckpoints{24 * 365};
 
 // A folder of results that is removed at the end.
@@ -54,7 +54,7 @@ using Lines = std::map<std::string, std::vector<std::string>, std::less<>>;
 
 void take_lines(const std::string& path, Lines& lines) {
   if (!fs::exists(path)) return;
-  each_line("table", path, kMostCurveBytes, [&](std::string_view line, bool) {
+  each_line("table", path, kMaxCurveBytes, [&](std::string_view line, bool) {
     const auto found = lines.find(line.substr(0, line.find(',')));
     if (found != lines.end()) found->second.emplace_back(line);
   });
@@ -62,7 +62,7 @@ void take_lines(const std::string& path, Lines& lines) {
 
 std::vector<std::string> lines_of_file(const std::string& path) {
   std::vector<std::string> lines;
-  each_line("table", path, kMostCurveBytes, [&](std::string_view line, bool) { lines.emplace_back(line); });
+  each_line("table", path, kMaxCurveBytes, [&](std::string_view line, bool) { lines.emplace_back(line); });
   return lines;
 }
 

@@ -48,7 +48,7 @@ std::string curve_line(const Unit& unit, int episode, const EpisodeEnd& end) {
 }
 
 void each_result(const std::string& path, const RowVisitor& visit) {
-  constexpr std::size_t kMostLineBytes = 1 << 16;
+  constexpr std::size_t kMaxLineBytes = 1 << 16;
   const std::string columns = line_of(kResultColumns);
   std::size_t number = 0;
   const auto refuse = [&](const std::string& reason) {
@@ -67,7 +67,7 @@ void each_result(const std::string& path, const RowVisitor& visit) {
       throw InvalidInput("results.csv: its first line must name the columns " +
                          columns.substr(0, columns.size() - 1));
   };
-  each_line("results", path, kMostLineBytes, [&](std::string_view line, bool ends) {
+  each_line("results", path, kMaxLineBytes, [&](std::string_view line, bool ends) {
     if (line.ends_with('\r')) line.remove_suffix(1);  // a file that was edited on Windows
     if (++number == 1) check_columns(line);
     if (!ends) refuse("the last line does not end; the file was cut");

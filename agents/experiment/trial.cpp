@@ -188,15 +188,15 @@ void Trial::check_account() const {
   const auto is_within = [](std::int64_t number, std::int64_t least, std::int64_t most) {
     return least <= number && number <= most;
   };
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / 2;
+  constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max() / 2;
   const std::int64_t trained = std::max(length_.training_episodes, length_.training_frames);
   bool is_valid = is_within(account_.trained, 0, trained) &&
                   is_within(account_.evaluated, 0, length_.evaluation_episodes) &&
                   is_within(account_.training_frames, 0, account_.frames) &&
-                  is_within(account_.score, -kMost, kMost);
+                  is_within(account_.score, -kMax, kMax);
   for (const std::int64_t count : {account_.frames, account_.training_microseconds,
                                    account_.evaluation_microseconds, account_.searched_frames})
-    is_valid = is_valid && is_within(count, 0, kMost);
+    is_valid = is_valid && is_within(count, 0, kMax);
   if (!is_valid) throw InvalidInput("its counts of episodes, frames and times are invalid");
 }
 

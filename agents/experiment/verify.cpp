@@ -68,7 +68,7 @@ class RowJudge {
   RowVerdict judge_episode(const ResultRow& row, const PlanRows::Place& place) {
     if (!fs::exists(folder_.logs(row[0]))) return {Judgement::kUnchecked, "the unit's logs are not here"};
     const std::string path = folder_.log(row[0], field(row, "episode"));
-    const std::string bytes = read_input_file("episode log", path, kMostLogBytes);
+    const std::string bytes = read_input_file("episode log", path, kMaxLogBytes);
     const EpisodeLog log = log_of(fs::path(path).filename().string(), bytes);
     if (const std::string reason = first_difference(row, row_of(log, sha256_of(bytes)), "its log has");
         !reason.empty())
@@ -172,7 +172,7 @@ class Verification {
 }  // namespace
 
 Plan plan_of_results(const ResultsFolder& folder, const Images& images) {
-  const std::string text = read_input_file("plan", folder.plan(), kMostPlanBytes);
+  const std::string text = read_input_file("plan", folder.plan(), kMaxPlanBytes);
   Plan plan = parse_plan(text, folder.plan(), images);
   if (plan.version.empty()) throw InvalidInput(folder.plan() + ": it lacks the key 'version'");
   for (const PlanGame& game : plan.games)

@@ -50,7 +50,7 @@ class SubmissionJudge {
     const std::string path = folder_.log(row[0], field(row, "episode"));
     if (is_link(folder_.logs(row[0])) || is_link(path))
       throw InvalidInput("its log is behind a link, which is not followed");
-    const std::string bytes = read_input_file("episode log", path, kMostLogBytes);
+    const std::string bytes = read_input_file("episode log", path, kMaxLogBytes);
     return {log_of(fs::path(path).filename().string(), bytes), sha256_of(bytes)};
   }
 
@@ -107,9 +107,9 @@ class SubmissionVerification {
   std::string fault_of(const ResultRow& row) {
     const std::string& episode = field(row, "episode");
     for (const std::string_view column : {"unit", "episode"})
-      if (!is_plain_name(field(row, column), kMostUnitName))
+      if (!is_plain_name(field(row, column), kMaxUnitName))
         return std::string(column) + " is " + quote(field(row, column)) + "; it takes " +
-               plain_name_rule(kMostUnitName);
+               plain_name_rule(kMaxUnitName);
     const bool is_first = logs_.insert(folder_.log(row[0], episode)).second;
     if (field(row, "agent") != about_.agent)
       return "agent is '" + field(row, "agent") + "'; agent.toml has '" + about_.agent + "'";

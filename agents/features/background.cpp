@@ -10,7 +10,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kMostDecisionsBefore = 600, kDecisionsAfter = 600;
+constexpr std::size_t kMaxDecisionsBefore = 600, kDecisionsAfter = 600;
 constexpr double kPerturb = 0.95;
 
 Settings machine_of_samples(const Settings& requested) {
@@ -36,7 +36,7 @@ void sample_screens(const Cartridge& cartridge, const SampleSettings& settings, 
     begin_episode(machine, play, static_cast<std::uint32_t>(random.next()) | 1U);
     machine.set_drawing(Drawing::kNone);
     const int fixed = any();
-    for (std::size_t remaining = random.below(kMostDecisionsBefore); remaining > 0 && !machine.game_over();
+    for (std::size_t remaining = random.below(kMaxDecisionsBefore); remaining > 0 && !machine.game_over();
          --remaining)
       machine.act(random.uniform() < kPerturb ? fixed : any());
     machine.set_drawing(Drawing::kLast);

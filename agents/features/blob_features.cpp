@@ -12,7 +12,7 @@ void BlobFeatures::extract(Screen screen, ActiveFeatures& active) {
     now_.push_back({blob.box.y() / kTileHeight, blob.box.x() / kTileWidth, blob.colour});
   std::ranges::sort(now_);
   now_.erase(std::unique(now_.begin(), now_.end()), now_.end());
-  if (now_.size() > kMostTiles) now_.resize(kMostTiles);
+  if (now_.size() > kMaxTiles) now_.resize(kMaxTiles);
   offsets_.extract(now_, before_, active);
 }
 

@@ -9,7 +9,7 @@ namespace racebeam {
 
 class BlobFeatures final : public FeatureSet {
  public:
-  static constexpr std::size_t kMostTiles = 1000;
+  static constexpr std::size_t kMaxTiles = 1000;
 
   explicit BlobFeatures(int reach) : blobs_(reach), offsets_(kColumns, kRows) {}
 
@@ -20,7 +20,7 @@ class BlobFeatures final : public FeatureSet {
   }
 
   // RelativeOffsets says the order. The first screen of an episode has no offsets in time. The first
-  // kMostTiles of a screen count: the number of pairs grows with their square.
+  // kMaxTiles of a screen count: the number of pairs grows with their square.
   void extract(Screen screen, ActiveFeatures& active);
 
  private:

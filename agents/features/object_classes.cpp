@@ -12,13 +12,13 @@
 namespace racebeam {
 namespace {
 
-constexpr int kLeastScreensPercent = 20;     // appendix C, "Minimum frequency of class appearance"
-constexpr int kLeastRange = 16;              // of their centres, in pixels, in x or in y; paper-notes
-constexpr int kLeastArea = 5;                // of an object of a class, in pixels; paper-notes
-constexpr double kMostDifference = 0.45;     // of the shapes of similar classes; paper-notes
-constexpr int kLeastComparedPercent = 2;     // of the screens, on which a similar class is
-constexpr std::size_t kMostCompared = 200;   // classes, which takes 20,000 comparisons
-constexpr std::size_t kMostShapes = 200000;  // later ones are noise
+constexpr int kMinScreensPercent = 20;      // appendix C, "Minimum frequency of class appearance"
+constexpr int kMinRange = 16;               // of their centres, in pixels, in x or in y; paper-notes
+constexpr int kMinArea = 5;                 // of an object of a class, in pixels; paper-notes
+constexpr double kMaxDifference = 0.45;     // of the shapes of similar classes; paper-notes
+constexpr int kMinComparedPercent = 2;      // of the screens, on which a similar class is
+constexpr std::size_t kMaxCompared = 200;   // classes, which takes 20,000 comparisons
+constexpr std::size_t kMaxShapes = 200000;  // later ones are noise
 constexpr PixelRun kNoRun{255, 255, 255};
 constexpr std::uint32_t kNoShape = std::numeric_limits<std::uint32_t>::max();
 
@@ -64,7 +64,7 @@ void ClassDiscovery::add(Screen screen, bool first) {
   if (first) objects_.forget();
   objects_.see(screen);
   for (const ScreenObject& object : objects_.objects().all()) {
-    const std::uint32_t number = object.area < kLeastArea ? kNoShape : shape_number(object);
+    const std::uint32_t number = object.area < kMinArea ? kNoShape : shape_number(object);
     if (number == kNoShape) continue;
     ++shapes_[number].count;
     count(object, classes_[shapes_[number].class_number]);
@@ -75,7 +75,7 @@ void ClassDiscovery::add(Screen screen, bool first) {
 // The number of the object's shape, which is made if it is new.
 std::uint32_t ClassDiscovery::shape_number(const ScreenObject& object) {
   if (const auto found = number_of_.find(object.key); found != number_of_.end()) return found->second;
-  if (shapes_.size() == kMostShapes) return kNoShape;
+  if (shapes_.size() == kMaxShapes) return kNoShape;
   const ShapeView shape = objects_.objects().shape(object);
   const std::uint32_t class_number = class_of_new(object);
   const auto number = static_cast<std::uint32_t>(shapes_.size());
@@ -108,15 +108,15 @@ bool ClassDiscovery::is_frequent(const SeenClass& seen, int percent) const {
 }
 
 bool ClassDiscovery::is_kept(const SeenClass& seen) const {
-  return is_frequent(seen, kLeastScreensPercent) &&
-         std::max(seen.right - seen.left, seen.bottom - seen.top) >= kLeastRange;
+  return is_frequent(seen, kMinScreensPercent) &&
+         std::max(seen.right - seen.left, seen.bottom - seen.top) >= kMinRange;
 }
 
 ObjectClasses ClassDiscovery::classes() const {
   Candidates found = candidates();
   merge_similar(found);
   std::erase_if(found, [this](const Candidate& each) { return !is_kept(each.seen); });
-  while (found.size() > kMostClasses) merge_nearest(found);
+  while (found.size() > kMaxClasses) merge_nearest(found);
   ObjectClasses classes;
   for (const Candidate& each : found) {
     classes.emplace_back();
@@ -139,10 +139,10 @@ ClassDiscovery::Candidates ClassDiscovery::candidates() const {
 std::vector<std::size_t> ClassDiscovery::frequent(const Candidates& classes) const {
   std::vector<std::size_t> places;
   for (std::size_t place = 0; place < classes.size(); ++place)
-    if (is_frequent(classes[place].seen, kLeastComparedPercent)) places.push_back(place);
+    if (is_frequent(classes[place].seen, kMinComparedPercent)) places.push_back(place);
   std::ranges::stable_sort(places, std::ranges::greater{},
                            [&](std::size_t place) { return classes[place].seen.screens; });
-  places.resize(std::min(places.size(), kMostCompared));
+  places.resize(std::min(places.size(), kMaxCompared));
   std::ranges::sort(places);
   return places;
 }
@@ -155,7 +155,7 @@ void ClassDiscovery::merge_similar(Candidates& classes) const {
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (into[i] == into[j]) continue;
-      if (difference_of(classes[places[i]], classes[places[j]]) > kMostDifference) continue;
+      if (difference_of(classes[places[i]], classes[places[j]]) > kMaxDifference) continue;
       const std::size_t first = std::min(into[i], into[j]), second = std::max(into[i], into[j]);
       std::ranges::replace(into, second, first);
     }
@@ -237,7 +237,7 @@ ObjectClasses classes_of_text(const std::string& name, std::string_view text) {
     words.clear();
     split(row, words);
     const auto number = words.empty() ? std::nullopt : parse_number<std::size_t>(words[0]);
-    if (number && *number == classes.size() && *number < kMostClasses) classes.emplace_back();
+    if (number && *number == classes.size() && *number < kMaxClasses) classes.emplace_back();
     Shape shape;
     for (std::size_t i = 1; i < words.size(); ++i) shape.push_back(run_of(words[i]).value_or(kNoRun));
     if (!number || *number + 1 != classes.size() || !is_shape(shape))

@@ -11,7 +11,7 @@
 
 namespace racebeam {
 
-constexpr int kMostClasses = 10;  // appendix C, "Maximum number of classes"
+constexpr int kMaxClasses = 10;  // appendix C, "Maximum number of classes"
 
 // Its shapes, the most frequent first. Their mirror images are of the class, too.
 using ObjectClass = std::vector<Shape>;

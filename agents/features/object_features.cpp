@@ -11,7 +11,7 @@
 namespace racebeam {
 namespace {
 
-constexpr int kMostInstances = 50;  // of a class; paper-notes
+constexpr int kMaxInstances = 50;  // of a class; paper-notes
 
 }  // namespace
 
@@ -38,9 +38,9 @@ const std::vector<Instance>& InstanceFinder::find(Screen screen) {
       add(objects_.part(object.first_part + part));
   }
   std::ranges::stable_sort(instances_, std::ranges::greater{}, &Instance::area);
-  std::array<int, kMostClasses> count{};
+  std::array<int, kMaxClasses> count{};
   std::erase_if(instances_,
-                [&](const Instance& instance) { return ++count[instance.class_number] > kMostInstances; });
+                [&](const Instance& instance) { return ++count[instance.class_number] > kMaxInstances; });
   return instances_;
 }
 
@@ -85,7 +85,7 @@ void ObjectFeatures::extract(Screen screen, ActiveFeatures& active) {
   active.clear();
   if (counts_.empty()) make_room();
   const std::vector<Instance>& instances = finder_.find(screen);
-  std::array<bool, kMostClasses> present{};
+  std::array<bool, kMaxClasses> present{};
   for (const Instance& instance : instances) present[instance.class_number] = true;
   for (std::uint32_t number = 0; number < classes_; ++number)
     if (!present[number]) add(number);

@@ -31,12 +31,12 @@ constexpr std::array<WordFor<RewardScale>, 3> kRewardScales = {
     {{"first", RewardScale::kFirst}, {"none", RewardScale::kNone}, {"sign", RewardScale::kSign}}};
 constexpr auto kNamesOfRewardScales = name_array(kRewardScales);
 
-constexpr double kLeastStep = 1e-9, kMostStep = 100;
-constexpr int kMostVectors = 65535, kMostOnes = 100000;
-constexpr int kMostBuckets = 20000;  // a sum of 100,000 hashes fits into 31 bits
+constexpr double kMinStep = 1e-9, kMaxStep = 100;
+constexpr int kMaxVectors = 65535, kMaxOnes = 100000;
+constexpr int kMaxBuckets = 20000;  // a sum of 100,000 hashes fits into 31 bits
 
 constexpr AgentSetting alpha(double value, std::string_view source) {
-  return {"alpha", value, kLeastStep, kMostStep, false, source};
+  return {"alpha", value, kMinStep, kMaxStep, false, source};
 }
 constexpr AgentSetting lambda(double value, std::string_view source) {
   return {"lambda", value, 0, 1, false, source};
@@ -80,9 +80,9 @@ constexpr std::array kLshSettings = {alpha(0.5, "appendix C, LSH"),
                                      kLeastTrace,
                                      kClearTraces,
                                      kRewardScale,
-                                     AgentSetting{"vectors", 2000, 1, kMostVectors, true, "appendix C, LSH"},
-                                     AgentSetting{"ones", 1000, 1, kMostOnes, true, "appendix C, LSH"},
-                                     AgentSetting{"buckets", 50, 1, kMostBuckets, true, "appendix C, LSH"}};
+                                     AgentSetting{"vectors", 2000, 1, kMaxVectors, true, "appendix C, LSH"},
+                                     AgentSetting{"ones", 1000, 1, kMaxOnes, true, "appendix C, LSH"},
+                                     AgentSetting{"buckets", 50, 1, kMaxBuckets, true, "appendix C, LSH"}};
 constexpr std::array kRamSettings = {alpha(0.2, "appendix C, RAM-based"),
                                      lambda(0.5, "appendix C, RAM-based"),
                                      kGamma,

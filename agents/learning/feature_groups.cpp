@@ -14,7 +14,7 @@ constexpr std::uint32_t kNoFeature = 0xFFFFFFFF;
 }  // namespace
 
 FeatureGroups::FeatureGroups(std::size_t most)
-    : most_(most), slots_(kLeastBytes / sizeof(Slot), Slot{kNoFeature, 0}) {}
+    : most_(most), slots_(kMinBytes / sizeof(Slot), Slot{kNoFeature, 0}) {}
 
 std::span<const FeatureSplit> FeatureGroups::replace(ActiveFeatures& active) {
   make_room(active.indices.size());
@@ -104,7 +104,7 @@ void FeatureGroups::read(StateReader& in) {
 
 // Whether the table can be searched, and each group has the features that the table says.
 bool FeatureGroups::is_sound() {
-  if (!std::has_single_bit(slots_.size()) || slots_.size() < kLeastBytes / sizeof(Slot)) return false;
+  if (!std::has_single_bit(slots_.size()) || slots_.size() < kMinBytes / sizeof(Slot)) return false;
   if (seen_ > std::min(most_, slots_.size() / 2)) return false;
   std::size_t seen = 0;
   std::vector<std::uint32_t> sizes(count());

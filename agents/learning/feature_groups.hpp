@@ -29,11 +29,11 @@ class FeatureGroups {
 
   std::size_t count() const { return sizes_.size(); }  // of groups: their numbers are below it
   std::size_t seen() const { return seen_; }           // features
-  // The memory: kLeastBytes; then at most kMostSlotBytes for each feature that was seen or was active in a
+  // The memory: kMinBytes; then at most kMaxSlotBytes for each feature that was seen or was active in a
   // call, and kGroupBytes for each group.
   std::size_t bytes() const;
 
-  static constexpr std::size_t kLeastBytes = 8192, kMostSlotBytes = 32, kGroupBytes = 12;
+  static constexpr std::size_t kMinBytes = 8192, kMaxSlotBytes = 32, kGroupBytes = 12;
 
   void write(StateWriter& out) const;
   void read(StateReader& in);  // throws InvalidInput unless write() wrote this

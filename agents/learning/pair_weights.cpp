@@ -23,7 +23,7 @@ std::vector<float> sizes_of_trace(const SarsaSettings& settings) {
   const auto decay = static_cast<float>(settings.discount * settings.trace_decay);
   const auto least = static_cast<float>(settings.least_trace);
   std::vector<float> sizes{1};
-  while (sizes.size() <= PairWeights::kMostTraces) {
+  while (sizes.size() <= PairWeights::kMaxTraces) {
     const float next = sizes.back() * decay;
     if (next < least || next == 0) break;
     sizes.push_back(next);
@@ -64,7 +64,7 @@ Row narrow(const ActionValues& values) {
 
 std::size_t PairWeights::decisions_of_trace(const SarsaSettings& settings) {
   const std::size_t decisions = sizes_of_trace(settings).size();
-  return decisions > kMostTraces ? 0 : decisions;
+  return decisions > kMaxTraces ? 0 : decisions;
 }
 
 PairWeights::PairWeights(const SarsaSettings& settings)
@@ -72,8 +72,8 @@ PairWeights::PairWeights(const SarsaSettings& settings)
       clear_other_traces_(settings.clear_other_traces),
       table_(pairs(kBits)),
       amounts_(trace_sizes_.size()) {
-  if (trace_sizes_.size() > kMostTraces)
-    throw std::invalid_argument("traces last for more than " + std::to_string(kMostTraces) + " decisions");
+  if (trace_sizes_.size() > kMaxTraces)
+    throw std::invalid_argument("traces last for more than " + std::to_string(kMaxTraces) + " decisions");
 }
 
 void PairWeights::begin(Ram ram) {

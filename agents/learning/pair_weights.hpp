@@ -25,14 +25,14 @@ namespace racebeam {
 class PairWeights {
  public:
   static constexpr std::size_t kBits = 8 * kRamSize;
-  static constexpr std::size_t kMostTraces = 64;  // decisions for which a trace lasts
+  static constexpr std::size_t kMaxTraces = 64;  // decisions for which a trace lasts
   using Ram = std::span<const std::uint8_t, kRamSize>;
 
   // Traces last as long as these settings say. Throws std::invalid_argument if that is longer than
-  // kMostTraces.
+  // kMaxTraces.
   explicit PairWeights(const SarsaSettings& settings);
 
-  // The number of decisions for which a trace lasts, or 0 if there are more than kMostTraces.
+  // The number of decisions for which a trace lasts, or 0 if there are more than kMaxTraces.
   static std::size_t decisions_of_trace(const SarsaSettings& settings);
 
   void begin(Ram ram);    // the first state of an episode

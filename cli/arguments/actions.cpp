@@ -111,7 +111,7 @@ class Script {
 
   float strength(const std::string& word) const {
     const auto value = parse<float>(word);
-    const bool accepted = value && std::abs(*value) <= kMostStrength;  // false for NaN
+    const bool accepted = value && std::abs(*value) <= kMaxStrength;  // false for NaN
     if (!accepted) refuse_line(line_, quoted(word) + " is not a strength from -1000 to 1000");
     return *value;
   }
@@ -127,7 +127,7 @@ class Script {
     steps_.push_back({.line = line_, .write = write});
   }
 
-  static constexpr float kMostStrength = 1000;
+  static constexpr float kMaxStrength = 1000;
 
   std::string path_;
   std::istringstream text_;

@@ -7,7 +7,7 @@
 namespace racebeam {
 namespace {
 
-constexpr int kMostThreads = 1024;
+constexpr int kMaxThreads = 1024;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void add_image_options(Subcommand& command, ImageOptions& options) {
               "A game file, or a folder of game files, with rules for images of --roms or built-in ones")
       .value_name("FILE");
   command.option("--threads", options.threads, "Threads that play; 0: one for each processor")
-      .check(whole_number(0, kMostThreads))
+      .check(whole_number(0, kMaxThreads))
       .shows_default();
   add_cpu_option(command, options.cpu);
 }

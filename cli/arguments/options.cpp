@@ -12,8 +12,8 @@
 namespace racebeam {
 namespace {
 
-constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
-constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
+constexpr std::int64_t kMaxInt = std::numeric_limits<int>::max();
+constexpr std::int64_t kMaxSeed = std::numeric_limits<std::uint32_t>::max();
 
 void warn_about(const Recognition& recognition, const Image& image, const Tell& tell) {
   const Game& game = *recognition.game;
@@ -59,7 +59,7 @@ void add_console_options(Subcommand& command, PropertyOverrides& console) {
 
 Option add_count(Subcommand& command, const std::string& name, int& value, int least,
                  const std::string& help) {
-  return command.option(name, value, help).check(whole_number(least, kMostInt)).shows_default();
+  return command.option(name, value, help).check(whole_number(least, kMaxInt)).shows_default();
 }
 
 void add_cpu_option(Subcommand& command, CpuKind& cpu) {
@@ -90,7 +90,7 @@ void add_machine_options(Subcommand& command, MachineOptions& options) {
       .excludes(game);
   add_console_options(command, options.console);
   const auto add_seed = [&command](const std::string& name, std::uint32_t& seed, const std::string& help) {
-    command.option(name, seed, help).check(whole_number(0, kMostSeed)).shows_default();
+    command.option(name, seed, help).check(whole_number(0, kMaxSeed)).shows_default();
   };
   add_seed("--seed", settings.random_seed, "Seed of the sticky actions; 0: drawn from the clock");
   add_seed("--system-seed", settings.system_seed, "Seed of the memory's contents at power-on");
@@ -104,9 +104,9 @@ void add_machine_options(Subcommand& command, MachineOptions& options) {
       "Rules for rewards, lives and end: ale-0.12, or fixed, with corrections (racebeam games --rules)");
   add_cpu_option(command, settings.cpu);
   command.option("--mode", options.mode, "Game variation (racebeam games lists them)")
-      .check(whole_number(0, kMostInt));
+      .check(whole_number(0, kMaxInt));
   command.option("--difficulty", options.difficulty, "Difficulty switches (racebeam games lists them)")
-      .check(whole_number(0, kMostInt));
+      .check(whole_number(0, kMaxInt));
 }
 
 void tell_on_standard_error(const std::string& sentence) {

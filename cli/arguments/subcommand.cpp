@@ -10,7 +10,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::uint64_t kMostBytes = 1ULL << 60;
+constexpr std::uint64_t kMaxBytes = 1ULL << 60;
 
 CLI::Validator validator(const Check& check) { return CLI::Validator(check.refusal, check.accepted); }
 
@@ -25,7 +25,7 @@ std::optional<std::uint64_t> size_of(std::string_view text) {
   const std::string_view rest = std::string_view(unit).substr(place == std::string_view::npos ? 0 : 1);
   const bool is_known = rest.empty() || rest == "b" || (rest == "ib" && rest.size() < unit.size());
   const std::size_t shift = place == std::string_view::npos ? 0 : 10 * (place + 1);
-  if (!number || !is_known || *number > kMostBytes >> shift) return std::nullopt;
+  if (!number || !is_known || *number > kMaxBytes >> shift) return std::nullopt;
   return *number << shift;
 }
 
@@ -71,7 +71,7 @@ Option& Option::sizes() {
     const auto bytes = size_of(text);
     if (!bytes)
       return quote(text) + " is not a size; accepted: bytes, or 512M, 2G and the like, up to " +
-             std::to_string(kMostBytes);
+             std::to_string(kMaxBytes);
     text = std::to_string(*bytes);
     return std::string{};
   };

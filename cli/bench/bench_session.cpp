@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 // The machine's state is copied this many times for each copy of a client's state: a hundred copies take no
 // time.
 constexpr int kMachineTimes = 50;
-constexpr int kMostTimes = 1'000'000;
+constexpr int kMaxTimes = 1'000'000;
 
 class BenchSession {
  public:
@@ -150,7 +150,7 @@ Json answer(BenchSession& session, const std::string& line) {
   const auto numbers = read_numbers(words, line);
   if (command == "play") return session.play(numbers);
   if (command == "check") return session.check(numbers);
-  if (numbers.size() != 1 || numbers[0] < 1 || numbers[0] > kMostTimes) refuse(line);
+  if (numbers.size() != 1 || numbers[0] < 1 || numbers[0] > kMaxTimes) refuse(line);
   if (command == "reset") return session.time_resets(numbers[0]);
   if (command == "save") return session.time_snapshots(numbers[0]);
   refuse(line);

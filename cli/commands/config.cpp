@@ -21,13 +21,13 @@ constexpr int kColumn = 44;  // where comments begin
 
 // Whether TOML and this program write the number in the same way. Anything else is quoted.
 bool is_number(const std::string& text) {
-  constexpr std::size_t kMostDigits = 15;  // that a double represents exactly
+  constexpr std::size_t kMaxDigits = 15;  // that a double represents exactly
   const auto all_digits = [](std::string_view part) {
     return !part.empty() && std::ranges::all_of(part, [](char c) { return c >= '0' && c <= '9'; });
   };
   const std::size_t point = text.find('.');
   const std::string_view whole = std::string_view(text).substr(0, point);
-  if (text.size() > kMostDigits || !all_digits(whole) || (whole.size() > 1 && whole[0] == '0')) return false;
+  if (text.size() > kMaxDigits || !all_digits(whole) || (whole.size() > 1 && whole[0] == '0')) return false;
   return point == std::string::npos || (all_digits(text.substr(point + 1)) && text.back() != '0');
 }
 

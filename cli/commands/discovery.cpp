@@ -14,8 +14,8 @@
 namespace racebeam {
 namespace {
 
-constexpr int kMostScreens = 10000000;
-constexpr std::size_t kMostCsvBytes = std::size_t{1} << 20;
+constexpr int kMaxScreens = 10000000;
+constexpr std::size_t kMaxCsvBytes = std::size_t{1} << 20;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ void add_discovery_options(Subcommand& command, DiscoveryOptions& options) {
 }
 
 void add_screens_option(Subcommand& command, const std::string& name, int& screens, const std::string& help) {
-  command.option(name, screens, help).check(whole_number(1, kMostScreens)).shows_default();
+  command.option(name, screens, help).check(whole_number(1, kMaxScreens)).shows_default();
 }
 
 const Cartridge& cartridge_of(const Images& images, const DiscoveryOptions& options) {
@@ -51,7 +51,7 @@ const Cartridge& cartridge_of(const Images& images, const DiscoveryOptions& opti
 
 Background background_of(const Cartridge& cartridge, DiscoveryOptions& options) {
   if (options.csv.empty()) return discover_background(cartridge, options.samples);
-  const std::string text = read_input_file("background", options.csv, kMostCsvBytes);
+  const std::string text = read_input_file("background", options.csv, kMaxCsvBytes);
   options.samples.background_csv = sha256_of(text);
   return background_of_csv(options.csv, text);
 }

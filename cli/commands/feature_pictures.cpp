@@ -12,9 +12,9 @@ namespace racebeam {
 namespace {
 
 constexpr int kSampleScreens = 60, kGridWidth = 16, kGridHeight = 14, kSecamColours = 8;
-constexpr int kBand = kFeatureHeight / kMostClasses;  // rows of a class
+constexpr int kBand = kFeatureHeight / kMaxClasses;  // rows of a class
 
-constexpr std::array<Rgb, kMostClasses> kClassColours = {
+constexpr std::array<Rgb, kMaxClasses> kClassColours = {
     Rgb{230, 60, 60},  {60, 200, 80},  {70, 120, 240},  {240, 200, 40}, {200, 80, 220},
     Rgb{60, 210, 210}, {250, 140, 40}, {240, 240, 240}, {150, 110, 70}, {250, 150, 190}};
 

@@ -37,7 +37,7 @@ Examples:
 
 constexpr std::size_t kRamDigits = 256;
 constexpr std::size_t kWidth = 160;
-constexpr std::size_t kMostPixels = kWidth * 1024;
+constexpr std::size_t kMaxPixels = kWidth * 1024;
 const std::vector<std::string> kEncodings = {"hex", "rle", "delta", "base64", "zlib", "raw"};
 
 struct PngOptions {
@@ -88,7 +88,7 @@ ReplyPicture classic_picture(std::string_view line, bool full) {
   picture.bytes = bytes_of(screen_field(line));
   if (!full) picture.bytes = expand(picture.bytes);
   const std::size_t pixels = picture.bytes.size();
-  if (pixels == 0 || pixels % kWidth != 0 || pixels > kMostPixels) {
+  if (pixels == 0 || pixels % kWidth != 0 || pixels > kMaxPixels) {
     throw std::invalid_argument("the screen has " + std::to_string(pixels) +
                                 " pixels, not whole rows of 160; it may be " +
                                 (full ? "in run lengths (without --full)" : "a full screen (--full)"));

@@ -120,7 +120,7 @@ void check_place(const fs::path& path) {
 }
 
 void run(const RenderOptions& options) {
-  const std::string bytes = read_input_file("episode log", options.log, kMostLogBytes);
+  const std::string bytes = read_input_file("episode log", options.log, kMaxLogBytes);
   const EpisodeLog log = log_of(fs::path(options.log).filename().string(), bytes);
   if (options.to.empty())
     throw UsageError("--to: '' names no file; accepted: a new file such as a.gif, or a new folder");

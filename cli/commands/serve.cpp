@@ -148,8 +148,8 @@ void limit_memory(Services& services, std::uint64_t most, const SharedCaches& ca
 // A session on a socket takes a file, and so does a connection that is being closed. Others are for the
 // server itself, for --http and for recordings.
 void limit_connections(ServerSettings& server) {
-  constexpr std::uint64_t kMostFiles = 1 << 20, kMostOthers = 128;
-  const std::uint64_t files = std::min(usable_files(), kMostFiles), others = std::min(kMostOthers, files / 4);
+  constexpr std::uint64_t kMaxFiles = 1 << 20, kMaxOthers = 128;
+  const std::uint64_t files = std::min(usable_files(), kMaxFiles), others = std::min(kMaxOthers, files / 4);
   server.max_connections = static_cast<int>(files - others);
   const auto sessions = static_cast<int>(files - 2 * others);
   if (server.max_sessions <= sessions) return;

@@ -51,9 +51,9 @@ std::string check_host_and_port(const std::string& text) {
 template <typename Number>
 void add_number(Subcommand& command, const std::string& name, Number& value, std::int64_t least,
                 const std::string& help) {
-  constexpr auto kMost = std::min<std::uint64_t>(std::numeric_limits<Number>::max(), 1ULL << 60);
+  constexpr auto kMax = std::min<std::uint64_t>(std::numeric_limits<Number>::max(), 1ULL << 60);
   command.option(name, value, help)
-      .check(whole_number(least, static_cast<std::int64_t>(kMost)))
+      .check(whole_number(least, static_cast<std::int64_t>(kMax)))
       .shows_default()
       .group(kLimits);
 }
@@ -154,13 +154,13 @@ void add_memory(Subcommand& command, ServerSettings& server) {
 }
 
 void add_threads(Subcommand& command, ServerSettings& server) {
-  constexpr std::uint64_t kMostThreads = 1024;
-  server.threads = static_cast<int>(std::min(usable_processors().amount, kMostThreads));
+  constexpr std::uint64_t kMaxThreads = 1024;
+  server.threads = static_cast<int>(std::min(usable_processors().amount, kMaxThreads));
   command
       .option(
           "--threads", server.threads,
           "Threads of event loops; as many others help with open and step (default: the usable processors)")
-      .check(whole_number(1, kMostThreads))
+      .check(whole_number(1, kMaxThreads))
       .shows_default()
       .group(kOperation);
 }

@@ -9,11 +9,11 @@
 namespace racebeam {
 
 SharedCaches shared_caches_for(std::uint64_t memory) {
-  constexpr std::uint64_t kMost = 24 << 20, kReset = 72 << 10;
-  constexpr std::uint64_t kLeastCode = 128 << 10, kMostCode = 4 << 20;
-  const std::uint64_t bytes = memory == 0 ? kMost : std::min(memory / 16, kMost);
-  const std::uint64_t resets = std::clamp<std::uint64_t>(bytes / 2 / kReset, 1, ResetCache::kMost);
-  return {bytes, resets, std::clamp(bytes / 6, kLeastCode, kMostCode), bytes - resets * kReset};
+  constexpr std::uint64_t kMax = 24 << 20, kReset = 72 << 10;
+  constexpr std::uint64_t kMinCode = 128 << 10, kMaxCode = 4 << 20;
+  const std::uint64_t bytes = memory == 0 ? kMax : std::min(memory / 16, kMax);
+  const std::uint64_t resets = std::clamp<std::uint64_t>(bytes / 2 / kReset, 1, ResetCache::kMax);
+  return {bytes, resets, std::clamp(bytes / 6, kMinCode, kMaxCode), bytes - resets * kReset};
 }
 
 void use(const SharedCaches& caches) {

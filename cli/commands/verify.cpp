@@ -52,7 +52,7 @@ constexpr auto kProof =
     "a confirmed row proves that these actions give this score from this start, not who chose the actions";
 
 constexpr auto kRandomSeed = "random";
-constexpr std::size_t kMostTableBytes = std::size_t{1} << 30;
+constexpr std::size_t kMaxTableBytes = std::size_t{1} << 30;
 
 struct VerifyOptions {
   std::string results;
@@ -74,7 +74,7 @@ Digests digests_of(const ResultsFolder& folder) {
 
 // Returns whether the file says that it was made from these results.
 bool check_table(const std::string& path, const Digests& digests) {
-  const std::string text = read_input_file("table", path, kMostTableBytes);
+  const std::string text = read_input_file("table", path, kMaxTableBytes);
   const auto has = [&](const std::string& digest) {
     return !digest.empty() && text.find(digest) != std::string::npos;
   };
@@ -106,7 +106,7 @@ int verify_log(const VerifyOptions& options) {
     throw UsageError(std::string(options.rerun > 0 ? "--rerun" : "--table") +
                      " needs the folder of the results, and this is one log");
   const std::string name = std::filesystem::path(options.results).filename().string();
-  const std::string bytes = read_input_file("episode log", options.results, kMostLogBytes);
+  const std::string bytes = read_input_file("episode log", options.results, kMaxLogBytes);
   const EpisodeLog log = log_of(name, bytes);
   const Images images = images_of(options.images);
   const auto start = Clock::now();

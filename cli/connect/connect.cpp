@@ -44,7 +44,7 @@ constexpr auto kLocalHelp =
     ":screen shows the screen, :quit ends, and other lines go to the server; help explains its commands";
 
 constexpr std::size_t kLongestShown = 200;  // characters of a value on a terminal
-constexpr std::size_t kMostTokenFile = 1 << 16;
+constexpr std::size_t kMaxTokenFile = 1 << 16;
 
 struct ConnectOptions {
   std::string address, token_file;
@@ -56,7 +56,7 @@ struct ConnectOptions {
 
 // The first token of a file of the form that serve --token-file reads.
 std::string token_in(const std::string& path) {
-  std::istringstream lines(read_input_file("token file", path, kMostTokenFile));
+  std::istringstream lines(read_input_file("token file", path, kMaxTokenFile));
   for (std::string line; std::getline(lines, line);) {
     while (line.ends_with('\r') || line.ends_with(' ')) line.pop_back();
     if (!line.empty() && !line.starts_with('#')) return line;

@@ -19,7 +19,7 @@ namespace racebeam {
 #ifdef RACEBEAM_LIBEDIT
 namespace {
 
-constexpr int kMostHistory = 1000;  // lines
+constexpr int kMaxHistory = 1000;  // lines
 
 // libedit has one state for the program, and its callbacks have no argument of ours.
 struct Completions {
@@ -72,7 +72,7 @@ LineEditor::LineEditor(std::string prompt, Complete complete)
   ::rl_basic_word_break_characters = ::rl_completer_word_break_characters = blank;
   ::rl_attempted_completion_function = complete_word;
   ::using_history();
-  ::stifle_history(kMostHistory);
+  ::stifle_history(kMaxHistory);
   ::read_history(history_file().c_str());
 }
 

@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kMostLate = 100ms;  // a game that is later is slowed
+constexpr auto kMaxLag = 100ms;  // a game that is later is slowed
 constexpr auto kKeysLine = "  arrows+space, wasd+g  p pause  n new game  q quit";
 
 class TerminalPlayer {
@@ -60,7 +60,7 @@ class TerminalPlayer {
 
   void tick() {
     const auto now = Clock::now();
-    next_act_ = now > next_act_ + kMostLate ? now + period_ : next_act_ + period_;
+    next_act_ = now > next_act_ + kMaxLag ? now + period_ : next_act_ + period_;
     if (is_paused_ || is_over_) return;
     const client::Group result = session_.act(joysticks_.action(now));
     score_ += result.reward();

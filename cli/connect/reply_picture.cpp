@@ -16,9 +16,9 @@ namespace {
 using client::Bytes, client::Encoding, client::Group;
 using Pixels = ReplyPicture::Pixels;
 
-constexpr std::size_t kWidth = 160, kUsualHeight = 210, kLeastHeight = 200, kMostHeight = 256;
+constexpr std::size_t kWidth = 160, kUsualHeight = 210, kMinHeight = 200, kMaxHeight = 256;
 constexpr std::size_t kPalette = 768;
-constexpr std::size_t kMostRaw = std::size_t{1} << 28;
+constexpr std::size_t kMaxRaw = std::size_t{1} << 28;
 constexpr std::string_view kFinal = "final_", kPngInBase64 = "iVBORw0KGgo";
 
 // What a field of a picture consists of. height: 0 for that of the screen.
@@ -139,7 +139,7 @@ class Replies {
     const Group& last = reply.groups().back();
     if (!last.has("raw")) return;
     const auto count = number(last.text("raw"));
-    if (!count || *count > kMostRaw) throw std::invalid_argument("a reply says raw=" + last.text("raw"));
+    if (!count || *count > kMaxRaw) throw std::invalid_argument("a reply says raw=" + last.text("raw"));
     raw_.resize(*count);
     if (!input.read(raw_.data(), static_cast<std::streamsize>(*count)))
       throw std::invalid_argument("the input ends within the bytes that follow a reply");
@@ -160,7 +160,7 @@ class Replies {
   bool fits(const Form& form, std::size_t bytes) const {
     if (form.height > 0) return bytes == form.size(form.height);
     if (height_) return bytes == form.size(*height_);
-    return bytes % form.size(1) == 0 && bytes >= form.size(kLeastHeight) && bytes <= form.size(kMostHeight);
+    return bytes % form.size(1) == 0 && bytes >= form.size(kMinHeight) && bytes <= form.size(kMaxHeight);
   }
 
   bool is_wanted(const Group::Value& value, std::size_t group) const {

@@ -12,7 +12,7 @@ using Kind = TerminalEvent::Kind;
 constexpr auto kAnswerTimeout = 500ms;  // for answers
 constexpr auto kLost = 2s;              // an answer that has not come by then does not come
 constexpr auto kUnanswered = 33ms;      // between pictures for a terminal that does not answer
-constexpr int kMostUnderWay = 2;
+constexpr int kMaxUnderWay = 2;
 
 constexpr std::string_view kEnter = "\x1b[?1049h\x1b[?25l\x1b[2J", kLeave = "\x1b[0m\x1b[?25h\x1b[?1049l";
 // The terminal reports each key, when it is pressed and when it is released.
@@ -82,7 +82,7 @@ bool Display::is_ready() {
   const auto now = Clock::now();
   if (now > last_time_ + kLost) under_way_ = 0;
   if (!tty_.is_idle()) return false;
-  return abilities_.answers ? under_way_ < kMostUnderWay : now >= last_time_ + kUnanswered;
+  return abilities_.answers ? under_way_ < kMaxUnderWay : now >= last_time_ + kUnanswered;
 }
 
 bool Display::is_resized() const { return differ(tty_.room(), room_); }

@@ -8,7 +8,7 @@ namespace {
 
 using Colour = std::array<unsigned, 3>;
 
-constexpr std::size_t kMostColumns = 2 * kPixelsARow;
+constexpr std::size_t kMaxColumns = 2 * kPixelsARow;
 constexpr int kCharacter = 38, kBehindIt = 48;  // the two colours of a cell
 constexpr auto kUpperHalf = "\u2580";
 
@@ -58,7 +58,7 @@ class Pen {
 Cells cells_of(const TerminalPicture& picture, const Room& room) {
   const std::size_t height = picture.height();
   const std::size_t columns =
-      std::clamp<std::size_t>(std::min(room.columns, 4 * room.rows * kPixelsARow / height), 1, kMostColumns);
+      std::clamp<std::size_t>(std::min(room.columns, 4 * room.rows * kPixelsARow / height), 1, kMaxColumns);
   const std::size_t rows = std::max<std::size_t>(2, columns * height / (2 * kPixelsARow) / 2 * 2);
   const auto block = [&](std::size_t column, std::size_t row) {
     const std::size_t left = column * kPixelsARow / columns, top = row * height / rows;

@@ -9,7 +9,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kMostCharacters = 4096;  // of the data of one sequence
+constexpr std::size_t kMaxCharacters = 4096;  // of the data of one sequence
 
 std::vector<std::uint8_t> packed_colours(const TerminalPicture& picture) {
   std::vector<std::uint8_t> colours;
@@ -40,10 +40,10 @@ std::string kitty_picture(const TerminalPicture& picture, const Room& room, bool
   if (in_place) keys.append(",i=1,p=1,C=1");
   const std::string data = client::to_base64(packed_colours(picture));
   std::string text;
-  for (std::size_t at = 0; at < data.size(); at += kMostCharacters) {
-    const bool more = at + kMostCharacters < data.size();
+  for (std::size_t at = 0; at < data.size(); at += kMaxCharacters) {
+    const bool more = at + kMaxCharacters < data.size();
     text.append("\x1b_G").append(keys).append(keys.empty() ? "m=" : ",m=").append(more ? "1;" : "0;");
-    text.append(data, at, kMostCharacters).append("\x1b\\");
+    text.append(data, at, kMaxCharacters).append("\x1b\\");
     keys.clear();
   }
   return text;

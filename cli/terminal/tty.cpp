@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array kDeadly = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM, SIGPIPE, SIGALRM, SIGUSR1,
                                 SIGUSR2, SIGABRT, SIGSEGV, SIGBUS,  SIGFPE,  SIGILL};
-constexpr int kMostWait = 500;  // milliseconds for the last bytes
+constexpr int kMaxWait = 500;  // milliseconds for the last bytes
 
 // What a signal handler needs. A handler has no argument of ours.
 struct Before {
@@ -60,7 +60,7 @@ void restore() {
     const ssize_t written = ::write(saved.descriptor, next, static_cast<std::size_t>(end - next));
     Ready room{.to_write = true};
     if (written > 0) next += written;
-    if (written < 0 && ((errno != EAGAIN && errno != EINTR) || wait_for(room, kMostWait) <= 0)) break;
+    if (written < 0 && ((errno != EAGAIN && errno != EINTR) || wait_for(room, kMaxWait) <= 0)) break;
   }
   ::tcsetattr(saved.descriptor, TCSAFLUSH, &saved.modes);
 }

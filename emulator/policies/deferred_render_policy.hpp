@@ -30,7 +30,7 @@ class DeferredRenderPolicy {
   // that were drawn.
   bool measures() {
     return number_ < 2 * kProbe && number_ % kProbe >= tuning::kSettlingFrames &&
-           observed_++ <= tuning::kMostObserved;
+           observed_++ <= tuning::kMaxObserved;
   }
   void record(std::int64_t nanoseconds) { times_[draws_] += nanoseconds; }
 

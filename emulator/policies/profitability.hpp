@@ -15,14 +15,14 @@ class Profitability {
   // Whether the last entries have been too short on average. Once in tuning::kRetry calls, it returns false
   // anyway, since another scene of the game may have longer ones.
   bool is_unprofitable() {
-    if (balance_ > -tuning::kMostDebt) return false;
+    if (balance_ > -tuning::kMaxDebt) return false;
     return ++searches_ % tuning::kRetry != 0;
   }
 
   // cycles: how many cycles one entry ran, without those in which no instruction was executed.
   void record(std::int32_t cycles) {
     balance_ =
-        std::clamp(balance_ + cycles - tuning::kBreakEvenCycles, -tuning::kMostDebt, tuning::kMostSurplus);
+        std::clamp(balance_ + cycles - tuning::kBreakEvenCycles, -tuning::kMaxDebt, tuning::kMaxSurplus);
   }
 
  private:

@@ -24,7 +24,7 @@ RACEBEAM_TUNED(unsigned, kShortestPeriod, 512, "frames", "frames");
 // same.
 RACEBEAM_TUNED(unsigned, kLongestPeriod, 4096, "frames", "frames");
 // A probe measures up to this many observed frames in succession. More belong to another use of the machine.
-RACEBEAM_TUNED(unsigned, kMostObserved, 2, "frames", "frames");
+RACEBEAM_TUNED(unsigned, kMaxObserved, 2, "frames", "frames");
 
 // Two sets of line records, for games that flicker (emulator/tia/line_cache/flicker_detector.hpp).
 
@@ -40,12 +40,12 @@ RACEBEAM_TUNED(int, kFlickeringRows, 16, "rows", "frames");
 
 // The most work of a batch of translation, where an instruction counts 1: some 50 microseconds. Smaller
 // batches translate less code that seldom runs.
-RACEBEAM_TUNED(int, kMostWork, 100, "instructions", "start");
+RACEBEAM_TUNED(int, kMaxWork, 100, "instructions", "start");
 // The work that a block costs in addition to its instructions.
 RACEBEAM_TUNED(int, kWorkOfBlock, 3, "instructions", "start");
 // The most cycles of a block, without those that WSYNC waits. The interpreter runs the last cycles before
 // the line limit: this many, and a hundred more.
-RACEBEAM_TUNED(int, kMostBlockCycles, 300, "cycles", "frames");
+RACEBEAM_TUNED(int, kMaxBlockCycles, 300, "cycles", "frames");
 
 // How much time a machine may spend on translation (translation_budget.hpp).
 
@@ -80,10 +80,10 @@ RACEBEAM_TUNED(std::int64_t, kLongestBatch, 400'000, "ns", "start");
 RACEBEAM_TUNED(std::int32_t, kBreakEvenCycles, 32, "cycles", "frames");
 // The balance of a machine's entries falls to this many cycles below break-even. The machine then
 // interprets.
-RACEBEAM_TUNED(std::int32_t, kMostDebt, 128, "cycles", "frames");
+RACEBEAM_TUNED(std::int32_t, kMaxDebt, 128, "cycles", "frames");
 // The balance rises to this many cycles beyond break-even. Up to these, profitable entries make up for
 // others.
-RACEBEAM_TUNED(std::int32_t, kMostSurplus, 4096, "cycles", "frames");
+RACEBEAM_TUNED(std::int32_t, kMaxSurplus, 4096, "cycles", "frames");
 // While a machine interprets because of its debt, it enters code once in this many searches, since another
 // scene may differ.
 RACEBEAM_TUNED(std::uint32_t, kRetry, 64, "searches", "frames");

@@ -19,13 +19,13 @@ constexpr std::uint8_t kSwitchesAtRest = 0x3F;  // all released, both difficulti
 
 // One axis of a wheel, a ball or a gun: its place at the frame's start, and how far it moves in the frame.
 struct Axis {
-  static constexpr std::int32_t kPlaces = 1 << 16, kMostMoved = (1 << 14) - 1;
+  static constexpr std::int32_t kPlaces = 1 << 16, kMaxMoved = (1 << 14) - 1;
 
   std::int32_t place = 0, moved = 0;
 
-  constexpr std::int32_t packed() const { return (place & (kPlaces - 1)) | (moved + kMostMoved + 1) << 16; }
+  constexpr std::int32_t packed() const { return (place & (kPlaces - 1)) | (moved + kMaxMoved + 1) << 16; }
   static constexpr Axis of(std::int32_t packed) {
-    return {packed & (kPlaces - 1), (packed >> 16 & (2 * kMostMoved + 1)) - kMostMoved - 1};
+    return {packed & (kPlaces - 1), (packed >> 16 & (2 * kMaxMoved + 1)) - kMaxMoved - 1};
   }
 };
 

@@ -55,7 +55,7 @@ class Discovery {
 
   // Follows the instructions from `pc`. The addresses of blocks that they lead to become leaders.
   void scan(std::uint16_t pc) {
-    while (contains(window_, pc) && !seen_[offset(pc)] && work_ < tuning::kMostWork) {
+    while (contains(window_, pc) && !seen_[offset(pc)] && work_ < tuning::kMaxWork) {
       seen_[offset(pc)] = true;
       ++work_;
       const Instruction instruction = at(pc);
@@ -70,7 +70,7 @@ class Discovery {
   }
 
   // A block from `leader` to the next leader, a jump, an instruction for the interpreter, or
-  // kMostBlockCycles. In the last case a new leader continues it.
+  // kMaxBlockCycles. In the last case a new leader continues it.
   Block block_at(const Leaders::value_type& leader) {
     const auto [start, role] = leader;
     Block block;
@@ -82,7 +82,7 @@ class Discovery {
       const Instruction instruction = at(block.next);
       if (!is_translatable(instruction) || leads_out(instruction)) break;
       cycles += instruction.cycles + 2;
-      if (cycles > tuning::kMostBlockCycles) {
+      if (cycles > tuning::kMaxBlockCycles) {
         leaders_.emplace(here, kLeader);  // at a higher address, so the loop over the leaders reaches it
         break;
       }

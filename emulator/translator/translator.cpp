@@ -25,7 +25,7 @@ namespace {
 
 // In cycles. No block takes more, so a block that starts this long before the line limit makes its TIA writes
 // before the limit.
-const std::int32_t kMargin = tuning::kMostBlockCycles + 100;
+const std::int32_t kMargin = tuning::kMaxBlockCycles + 100;
 
 constexpr std::int32_t kFewestCycles = 2;  // of an instruction
 

@@ -68,9 +68,9 @@ void hold(Inputs& inputs, std::uint8_t console_switch) {
 
 // The controllers with numbers of their own in Inputs, which are not resistances.
 
-constexpr float kOneMove = 1, kMostMoves = 127;  // of a wheel and a ball in a frame
+constexpr float kOneMove = 1, kMaxMoves = 127;  // of a wheel and a ball in a frame
 constexpr std::int32_t kGunStep = 2, kGunMiddleX = 80, kGunMiddleY = 105;
-constexpr std::int32_t kPlaceStep = 256, kMostPlace = 256 * 256;  // a place is x + 256 * y
+constexpr std::int32_t kPlaceStep = 256, kMaxPlace = 256 * 256;  // a place is x + 256 * y
 constexpr std::int32_t kLastX = 159, kLastY = 255;
 
 constexpr bool has_axes(Controller controller) {
@@ -98,7 +98,7 @@ std::int32_t way(std::uint8_t pressed, std::uint8_t forward, std::uint8_t back) 
 
 // A place that the action says, or the old one, moved by the stick.
 Place aimed(Place place, std::uint8_t pressed, float strength) {
-  if (strength >= kPlaceStep && strength < kMostPlace) {
+  if (strength >= kPlaceStep && strength < kMaxPlace) {
     const auto number = static_cast<std::int32_t>(strength);
     place = {number % kPlaceStep, number / kPlaceStep};
   } else {
@@ -119,7 +119,7 @@ Axes moved(Controller controller, std::uint8_t pressed, float strength, std::int
     kept = there.kept();
     return {{there.x, 0}, {there.y, 0}};
   }
-  const float most = controller == Controller::kDriving ? kOneMove : kMostMoves;
+  const float most = controller == Controller::kDriving ? kOneMove : kMaxMoves;
   const auto moves = static_cast<std::int32_t>(std::min(std::fabs(strength), most));
   const std::int32_t x = moves * way(pressed, kStickRight, kStickLeft),
                      y = moves * way(pressed, kStickDown, kStickUp);

@@ -10,18 +10,18 @@
 namespace racebeam {
 namespace {
 
-constexpr int kMostShrinking = static_cast<int>(kSlots) - 3;
+constexpr int kMaxShrinking = static_cast<int>(kSlots) - 3;
 
 void check(int width, int height, int to_width, int to_height) {
   if (to_width > 0 && to_height > 0 && to_width <= width && to_height <= height &&
-      to_width <= static_cast<int>(AreaResize::kWidest) && height / to_height <= kMostShrinking) {
+      to_width <= static_cast<int>(AreaResize::kWidest) && height / to_height <= kMaxShrinking) {
     return;
   }
   throw std::invalid_argument("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
                               " can't be made " + std::to_string(to_width) + " x " +
                               std::to_string(to_height) + "; it can shrink, to a width of at most " +
                               std::to_string(AreaResize::kWidest) + " and to one " +
-                              std::to_string(kMostShrinking) + "th of its height");
+                              std::to_string(kMaxShrinking) + "th of its height");
 }
 
 }  // namespace

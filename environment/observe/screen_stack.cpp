@@ -10,8 +10,8 @@
 namespace racebeam {
 namespace {
 
-constexpr int kLeastHeight = 9;  // AreaResize makes the tallest screen no lower
-constexpr int kMostGrowth = 2;
+constexpr int kMinHeight = 9;  // AreaResize makes the tallest screen no lower
+constexpr int kMaxGrowth = 2;
 
 // Whether a way to resize makes single rows, and finds those that depend on others.
 template <typename Resize>
@@ -21,7 +21,7 @@ constexpr bool knows_rows = requires(const Resize& resize, std::span<const std::
 };
 
 int checked(int size, int least, int own, const std::string& what) {
-  const int most = kMostGrowth * own;
+  const int most = kMaxGrowth * own;
   if (size == 0) return own;
   if (size >= least && size <= most) return size;
   throw InvalidInput("the " + what + " of an observation is " + std::to_string(size) + "; it takes " +
@@ -35,7 +35,7 @@ ScreenStack::ScreenStack(const StackSettings& settings, const Environment& envir
   const bool is_cut = settings.rows > 0 && settings.rows < environment.height();
   const int rows = is_cut ? settings.rows : environment.height();
   const int width = checked(settings.width, 1, kScreenWidth, "width");
-  const int height = checked(settings.height, kLeastHeight, rows, "height");
+  const int height = checked(settings.height, kMinHeight, rows, "height");
   settings_.width = width;
   settings_.height = height;
   if (!is_cut) settings_.rows = 0;

@@ -14,7 +14,7 @@ namespace {
 using opcode::Mode;
 using opcode::Operation;
 
-constexpr int kMostInstructions = 20000;
+constexpr int kMaxSteps = 20000;
 constexpr std::array<std::string_view, 8> kPlainSchemes = {"2K", "4K", "F8", "F8 swapped",
                                                            "F6", "F4", "E0", "MB"};
 constexpr unsigned kFirstHotSpot = 0xFC0;  // the lowest of these schemes
@@ -27,7 +27,7 @@ class BootAnalysis {
 
   BootFacts facts() {
     try {
-      for (int n = 0; n < kMostInstructions && !all_known(); ++n) execute(kOpcodes[fetch()]);
+      for (int n = 0; n < kMaxSteps && !all_known(); ++n) execute(kOpcodes[fetch()]);
     } catch (Unknown) {
     }
     return {ram_known_.all(), timer_known_, sound_known_.all()};

@@ -48,7 +48,7 @@ struct ResetEnd {
 
 class ResetCache {
  public:
-  static constexpr std::size_t kMost = 128;  // entries; an entry takes some 70 KiB, mostly the two pictures
+  static constexpr std::size_t kMax = 128;  // entries; an entry takes some 70 KiB, mostly the two pictures
 
   // At least 1 entry. Drops the entries that were not used for longest, if there are more.
   void set_capacity(std::size_t entries);
@@ -69,7 +69,7 @@ class ResetCache {
   void shrink_to(std::size_t entries);
 
   std::mutex mutex_;
-  std::size_t capacity_ = kMost;
+  std::size_t capacity_ = kMax;
   std::uint64_t calls_ = 0;
   std::vector<Entry> entries_;
 };

@@ -15,10 +15,10 @@
 namespace racebeam {
 namespace {
 
-constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
-constexpr std::int64_t kMostNumber = std::numeric_limits<int>::max();
-constexpr int kLeastReward = std::numeric_limits<int>::min(), kMostReward = std::numeric_limits<int>::max();
-constexpr int kMostNoops = 1000;
+constexpr std::int64_t kMaxSeed = std::numeric_limits<std::uint32_t>::max();
+constexpr std::int64_t kMaxNumber = std::numeric_limits<int>::max();
+constexpr int kMinReward = std::numeric_limits<int>::min(), kMaxReward = std::numeric_limits<int>::max();
+constexpr int kMaxNoops = 1000;
 constexpr std::array<WordFor<ActionSet>, 4> kActionSets = {{{"full", ActionSet::kFull},
                                                             {"legal", ActionSet::kLegal},
                                                             {"minimal", ActionSet::kMinimal},
@@ -52,17 +52,16 @@ void set_seed(PlaySettings& settings, std::string_view value) {
 }
 
 void set_system_seed(PlaySettings& settings, std::string_view value) {
-  settings.machine.system_seed =
-      static_cast<std::uint32_t>(number_within(value, "system_seed", 0, kMostSeed));
+  settings.machine.system_seed = static_cast<std::uint32_t>(number_within(value, "system_seed", 0, kMaxSeed));
 }
 
 void set_frame_skip(PlaySettings& settings, std::string_view value) {
   const std::size_t dash = value.find('-', 1);  // one at the beginning is a sign
-  settings.machine.frame_skip = whole(value.substr(0, dash), "frame_skip", 1, kMostFrameSkip);
+  settings.machine.frame_skip = whole(value.substr(0, dash), "frame_skip", 1, kMaxFrameSkip);
   settings.machine.frame_skip_max = dash == value.npos
                                         ? 0
                                         : whole(value.substr(dash + 1), "the end of frame_skip",
-                                                settings.machine.frame_skip, kMostFrameSkip);
+                                                settings.machine.frame_skip, kMaxFrameSkip);
 }
 
 void set_sticky(PlaySettings& settings, std::string_view value) {
@@ -77,7 +76,7 @@ void set_action_set(PlaySettings& settings, std::string_view value) {
 }
 
 int reward_limit(std::string_view value, std::string_view what, int none) {
-  return value == "none" ? none : whole(value, what, kLeastReward, kMostReward);
+  return value == "none" ? none : whole(value, what, kMinReward, kMaxReward);
 }
 
 void set_rules(PlaySettings& settings, std::string_view value) {
@@ -144,11 +143,11 @@ constexpr std::array kSettings = {
               out.append(digits.data(),
                          std::to_chars(digits.data(), digits.data() + digits.size(), s.machine.sticky).ptr);
             }),
-    setting("mode", READ(s.mode = whole(value, "mode", 0, kMostNumber)), ECHO(std::int64_t{e.mode()})),
-    setting("difficulty", READ(s.difficulty = whole(value, "difficulty", 0, kMostNumber)),
+    setting("mode", READ(s.mode = whole(value, "mode", 0, kMaxNumber)), ECHO(std::int64_t{e.mode()})),
+    setting("difficulty", READ(s.difficulty = whole(value, "difficulty", 0, kMaxNumber)),
             ECHO(std::int64_t{e.difficulty()})),
     setting("max_episode_frames",
-            READ(s.machine.max_episode_frames = whole(value, "max_episode_frames", 0, kMostNumber)),
+            READ(s.machine.max_episode_frames = whole(value, "max_episode_frames", 0, kMaxNumber)),
             ECHO(std::int64_t{s.machine.max_episode_frames})),
     setting("life_loss", READ(set_life_loss(s, life_loss_of(value))),
             [](std::string& out, const PlaySettings& s, const Environment&) {
@@ -156,19 +155,19 @@ constexpr std::array kSettings = {
             }),
     setting("life_loss_ends", set_life_loss_ends,
             ECHO(std::int64_t{truncates_on_life_loss(s) || s.life_loss >= LifeLoss::kEnd})),
-    setting("noop_max", READ(s.noop_max = whole(value, "noop_max", 0, kMostNoops)),
+    setting("noop_max", READ(s.noop_max = whole(value, "noop_max", 0, kMaxNoops)),
             ECHO(std::int64_t{s.noop_max})),
     setting("autoreset", READ(s.autoreset = autoreset_of(value)), append_autoreset),
     setting(
         "action_set", set_action_set,
         [](std::string& out, const PlaySettings& s, const Environment&) { out += name_of(s.action_set); }),
-    setting("reward_min", READ(s.machine.reward_min = reward_limit(value, "reward_min", kLeastReward)),
+    setting("reward_min", READ(s.machine.reward_min = reward_limit(value, "reward_min", kMinReward)),
             [](std::string& out, const PlaySettings& s, const Environment&) {
-              append_reward_limit(out, s.machine.reward_min, kLeastReward);
+              append_reward_limit(out, s.machine.reward_min, kMinReward);
             }),
-    setting("reward_max", READ(s.machine.reward_max = reward_limit(value, "reward_max", kMostReward)),
+    setting("reward_max", READ(s.machine.reward_max = reward_limit(value, "reward_max", kMaxReward)),
             [](std::string& out, const PlaySettings& s, const Environment&) {
-              append_reward_limit(out, s.machine.reward_max, kMostReward);
+              append_reward_limit(out, s.machine.reward_max, kMaxReward);
             }),
     setting("rules", set_rules,
             [](std::string& out, const PlaySettings& s, const Environment&) {
@@ -257,7 +256,7 @@ void append_settings(std::string& out, const PlaySettings& settings, const Envir
 
 std::uint32_t parse_seed(std::string_view text) {
   if (text == "random") return fresh_seed();
-  return static_cast<std::uint32_t>(number_within(text, "seed", 0, kMostSeed));
+  return static_cast<std::uint32_t>(number_within(text, "seed", 0, kMaxSeed));
 }
 
 // `ignored` leaves the old word beside it as it is: the settings that a reply shows can be loaded again.

@@ -15,7 +15,7 @@
 
 namespace racebeam {
 
-constexpr int kMostFrameSkip = 1000;  // an act is never interrupted
+constexpr int kMaxFrameSkip = 1000;  // an act is never interrupted
 
 struct PlaySettings {
   PlaySettings();  // the defaults of the line protocol

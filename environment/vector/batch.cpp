@@ -53,7 +53,7 @@ constexpr std::size_t kMachine = std::size_t{240} << 10;
 // More threads than machines would have nothing to do.
 unsigned useful_threads(unsigned requested, std::size_t machines) {
   const std::uint64_t threads = requested != 0 ? requested : usable_processors().amount;
-  return static_cast<unsigned>(std::min({threads, std::uint64_t{machines}, std::uint64_t{kMostWorkers}}));
+  return static_cast<unsigned>(std::min({threads, std::uint64_t{machines}, std::uint64_t{kMaxWorkers}}));
 }
 
 // Returns the batch size.

@@ -16,7 +16,7 @@
 
 namespace racebeam {
 
-constexpr unsigned kMostWorkers = 1024;  // threads of a batch
+constexpr unsigned kMaxWorkers = 1024;  // threads of a batch
 
 struct BatchSettings {
   SlotSettings slot;
@@ -25,7 +25,7 @@ struct BatchSettings {
   bool screens = false;        // make_results() has room for whole screens, too
   std::size_t batch_size = 0;  // how many machines one receive() returns; 0: all
 
-  // 0: one for each processor that the process may use. At most one for each machine, and kMostWorkers.
+  // 0: one for each processor that the process may use. At most one for each machine, and kMaxWorkers.
   unsigned threads = 0;
   int first_processor = -1;  // see ThreadPool
   std::chrono::microseconds busy_poll{50};

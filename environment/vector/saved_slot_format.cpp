@@ -46,13 +46,13 @@ struct SlotValues {
 static_assert(sizeof(SlotValues) == 40);
 
 constexpr char kSlotMagic[8] = {'R', 'B', 'S', 'L', 'O', 'T', '\r', '\n'};
-constexpr std::int64_t kMostScore = std::int64_t{1} << 62, kMostFrames = 1 << 30;  // sums stay in range
-constexpr int kMostDepth = 1 << 16;
+constexpr std::int64_t kMaxScore = std::int64_t{1} << 62, kMaxFrames = 1 << 30;  // sums stay in range
+constexpr int kMaxDepth = 1 << 16;
 
 void check_values(const SlotValues& values) {
-  check_range("the score", values.score, -kMostScore, kMostScore);
-  check_range("the number of frames played", values.elapsed, 0, kMostFrames);
-  check_range("the number of screens in the stack", values.depth, 0, kMostDepth);
+  check_range("the score", values.score, -kMaxScore, kMaxScore);
+  check_range("the number of frames played", values.elapsed, 0, kMaxFrames);
+  check_range("the number of screens in the stack", values.depth, 0, kMaxDepth);
   check_range("the width of a screen in the stack", values.width, 0, 2 * kScreenWidth);
   check_range("the height of a screen in the stack", values.height, 0,
               std::numeric_limits<std::int16_t>::max());

@@ -27,10 +27,10 @@ inline const Images& own_images() {
 
 // Whether to play the log takes too long for one input. Throws InvalidInput for unknown settings.
 inline bool takes_long(const EpisodeLog& log) {
-  constexpr std::int64_t kMostFrames = 20000;
+  constexpr std::int64_t kMaxFrames = 20000;
   const PlaySettings settings = settings_of(log);
   const int skip = std::max(settings.machine.frame_skip, settings.machine.frame_skip_max);
-  return skip * (static_cast<std::int64_t>(log.actions.size()) + settings.noop_max) > kMostFrames;
+  return skip * (static_cast<std::int64_t>(log.actions.size()) + settings.noop_max) > kMaxFrames;
 }
 
 }  // namespace racebeam::fuzz

@@ -66,7 +66,7 @@ GameImage read_image(const TomlSource& source, const toml::table& table) {
       section.refuse(*table.get(key), key, "must be " + std::to_string(low) + " to " + std::to_string(high));
   };
   in_range("ystart", image.properties.ystart, 0, kLastYStart);
-  in_range("height", image.properties.height, kLeastHeight, kMostHeight);
+  in_range("height", image.properties.height, kMinHeight, kMaxHeight);
   if (image.properties.ystart + image.properties.height > kPictureLines)
     section.refuse(table, "height", "the sum of ystart and height must be at most 300 lines");
   if (table.contains("md5") && !is_md5(image.md5))
@@ -157,10 +157,10 @@ void refuse_useless_keep(const Section& section, const RuleCompiler& compiler) {
 
 std::optional<int> read_wraps(const Section& section) {
   const std::optional<int> modulus = section.number("wraps");
-  if (modulus && *modulus < kLeastModulus)
+  if (modulus && *modulus < kMinModulus)
     section.refuse(
         *section.node("wraps"), "wraps",
-        "must be at least " + std::to_string(kLeastModulus) + ": the number at which the score starts again");
+        "must be at least " + std::to_string(kMinModulus) + ": the number at which the score starts again");
   return modulus;
 }
 

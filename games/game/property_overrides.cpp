@@ -13,8 +13,8 @@ namespace {
 constexpr std::string_view kDetected = "auto";
 
 [[noreturn]] void refuse(std::string_view key, std::string_view value, const std::string& accepted) {
-  constexpr std::size_t kMostShown = 40;
-  throw InvalidInput(std::string(key) + " is '" + std::string(value.substr(0, kMostShown)) + "'; it takes " +
+  constexpr std::size_t kMaxShown = 40;
+  throw InvalidInput(std::string(key) + " is '" + std::string(value.substr(0, kMaxShown)) + "'; it takes " +
                      accepted);
 }
 
@@ -56,7 +56,7 @@ void PropertyOverrides::set(std::string_view key, std::string_view value) {
   } else if (key == "format") {
     format = choice(key, value, kFormats);
   } else if (key == "height") {
-    height = number(key, value, kLeastHeight, kMostHeight);
+    height = number(key, value, kMinHeight, kMaxHeight);
   } else if (key == "ystart") {
     ystart = number(key, value, 0, kLastYStart);
   } else {

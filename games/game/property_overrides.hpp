@@ -35,8 +35,8 @@ constexpr std::string_view name_of(Controller controller) { return word_for(kCon
 constexpr std::string_view name_of(Format format) { return word_for(kFormats, format); }
 
 // The picture buffer has 300 lines (docs/spec/tia.md, 2), and PAL makes 250 of the usual 210.
-inline constexpr int kPictureLines = 300, kLastYStart = kPictureLines - 250, kLeastHeight = 100,
-                     kMostHeight = 256;
+inline constexpr int kPictureLines = 300, kLastYStart = kPictureLines - 250, kMinHeight = 100,
+                     kMaxHeight = 256;
 
 struct PropertyOverrides {
   std::optional<Controller> left, right;

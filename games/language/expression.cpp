@@ -189,8 +189,8 @@ class Compiler {
     const Register change = expression();
     in_.expect(",", "between the arguments of wrap()");
     const std::optional<std::int32_t> modulus = out_.constant_value(expression());
-    if (!modulus || *modulus < kLeastModulus)
-      in_.refuse("wrap() takes a constant of at least " + std::to_string(kLeastModulus) +
+    if (!modulus || *modulus < kMinModulus)
+      in_.refuse("wrap() takes a constant of at least " + std::to_string(kMinModulus) +
                  " second: where the counter starts again");
     leave_call("wrap");
     return emit_wrapped(out_, change, *modulus);

@@ -26,9 +26,9 @@ struct Scope {
   bool draws = false;                                     // rng() occurred
 };
 
-constexpr std::int32_t kLeastModulus = 10;
+constexpr std::int32_t kMinModulus = 10;
 
-// The change of a counter that starts again at 0 when it reaches `modulus`, which is at least kLeastModulus.
+// The change of a counter that starts again at 0 when it reaches `modulus`, which is at least kMinModulus.
 // A drop by nine tenths of `modulus` or more is treated as a gain across the wrap, and such a rise as a
 // loss. Smaller drops are not corrected, because games also clear their scores.
 Register emit_wrapped(ProgramBuilder& out, Register change, std::int32_t modulus);

@@ -123,7 +123,7 @@ int ClassicSession::recorded_act(int a, int b) {
 
 // A stack: the newest states are kept.
 void ClassicSession::save_state() {
-  if (saved_.size() == kMostClassicStates) saved_.pop_front();
+  if (saved_.size() == kMaxClassicStates) saved_.pop_front();
   saved_.push_back(environment_.save_without_pictures());
 }
 
@@ -131,7 +131,7 @@ void ClassicSession::load_state() {
   if (saved_.empty()) {
     throw ClassicError(kMalformedStatus,
                        "the client loads a state (44), but none that it saved (43) is left; the newest " +
-                           std::to_string(kMostClassicStates) + " are kept");
+                           std::to_string(kMaxClassicStates) + " are kept");
   }
   environment_.restore_classic(*saved_.back());
   saved_.pop_back();

@@ -40,7 +40,7 @@ struct ClassicOptions {
 
 // Enough to save at each action of an episode of 18,000 frames with a frame skip of 5; see
 // protocol/CLASSIC.md.
-constexpr std::size_t kMostClassicStates = 4096;
+constexpr std::size_t kMaxClassicStates = 4096;
 
 class ClassicSession {
  public:

@@ -30,7 +30,7 @@ using Bytes = std::span<const std::uint8_t>;
 // A piece of a long value takes a millisecond at most. It holds any screen, and whole groups of base64.
 constexpr std::size_t kPiece = std::size_t{48} << 10;
 
-constexpr std::size_t kMostSkipped = 0xFFFF, kMostRuns = 0xFF, kMostInRun = 0xFF;
+constexpr std::size_t kMaxSkipped = 0xFFFF, kMaxRuns = 0xFF, kMaxInRun = 0xFF;
 constexpr std::size_t kWorthSkipping = 16;  // a record takes as much text as one and a half runs
 
 // The first position from `at` on where the two differ. Compares eight bytes at a time.
@@ -68,7 +68,7 @@ void append_header(std::string& out, std::size_t skipped, std::size_t runs) {
 }
 
 std::size_t run_at(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t end) {
-  const std::size_t last = std::min(end, at + kMostInRun);
+  const std::size_t last = std::min(end, at + kMaxInRun);
   std::size_t next = at + 1;
   while (next < last && bytes[next] == bytes[at]) ++next;
   return next - at;
@@ -80,7 +80,7 @@ std::size_t append_runs(std::string& out, std::size_t skipped, std::span<const s
   const std::size_t header = out.size();
   append_header(out, skipped, 0);
   std::size_t runs = 0, at = begin;
-  for (; at < end && runs < kMostRuns; ++runs) {
+  for (; at < end && runs < kMaxRuns; ++runs) {
     const std::size_t length = run_at(bytes, at, end);
     append_byte(out, bytes[at]);
     append_byte(out, length);
@@ -137,7 +137,7 @@ std::size_t text_size(Encoding encoding, std::size_t bytes) {
   switch (encoding) {
     case Encoding::kHex: return 2 * bytes;
     case Encoding::kRunLength: return kRun * bytes;
-    case Encoding::kDelta: return kRun * bytes + kHeader * (bytes / kMostRuns + 1);
+    case Encoding::kDelta: return kRun * bytes + kHeader * (bytes / kMaxRuns + 1);
     case Encoding::kBase64: return in_base64(bytes);
     case Encoding::kZlib: return in_base64(compressBound(static_cast<uLong>(bytes)));
     case Encoding::kRaw: return bytes;
@@ -152,7 +152,7 @@ void append_delta(std::string& out, Bytes bytes, std::span<std::uint8_t> before,
     std::size_t begin = next_difference(bytes, before, position);
     if (begin == bytes.size()) break;
     const std::size_t end = end_of_change(bytes, before, begin);
-    for (; begin - position > kMostSkipped; position += kMostSkipped) append_header(out, kMostSkipped, 0);
+    for (; begin - position > kMaxSkipped; position += kMaxSkipped) append_header(out, kMaxSkipped, 0);
     while (begin < end) {
       const std::size_t stop = append_runs(out, begin - position, bytes, begin, end);
       std::copy_n(bytes.data() + begin, stop - begin, before.data() + begin);

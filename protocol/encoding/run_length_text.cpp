@@ -64,7 +64,7 @@ class RunWriter {
   RunWriter(std::string& out, std::uint8_t first) : out_(out), open_{first, 0} {}
 
   void add_row(const std::uint8_t* row, const RowFacts& facts) {
-    if (text_.size() - used_ < kMostOfRow) flush();
+    if (text_.size() - used_ < kMaxOfRow) flush();
     if (facts.repeats != 0 && above_ != kGone && open_ == open_above_) {
       copy_row_above();
     } else {
@@ -75,7 +75,7 @@ class RunWriter {
 
   // Adds the pixels after the last whole row.
   void add_rest(std::span<const std::uint8_t> pixels) {
-    if (text_.size() - used_ < kMostOfRow) flush();
+    if (text_.size() - used_ < kMaxOfRow) flush();
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (pixels[i] != open_.color) end_run(static_cast<std::int32_t>(i), pixels[i]);
     }
@@ -85,7 +85,7 @@ class RunWriter {
 
  private:
   static constexpr std::size_t kGroup = 4;  // characters
-  static constexpr std::size_t kMostOfRow = (kRow + 1) * kGroup;
+  static constexpr std::size_t kMaxOfRow = (kRow + 1) * kGroup;
   static constexpr std::size_t kGone = ~std::size_t{0};
 
   struct Open {  // the run that has begun
@@ -118,7 +118,7 @@ class RunWriter {
     std::int32_t length = at - open_.begin;
     for (; length > kLongestRun; length -= kLongestRun) {
       add_group(kLongestRun);
-      if (text_.size() - used_ < kMostOfRow) flush();
+      if (text_.size() - used_ < kMaxOfRow) flush();
     }
     add_group(length);
     open_ = {next, at};

@@ -11,7 +11,7 @@
 namespace racebeam {
 namespace {
 
-constexpr int kMostTimes = 1'000'000'000;  // Context::check_frames() limits the acts of a request
+constexpr int kMaxTimes = 1'000'000'000;  // Context::check_frames() limits the acts of a request
 
 enum class Player : bool { kA, kB };
 
@@ -55,7 +55,7 @@ int number_of(std::string_view word, const AllowedActions& actions, Player playe
 
 // A place on the screen, "80,100", has the number x + 256 * y.
 constexpr float kPlaceStep = 256;
-constexpr int kMostPlace = 255;
+constexpr int kMaxPlace = 255;
 
 float strength_of(std::string_view text) {
   const std::size_t whole = text.size();
@@ -63,7 +63,7 @@ float strength_of(std::string_view text) {
   const std::string_view y = cut_behind(x, ',');
   if (x.size() < whole)
     return static_cast<float>(number_within(x, "the x of a place", 0, kScreenWidth - 1)) +
-           kPlaceStep * static_cast<float>(number_within(y, "the y of a place", 1, kMostPlace));
+           kPlaceStep * static_cast<float>(number_within(y, "the y of a place", 1, kMaxPlace));
   const auto strength = parse_number<float>(text);
   if (strength && std::isfinite(*strength)) return *strength;
   throw RequestError(ErrorCode::kBadValue,
@@ -76,7 +76,7 @@ Action parse_action(std::string_view word, const AllowedActions& actions) {
   Action action;
   std::string_view a = word;
   if (const auto times = cut_behind(a, '*'); a.size() < word.size())
-    action.times = static_cast<int>(number_within(times, "how often an action is repeated", 1, kMostTimes));
+    action.times = static_cast<int>(number_within(times, "how often an action is repeated", 1, kMaxTimes));
   const std::size_t players = a.size();
   std::string_view b = cut_behind(a, '/');
   const bool has_b = a.size() < players;

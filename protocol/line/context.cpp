@@ -48,9 +48,9 @@ void Context::check_frames(std::int64_t acts, std::int64_t frames) const {
 void Context::check_audio(std::int64_t acts) const {
   const Settings& machine = game.settings.machine;
   const std::int64_t frames = acts * std::max(machine.frame_skip, machine.frame_skip_max);
-  if (frames <= kMostFrameSkip) return;
+  if (frames <= kMaxFrameSkip) return;
   throw RequestError(ErrorCode::kLimit, "the request asks for audio_all of " + std::to_string(frames) +
-                                            " frames; it may ask for " + std::to_string(kMostFrameSkip));
+                                            " frames; it may ask for " + std::to_string(kMaxFrameSkip));
 }
 
 void Context::allow_resets(std::size_t count) {

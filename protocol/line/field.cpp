@@ -109,7 +109,7 @@ int size_within(std::string_view text, std::string_view what, int least, int mos
 // Parses greyWxHxN and rgbWxHxN, and the old names grey84 and grey84xN. Sets `name` to the name of their row.
 // Returns nothing for other fields.
 std::optional<StackSettings> parse_stack(std::string_view& name) {
-  constexpr int kLeastHeight = 9, kMostHeight = 600;  // ScreenStack checks against the machine's screen
+  constexpr int kMinHeight = 9, kMaxHeight = 600;  // ScreenStack checks against the machine's screen
   const bool rgb = name.starts_with("rgb");
   if (!rgb && !name.starts_with("grey")) return std::nullopt;
   std::string_view width = name.substr(rgb ? 3 : 4);
@@ -130,7 +130,7 @@ std::optional<StackSettings> parse_stack(std::string_view& name) {
         quote(name) + " is not a stack of screens; accepted: greyWxHxN and rgbWxHxN, such as grey84x84x4");
   name = rgb ? kRgbStack : kGreyStack;
   return stack_of(depth, size_within(width, "the width of a stack", 1, 2 * kScreenWidth),
-                  size_within(height, "the height of a stack", kLeastHeight, kMostHeight));
+                  size_within(height, "the height of a stack", kMinHeight, kMaxHeight));
 }
 
 std::size_t bytes_of(const StackSettings& stack) {
@@ -139,13 +139,13 @@ std::size_t bytes_of(const StackSettings& stack) {
          static_cast<std::size_t>(pictures);
 }
 
-constexpr std::size_t kTallScreen = std::size_t{kMostHeight} * kScreenWidth, kRgbScreen = 3 * kTallScreen;
+constexpr std::size_t kTallScreen = std::size_t{kMaxHeight} * kScreenWidth, kRgbScreen = 3 * kTallScreen;
 
 // The most bytes of a field of bytes, on any machine.
 std::size_t most_bytes(const Field& field) {
   constexpr std::size_t kNoScreen = 1024;
   if (field.stack) return bytes_of(*field.stack);
-  if (field.row->name == kAllAudio) return std::size_t{kMostFrameSkip} * kAudioSize;
+  if (field.row->name == kAllAudio) return std::size_t{kMaxFrameSkip} * kAudioSize;
   if (field.row->looks_at == Drawing::kNone) return kNoScreen;
   return field.row->name == "rgb" ? kRgbScreen : kTallScreen;
 }

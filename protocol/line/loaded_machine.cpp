@@ -49,7 +49,7 @@ void LoadedMachine::allow_actions() {
 }
 
 std::size_t LoadedMachine::max_footprint(const std::vector<Field>& fields) {
-  return MachineMemory::kMost + View::max_footprint(fields);
+  return MachineMemory::kMax + View::max_footprint(fields);
 }
 
 void LoadedMachine::release_caches() {

@@ -18,7 +18,7 @@ class MachineMemory {
   void release_caches(Slot& slot);
   std::size_t held(const Slot& slot) const;  // bytes
 
-  static constexpr std::size_t kMost = std::size_t{240} << 10;  // of a machine whose objects do not flicker
+  static constexpr std::size_t kMax = std::size_t{240} << 10;  // of a machine whose objects do not flicker
 
  private:
   static int frame_of(const Slot& slot) { return slot.environment().frame_number(); }

@@ -11,7 +11,7 @@ namespace racebeam {
 namespace {
 
 // `load` takes 0 for a random seed, and ALE takes the one behind the largest for the time of day.
-constexpr std::uint32_t kMostSeed = 0xFFFFFFFE;
+constexpr std::uint32_t kMaxSeed = 0xFFFFFFFE;
 
 std::string words_without_seed(const PlaySettings& settings, const Environment& machine) {
   return settings_without_seed(words_of(settings_of_log(settings, machine), machine));
@@ -91,7 +91,7 @@ std::uint32_t SessionLog::seed_of_phrase_now() const {
 std::uint32_t SessionLog::next_seed() {
   if (!order_.phrase.empty()) return seed_of_phrase_now();
   const std::uint32_t seed = slot_.environment().settings().random_seed;
-  return seed < kMostSeed ? seed + 1 : 1;
+  return seed < kMaxSeed ? seed + 1 : 1;
 }
 
 void SessionLog::began() {
@@ -105,9 +105,8 @@ void SessionLog::began() {
   if (!order_.phrase.empty() && seed != seed_of_phrase_now())
     return drop_log("its seed is " + std::to_string(seed) + "; the phrase gives " +
                     std::to_string(seed_of_phrase_now()));
-  if (seed == 0 || seed > kMostSeed)
-    return drop_log("its seed is " + std::to_string(seed) + "; a log takes 1 to " +
-                    std::to_string(kMostSeed));
+  if (seed == 0 || seed > kMaxSeed)
+    return drop_log("its seed is " + std::to_string(seed) + "; a log takes 1 to " + std::to_string(kMaxSeed));
   if (const std::string words = words_without_seed(settings_, machine); words != first_settings_)
     drop_log("its settings are '" + words + "'; those of the log are '" + first_settings_ + "'");
 }
@@ -120,7 +119,7 @@ void SessionLog::played(const Act& act, int frames) {
   if (!is_playing_) return;
   if (act.b != Act{}.b) return drop_log("player B acted in it; a log has the actions of player A");
   const bool turns = act.strength_a != Act{}.strength_a || !strengths_.empty();
-  if (const int most = turns ? kMostTurns : kMostDecisions; account_.decisions() >= most)
+  if (const int most = turns ? kMaxTurns : kMaxDecisions; account_.decisions() >= most)
     return drop_log("it has more than " + std::to_string(most) + (turns ? " acts with strengths" : " acts"));
   if (turns) {
     strengths_.resize(actions_.size(), Act{}.strength_a);

@@ -11,7 +11,7 @@ namespace {
 
 using Native = std::unique_ptr<NativeFiber>;
 
-constexpr std::size_t kMostSpareFibers = 4;  // of a thread
+constexpr std::size_t kMaxSpareFibers = 4;  // of a thread
 thread_local std::vector<Native> spare_fibers;
 
 Native take_fiber() {
@@ -22,7 +22,7 @@ Native take_fiber() {
 }
 
 void put_fiber(Native native) {
-  if (spare_fibers.size() < kMostSpareFibers) spare_fibers.push_back(std::move(native));
+  if (spare_fibers.size() < kMaxSpareFibers) spare_fibers.push_back(std::move(native));
 }
 
 }  // namespace

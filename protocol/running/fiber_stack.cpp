@@ -8,7 +8,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kMostSpare = 4;  // of a thread; a session in progress holds one
+constexpr std::size_t kMaxSpare = 4;  // of a thread; a session in progress holds one
 
 Pages new_stack() try {
   Pages pages(page_size() + FiberStack::kBytes);
@@ -19,7 +19,7 @@ Pages new_stack() try {
 }
 
 struct SpareStacks {
-  SpareStacks() { pages.reserve(kMostSpare); }
+  SpareStacks() { pages.reserve(kMaxSpare); }
   std::vector<Pages> pages;
 };
 
@@ -37,7 +37,7 @@ Pages take_stack() {
 FiberStack::FiberStack() : pages_(take_stack()), bottom_(pages_.data() + page_size()) {}
 
 FiberStack::~FiberStack() {
-  if (spare.pages.size() < kMostSpare) spare.pages.push_back(std::move(pages_));
+  if (spare.pages.size() < kMaxSpare) spare.pages.push_back(std::move(pages_));
 }
 
 }  // namespace racebeam

@@ -10,8 +10,8 @@ using namespace std::chrono_literals;
 
 constexpr auto kFirstDelay = 100ms;
 constexpr auto kMemory = 10min;  // how long a wrong token is remembered
-constexpr std::size_t kMostSources = 4096;
-constexpr int kMostDoublings = 16;
+constexpr std::size_t kMaxSources = 4096;
+constexpr int kMaxDoublings = 16;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ std::string WrongTokens::source_of(const ip::address& address) {
 }
 
 WrongTokens::Delay WrongTokens::pause(int wrong) const {
-  return std::min<Delay>(longest_, kFirstDelay * (1 << std::min(wrong - 1, kMostDoublings)));
+  return std::min<Delay>(longest_, kFirstDelay * (1 << std::min(wrong - 1, kMaxDoublings)));
 }
 
 WrongTokens::Verdict WrongTokens::count(const std::string& source, Clock::time_point now) {
@@ -43,7 +43,7 @@ void WrongTokens::forgive(const std::string& source) {
 }
 
 void WrongTokens::make_room() {
-  if (rows_.size() < kMostSources) return;
+  if (rows_.size() < kMaxSources) return;
   const auto earlier = [](const auto& a, const auto& b) { return a.second.latest < b.second.latest; };
   rows_.erase(std::ranges::min_element(rows_, earlier));
 }

@@ -54,7 +54,7 @@ bool has_moved(Socket& socket, Loop& loop) {
 
 constexpr auto kReliefTimeout = 800ms;  // how long a client that comes when memory is short may wait
 constexpr auto kBetweenChecks = 20ms;   // of whether there is memory for it
-constexpr int kMostWaiting = 64;
+constexpr int kMaxWaiting = 64;
 
 // Counts a client that waits for memory, during its lifetime.
 class Waiting {
@@ -247,7 +247,7 @@ void ConnectionAcceptor::admit_over_http(Socket socket, HttpRequest request, con
 
 void ConnectionAcceptor::admit_when_memory_allows(std::shared_ptr<Client> client, const Service& service,
                                                   Carrier carrier, const Endpoint& endpoint) {
-  if (has_memory_for_one_more(service) || waiting_ >= kMostWaiting)
+  if (has_memory_for_one_more(service) || waiting_ >= kMaxWaiting)
     admit(std::move(client), service, std::move(carrier), endpoint);
   else
     spawn(loops_.first().context,

@@ -18,7 +18,7 @@ namespace net = boost::asio;
 using boost::system::error_code;
 using net::ip::tcp;
 
-constexpr std::uint32_t kMostPayload = 1 << 20;  // bytes; an action has 16
+constexpr std::uint32_t kMaxPayload = 1 << 20;  // bytes; an action has 16
 constexpr std::chrono::milliseconds kBetweenTries{200};
 
 void connect_to(tcp::socket& socket, const tcp::endpoint& core) {
@@ -55,9 +55,9 @@ void serve_rl_glue(std::uint16_t port, RlGlueEnvironment& environment) {
   write_whole(socket, rl_glue_greeting());
   for (std::string header(kRlGlueHeaderBytes, '\0'); read_whole(socket, header);) {
     const RlGlueHeader next = rl_glue_header(header);
-    if (next.size > kMostPayload) {
+    if (next.size > kMaxPayload) {
       throw std::invalid_argument("the RL-Glue core announced a payload of " + std::to_string(next.size) +
-                                  " bytes; at most " + std::to_string(kMostPayload) + " are accepted");
+                                  " bytes; at most " + std::to_string(kMaxPayload) + " are accepted");
     }
     std::string payload(next.size, '\0');
     if (!payload.empty() && !read_whole(socket, payload))

@@ -49,7 +49,7 @@ void LogSink::close() {
 }
 
 void LogSink::sink_it_(const spdlog::details::log_msg& message) {
-  if (waiting_.size() >= kMostWaiting) lose_oldest();
+  if (waiting_.size() >= kMaxWaiting) lose_oldest();
   add(message);
 }
 

@@ -21,7 +21,7 @@ namespace racebeam {
 
 class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
-  static constexpr std::size_t kMostWaiting = 1024;  // lines
+  static constexpr std::size_t kMaxWaiting = 1024;  // lines
 
   // loss_text: makes the line, in the log's format, that reports how many lines were lost.
   static std::shared_ptr<LogSink> start(int descriptor, OutputKind kind,

@@ -85,9 +85,9 @@ class ByteStream {
  private:
   using Signature = void(boost::system::error_code, std::size_t);
   // The operations may transfer less than they are asked to, so that a few buffers are enough.
-  static constexpr std::size_t kMostBuffers = 8;
-  using Space = std::array<boost::asio::mutable_buffer, kMostBuffers>;
-  using Bytes = std::array<boost::asio::const_buffer, kMostBuffers>;
+  static constexpr std::size_t kMaxBuffers = 8;
+  using Space = std::array<boost::asio::mutable_buffer, kMaxBuffers>;
+  using Bytes = std::array<boost::asio::const_buffer, kMaxBuffers>;
 
   // The first buffers that are not empty.
   template <typename Few, typename Buffers>

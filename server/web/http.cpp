@@ -24,7 +24,7 @@ using boost::system::error_code;
 using net::ip::tcp;
 using namespace std::chrono_literals;
 
-constexpr std::size_t kMostConnections = 64;
+constexpr std::size_t kMaxConnections = 64;
 constexpr auto kTimeout = 30s;  // for a request and its response
 constexpr auto kFarewell = 2s;  // for a client to close its end
 
@@ -81,7 +81,7 @@ Task<> Http::accept_clients() {
 
 // Closes the oldest connection, so that idle ones do not keep out others.
 void Http::make_room() {
-  if (connections_.size() >= kMostConnections) close_oldest();
+  if (connections_.size() >= kMaxConnections) close_oldest();
 }
 
 // The server's sessions may have taken all other files. An operator can then still read /healthz.

@@ -31,10 +31,10 @@ std::string_view type_of(std::string_view path) {
 }
 
 std::string gzip(std::string_view bytes) {
-  constexpr int kGzip = 16 + MAX_WBITS, kMostMemory = 9;
+  constexpr int kGzip = 16 + MAX_WBITS, kMaxMemory = 9;
   z_stream stream{};
   const std::unique_ptr<z_stream, int (*)(z_stream*)> ended(&stream, deflateEnd);
-  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMostMemory, Z_DEFAULT_STRATEGY) != Z_OK)
+  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMaxMemory, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::runtime_error("zlib cannot compress the page");
   std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));

@@ -17,7 +17,7 @@
 namespace racebeam {
 namespace {
 
-constexpr int kFirstDescriptor = 3, kMostSockets = 1000;
+constexpr int kFirstDescriptor = 3, kMaxSockets = 1000;
 
 std::optional<int> number_in(const char* variable) {
   const char* const text = std::getenv(variable);
@@ -50,7 +50,7 @@ void check_listening(int descriptor) {
 std::vector<InheritedSocket> inherited_sockets() {
   const auto process = number_in("LISTEN_PID"), count = number_in("LISTEN_FDS");
   if (!process || !count || *process != ::getpid()) return {};
-  if (*count < 0 || *count > kMostSockets)
+  if (*count < 0 || *count > kMaxSockets)
     throw std::runtime_error("LISTEN_FDS is " + std::to_string(*count) + "; it must be 0 to 1000");
   const auto named = names();
   std::vector<InheritedSocket> sockets;

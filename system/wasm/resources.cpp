@@ -8,13 +8,13 @@ namespace racebeam {
 Allowance usable_processors(const std::string&) { return {1, "the machine"}; }
 
 Allowance usable_memory(const std::string&) {
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 31;  // Emscripten's MAXIMUM_MEMORY
-  return {kMost, "the address space"};
+  constexpr std::uint64_t kMax = std::uint64_t{1} << 31;  // Emscripten's MAXIMUM_MEMORY
+  return {kMax, "the address space"};
 }
 
 std::uint64_t usable_files() {
-  constexpr std::uint64_t kMost = 4096;  // Emscripten's limit
-  return kMost;
+  constexpr std::uint64_t kMax = 4096;  // Emscripten's limit
+  return kMax;
 }
 
 void set_thread_stacks() {}  // there is only one thread

@@ -10,7 +10,7 @@
 namespace racebeam {
 namespace {
 
-constexpr unsigned kMost = 8 * sizeof(DWORD_PTR);  // processors of a group; a process belongs to one group
+constexpr unsigned kMax = 8 * sizeof(DWORD_PTR);  // processors of a group; a process belongs to one group
 
 }  // namespace
 
@@ -23,15 +23,15 @@ std::vector<unsigned> allowed_processors() {
     SetThreadAffinityMask(GetCurrentThread(), thread);
     own = thread;
   }
-  for (unsigned number = 0; number < kMost; ++number)
+  for (unsigned number = 0; number < kMax; ++number)
     if ((own >> number & 1) != 0) processors.push_back(number);
   return processors;
 }
 
 void bind_to(std::jthread& thread, unsigned processor) {
   const HANDLE handle = pthread_gethandle(thread.native_handle());
-  if (processor < kMost && SetThreadAffinityMask(handle, DWORD_PTR{1} << processor) != 0) return;
-  const int error = processor < kMost ? static_cast<int>(GetLastError()) : ERROR_INVALID_PARAMETER;
+  if (processor < kMax && SetThreadAffinityMask(handle, DWORD_PTR{1} << processor) != 0) return;
+  const int error = processor < kMax ? static_cast<int>(GetLastError()) : ERROR_INVALID_PARAMETER;
   throw InvalidInput("a thread could not be bound to processor " + std::to_string(processor) + ": " +
                      std::system_category().message(error));
 }

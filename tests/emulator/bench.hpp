@@ -26,11 +26,11 @@ inline Properties ntsc() {
 }
 
 struct Bench {
-  static constexpr std::size_t kMostRows = 320;  // of a picture that a reset has shifted down
+  static constexpr std::size_t kMaxRows = 320;  // of a picture that a reset has shifted down
 
   explicit Bench(Rom rom = Rom(4096, 0xEA), const Properties& properties = ntsc())
       : whole_(std::make_unique<Whole>(std::make_shared<const Rom>(std::move(rom)), properties)) {
-    for (FrameBuffer& buffer : pictures()) buffer.make_room(kMostRows);
+    for (FrameBuffer& buffer : pictures()) buffer.make_room(kMaxRows);
     board.slot.scheme.reset(board.slot);
     board.map_memory();
     reset_cpu(board);
@@ -151,7 +151,7 @@ struct Bench {
     state.frame.open = 1;
     for (FrameBuffer& buffer : pictures()) {
       buffer.blank();
-      buffer.make_room(kMostRows);
+      buffer.make_room(kMaxRows);
     }
     board.map_memory();
   }

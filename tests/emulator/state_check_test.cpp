@@ -22,7 +22,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::int32_t kMostLines = 3 * (kEndlessCycle / 228) + 228;
+constexpr std::int32_t kMaxLines = 3 * (kEndlessCycle / 228) + 228;
 
 // A console that has run five frames.
 class Machine {
@@ -91,7 +91,7 @@ TEST_CASE("A state with a value that no machine has is refused by the field's na
       {"the frame's origin is -228", [](State& s) { s.tia.origin = -228; }},
       {"the frame's origin modulo 3 is -1", [](State& s) { s.tia.origin = -1; }},
       {"the clocks left on the line is -1", [](State& s) { s.tia.left = -1; }},
-      {"the number of lines", [](State& s) { s.frame.lines = kMostLines + 1; }},
+      {"the number of lines", [](State& s) { s.frame.lines = kMaxLines + 1; }},
       {"the flag of a paddle's capacitor", [](State& s) { s.frame.dumping = 2; }},
       {"the flag of an open frame", [](State& s) { s.frame.open = 2; }},
       {"the paddles' buttons is 16", [](State& s) { s.inputs.paddle_fire = 16; }},
@@ -138,7 +138,7 @@ TEST_CASE("A state is accepted with each value at its limit") {
     state.tia.cosmic_shape = CosmicShape::kHidden;
     state.tia.enabled = enabled_objects(state.tia);
     state.tia.collisions = 0xEFFF;
-    state.frame.lines = kMostLines;
+    state.frame.lines = kMaxLines;
     state.frame.dumping = state.frame.open = state.frame.greyed = 1;
     state.inputs.paddle.fill(std::numeric_limits<std::int32_t>::max());
     state.inputs.joystick.fill(127);
@@ -187,7 +187,7 @@ struct Most {
 };
 
 constexpr std::uint8_t kAny = 255;
-const std::vector<Most> kMost = {
+const std::vector<Most> kMax = {
     {"F8", 0, 1},      {"F8 swapped", 0, 1}, {"F8SC", 0, 1},    {"F6", 0, 3},       {"F6SC", 0, 3},
     {"F4", 0, 7},      {"F4SC", 0, 7},       {"FASC", 0, 2},    {"E0", 0, 7},       {"E0", 1, 7},
     {"E0", 2, 7},      {"E0", 3, 7},         {"E7", 0, 7},      {"E7", 1, 3},       {"DPC", 0, 1},
@@ -207,7 +207,7 @@ const std::vector<Most> kMost = {
     {"WF8", 0, 1},     {"WDSW", 0, 7},       {"WDSW", 1, 7},    {"WDSW", 2, 3},     {"EFF", 0, 15}};
 
 std::uint8_t most_of(std::string_view scheme, std::size_t index) {
-  for (const Most& one : kMost)
+  for (const Most& one : kMax)
     if (one.scheme == scheme && one.index == index) return one.most;
   return 0;
 }
@@ -285,7 +285,7 @@ TEST_CASE("Registers that DPC+'s chip can't have are refused") {
     chip.clock.voice.fill({0xFFFFFFFF, 0xFFFFFFFF});
     chip.waveform.fill(127);
     chip.random = 0xFFFFFFFF;
-    chip.clock.instructions = harmony::kMostInstructions;
+    chip.clock.instructions = harmony::kMaxInstructions;
     chip.clock.into_sample = harmony::kSampleParts - 1;
     chip.parameters = 8;
     chip.follower = {0x1FFF, 2, 0xFF};
@@ -296,7 +296,7 @@ TEST_CASE("Registers that DPC+'s chip can't have are refused") {
       [](Chip& chip) { chip.fetcher[3].pointer = 4096; },
       [](Chip& chip) { chip.fractional[7].pointer = 4096; },
       [](Chip& chip) { chip.waveform[2] = 128; },
-      [](Chip& chip) { chip.clock.instructions = harmony::kMostInstructions + 1; },
+      [](Chip& chip) { chip.clock.instructions = harmony::kMaxInstructions + 1; },
       [](Chip& chip) { chip.clock.into_sample = harmony::kSampleParts; },
       [](Chip& chip) { chip.parameters = 9; },
       [](Chip& chip) { chip.follower.next = 0x2000; },
@@ -326,7 +326,7 @@ TEST_CASE("Registers that CDFJ's chip can't have are refused") {
   const Machine machine = random_machine("CDFJ");
   const auto highest = [](Chip& chip) {
     chip.clock.voice.fill({0xFFFFFFFF, 0xFFFFFFFF});
-    chip.clock.instructions = harmony::kMostInstructions;
+    chip.clock.instructions = harmony::kMaxInstructions;
     chip.clock.into_sample = harmony::kSampleParts - 1;
     chip.follower = {0x1FFF, 2, 0xFF};
     chip.wave.fill(31);
@@ -334,7 +334,7 @@ TEST_CASE("Registers that CDFJ's chip can't have are refused") {
   };
   CHECK(refusal_of_chip<Chip>(machine, highest).empty());
   const std::function<void(Chip&)> spoilt[] = {
-      [](Chip& chip) { chip.clock.instructions = harmony::kMostInstructions + 1; },
+      [](Chip& chip) { chip.clock.instructions = harmony::kMaxInstructions + 1; },
       [](Chip& chip) { chip.clock.into_sample = harmony::kSampleParts; },
       [](Chip& chip) { chip.follower.next = 0x2000; },
       [](Chip& chip) { chip.follower.missing = 3; },

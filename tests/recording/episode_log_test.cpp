@@ -146,7 +146,7 @@ TEST_CASE("A file of a gibibyte is refused unread") {
   const Scratch folder;
   const std::string path = folder.write("1.episode", bytes_of(sample_log()));
   std::filesystem::resize_file(path, std::size_t{1} << 30);
-  CHECK_THROWS_AS(read_input_file("episode log", path, kMostLogBytes), InputFileError);
+  CHECK_THROWS_AS(read_input_file("episode log", path, kMaxLogBytes), InputFileError);
 }
 
 TEST_CASE("A log of 18,000 random frames takes at most 12 KiB") {

@@ -10,7 +10,7 @@ namespace racebeam::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr unsigned kClear = 256, kEnd = 257, kMostCodes = 4096;
+constexpr unsigned kClear = 256, kEnd = 257, kMaxCodes = 4096;
 
 // The bytes of the blocks, of which all but the last must be full. The last is followed by an empty one.
 inline Bytes joined(const Bytes& blocks) {
@@ -57,7 +57,7 @@ inline Decoded decoded(const Bytes& data) {
     REQUIRE(code <= table.size());
     Bytes now = code < table.size() ? table[code] : before;
     if (code == table.size()) now.push_back(before.at(0));
-    if (!before.empty() && table.size() < kMostCodes) {
+    if (!before.empty() && table.size() < kMaxCodes) {
       before.push_back(now.at(0));
       table.push_back(before);
       if (table.size() == 1U << width && width < 12) ++width;

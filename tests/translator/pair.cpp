@@ -54,10 +54,10 @@ std::array<std::uint8_t, kSamplesPerBlock> samples_of(Console& console) {
 
 // A capacitor is charged at once, within a few lines or within the frame.
 Inputs make_inputs(std::mt19937& random) {
-  constexpr std::array<std::uint32_t, 3> kMostOhms = {1, 50'000, 1'000'000};
+  constexpr std::array<std::uint32_t, 3> kMaxOhms = {1, 50'000, 1'000'000};
   Inputs inputs;
   for (std::int32_t& ohms : inputs.paddle) {
-    const std::uint32_t most = kMostOhms[random() % kMostOhms.size()];
+    const std::uint32_t most = kMaxOhms[random() % kMaxOhms.size()];
     ohms = static_cast<std::int32_t>(random() % most);
   }
   for (std::uint8_t& stick : inputs.joystick) stick = static_cast<std::uint8_t>(random() % 32);

@@ -117,7 +117,7 @@ Bytes pin_reads() {
   return code;
 }
 
-constexpr std::int32_t kMostOhms = 1'000'000;
+constexpr std::int32_t kMaxOhms = 1'000'000;
 
 TEST_CASE("Translated code reads paddles and buttons as the interpreter does") {
   if (is_left_out()) return;
@@ -135,7 +135,7 @@ TEST_CASE("Translated code reads paddles and buttons as the interpreter does") {
     for (int frame = 0; frame < 40; ++frame) {
       Inputs inputs;
       for (std::int32_t& ohms : inputs.paddle)
-        ohms = static_cast<std::int32_t>(random() % (random() % 4 == 0 ? 1U : unsigned{kMostOhms}));
+        ohms = static_cast<std::int32_t>(random() % (random() % 4 == 0 ? 1U : unsigned{kMaxOhms}));
       for (std::uint8_t& stick : inputs.joystick) stick = static_cast<std::uint8_t>(random() % 32);
       inputs.paddle_fire = static_cast<std::uint8_t>(random() % 16);
       pair.step(inputs);
@@ -151,7 +151,7 @@ TEST_CASE("In translated code, a paddle's pin is low the longer, the larger its 
   properties.left = properties.right = Controller::kPaddles;
   Pair pair(make_image(pin_reads(), 4096), properties);
   unsigned last = 0;
-  for (std::int32_t ohms = 0; ohms <= kMostOhms; ohms += kMostOhms / 20) {
+  for (std::int32_t ohms = 0; ohms <= kMaxOhms; ohms += kMaxOhms / 20) {
     INFO(ohms << " ohms");
     Inputs inputs;
     inputs.paddle.fill(ohms);

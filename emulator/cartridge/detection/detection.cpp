@@ -135,7 +135,7 @@ std::string_view with_ports(std::string_view scheme, bool has_ports) {
 }
 
 std::string_view scheme_by_size(const Rom& rom) {
-  constexpr std::size_t kLeastSize = 2048;
+  constexpr std::size_t kMinSize = 2048;
   if (!rom.empty() && rom.size() % 8448 == 0) return "AR";
   switch (rom.size()) {
     case 2048: return is_cv(rom) ? "CV" : "2K";
@@ -152,7 +152,7 @@ std::string_view scheme_by_size(const Rom& rom) {
     case 29696: return name_large(rom, "FA2");
     case 65536: return name_large(rom, "MB");
     case 131072: return name_large(rom, "MC");
-    default: return rom.size() < kLeastSize ? "" : name_large(rom, "");
+    default: return rom.size() < kMinSize ? "" : name_large(rom, "");
   }
 }
 

@@ -65,10 +65,10 @@ constexpr HotSpots kHotSpots[] = {
 };
 constexpr std::string_view kElf =
     "\x7F"
-    "ELF";                                 // how an object file begins
-constexpr std::size_t kWdswSize = 8195;    // no other image has this size
-constexpr std::size_t kLeast4a50 = 65536;  // whose vector of NMI, which the 6507 does not have, is $4A50
-constexpr std::size_t kMostHotSpots = 64, kBank = 4096;
+    "ELF";                               // how an object file begins
+constexpr std::size_t kWdswSize = 8195;  // no other image has this size
+constexpr std::size_t kMin4a50 = 65536;  // whose vector of NMI, which the 6507 does not have, is $4A50
+constexpr std::size_t kMaxHotSpots = 64, kBank = 4096;
 
 bool has(std::string_view image, const Text& mark) {
   if (image.size() < mark.least || image.size() > mark.most) return false;
@@ -96,7 +96,7 @@ bool is_indexed(std::uint8_t opcode) {
 
 bool accesses(const Rom& rom, const HotSpots& spots) {
   if (rom.size() != spots.size) return false;
-  std::bitset<kMostHotSpots> found;
+  std::bitset<kMaxHotSpots> found;
   std::array<std::uint8_t, kBank> alike{};
   int hits = 0;
   for (std::size_t i = 0; i + 2 < rom.size(); ++i) {
@@ -126,7 +126,7 @@ std::string_view scheme_by_text(const Rom& rom) {
   const std::string_view image(reinterpret_cast<const char*>(rom.data()), rom.size());
   if (image.starts_with(kElf)) return "ELF";  // before the texts that the program has
   if (image.size() == kWdswSize) return "WDSW";
-  if (image.size() >= kLeast4a50 && image.substr(image.size() - 6, 2) == "\x50\x4A") return "4A50";
+  if (image.size() >= kMin4a50 && image.substr(image.size() - 6, 2) == "\x50\x4A") return "4A50";
   const auto text = std::ranges::find_if(kTexts, [&](const Text& one) { return has(image, one); });
   return text != std::end(kTexts) ? text->scheme : std::string_view();
 }
@@ -134,9 +134,9 @@ std::string_view scheme_by_text(const Rom& rom) {
 // BX of R0, R1, R3 or LR ends a function. 32K of other images have one or two at even offsets.
 bool has_arm_code(const Rom& rom) {
   constexpr std::uint8_t kReturn = 0x47, kRegisters[] = {0x00, 0x08, 0x18, 0x70};
-  constexpr std::size_t kLeastImage = 24576, kBlock = 32768;
+  constexpr std::size_t kMinImage = 24576, kBlock = 32768;
   constexpr int kFewestReturns = 8;
-  if (rom.size() < kLeastImage) return false;
+  if (rom.size() < kMinImage) return false;
   int returns = 0;
   for (std::size_t i = 0; i + 1 < rom.size(); i += 2) {
     if (i % kBlock == 0) returns = 0;

@@ -53,10 +53,10 @@ inline void map_plain(CartridgeSlot& slot) {
 }
 
 // Maps one game of a cartridge with many. A game of 2K is visible twice.
-constexpr unsigned kLeastGame = 2048, kMostGame = 4096;
+constexpr unsigned kMinGame = 2048, kMaxGame = 4096;
 
 inline void map_game(CartridgeSlot& slot) {
-  const unsigned size = slot.rom.size() < kMostGame * slot.scheme.banks ? kLeastGame : kMostGame;
+  const unsigned size = slot.rom.size() < kMaxGame * slot.scheme.banks ? kMinGame : kMaxGame;
   const std::uint8_t* const game = slot.rom.data() + size * slot.scheme.initial_bank;
   for (unsigned offset = 0; offset < kBankSize; offset += size) slot.map.show(offset, game, size);
 }

@@ -52,7 +52,7 @@ Chip& chip_of(CartridgeSlot& slot) { return *std::launder(reinterpret_cast<Chip*
 std::span<std::uint8_t> ram_of(const CartridgeSlot& slot) {
   constexpr std::size_t kMiddleImage = 131072, kMiddleRam = 16384;
   const std::size_t image = slot.rom.size();
-  return slot.ram.first(image <= kImage ? kRam : image <= kMiddleImage ? kMiddleRam : kMostRamPlus);
+  return slot.ram.first(image <= kImage ? kRam : image <= kMiddleImage ? kMiddleRam : kMaxRamPlus);
 }
 
 arm::Memory memory_of(const CartridgeSlot& slot) { return {slot.rom, ram_of(slot), kDriver}; }
@@ -190,7 +190,7 @@ bool call_driver(CartridgeSlot& slot, arm::Registers& registers) {
     case 1: phase = 0; break;
     case 2: argument = phase; break;
     default:
-      if (number >= kLeastWave && number <= kMostWave) chip.wave[voice] = static_cast<std::uint8_t>(number);
+      if (number >= kMinWave && number <= kMaxWave) chip.wave[voice] = static_cast<std::uint8_t>(number);
       break;
   }
   registers.r[4] = registers.r[arm::kLr] | 1;
@@ -263,16 +263,16 @@ void find_options(const CartridgeSlot& slot, Chip& chip) {
   constexpr std::uint8_t kSubtracts[] = {0x20, 0x42, 0xE2};
   const auto found = std::search(begin, end, std::begin(kSubtracts), std::end(kSubtracts));
   const std::uint8_t number = found != begin && found != end ? found[-1] : std::uint8_t{0};
-  chip.first_stream = number <= kMostFirstStream ? number : std::uint8_t{0};
+  chip.first_stream = number <= kMaxFirstStream ? number : std::uint8_t{0};
   chip.loads = static_cast<std::uint8_t>((has(kLoadX) ? kLoadsX : 0) | (has(kLoadY) ? kLoadsY : 0));
 }
 
 bool is_valid(const Chip& chip) {
-  const auto is_size = [](std::uint8_t size) { return size >= kLeastWave && size <= kMostWave; };
+  const auto is_size = [](std::uint8_t size) { return size >= kMinWave && size <= kMaxWave; };
   const bool can_jump = chip.jump == 0 || chip.jump == kFirstJump || chip.jump == kFirstJump + 1;
   return chip.clock.is_valid() && chip.follower.is_valid() && std::ranges::all_of(chip.wave, is_size) &&
          chip.plays_waves <= 1 && can_jump && chip.stopped <= 1 && chip.loads <= (kLoadsX | kLoadsY) &&
-         chip.first_stream <= kMostFirstStream;
+         chip.first_stream <= kMaxFirstStream;
 }
 
 }  // namespace

@@ -15,11 +15,11 @@
 namespace racebeam::cdf {
 
 constexpr unsigned kBanks = 7, kBankSize = 4096, kImage = 32768, kRam = 8192;
-constexpr unsigned kMostImagePlus = 524288, kMostRamPlus = 32768;
+constexpr unsigned kMaxImagePlus = 524288, kMaxRamPlus = 32768;
 constexpr unsigned kFirstBank = 6, kFirstBankPlus = 0;                // the initial ones
 constexpr unsigned kFirstHotSpot = 0xFF5, kFirstHotSpotPlus = 0xFF4;  // that select banks
 enum Version : std::uint8_t { kCdf0, kCdf1, kCdfj, kCdfjPlus };       // Scheme::version
-constexpr std::uint8_t kLeastWave = 20, kMostWave = 31;               // sizes
+constexpr std::uint8_t kMinWave = 20, kMaxWave = 31;                  // sizes
 
 // Stored and used in the bytes of the state in which other schemes have RAM. Pointers, increments and
 // waveforms are in the RAM of the ARM.
@@ -33,7 +33,7 @@ struct Chip {
   std::uint8_t loads;                // kLoadsX, kLoadsY: LDX # and LDY # read streams, too
   std::uint8_t first_stream;         // the operand of LDA # that reads stream 0
 };
-constexpr std::uint8_t kLoadsX = 1, kLoadsY = 2, kMostFirstStream = 220;
+constexpr std::uint8_t kLoadsX = 1, kLoadsY = 2, kMaxFirstStream = 220;
 static_assert(sizeof(Chip) <= kRamInState && std::has_unique_object_representations_v<Chip>);
 static_assert(alignof(Chip) <= alignof(CartridgeState));
 

@@ -12,7 +12,7 @@ namespace racebeam::dpcplus {
 namespace {
 
 constexpr unsigned kReadRegisters = 0x28, kPorts = 0x80, kHotPage = 0xFC0;
-constexpr unsigned kMostPointer = kDisplaySize - 1;
+constexpr unsigned kMaxPointer = kDisplaySize - 1;
 constexpr unsigned kWave = 32, kWaveBits = 5;  // bytes of a waveform
 constexpr std::uint32_t kFirstRandom = 0x2B435044, kTaps = 0x10ADAB1E;
 constexpr int kRandomStep = 11;
@@ -21,11 +21,11 @@ constexpr std::uint8_t kLoadNumber = 0xA9;  // the opcode of LDA #
 Chip& chip_of(CartridgeSlot& slot) { return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data())); }
 
 std::uint8_t& displayed(CartridgeSlot& slot, unsigned pointer) {
-  return slot.ram[kDriver + (pointer & kMostPointer)];
+  return slot.ram[kDriver + (pointer & kMaxPointer)];
 }
 
 const std::uint8_t* banks(const CartridgeSlot& slot) {
-  return slot.rom.data() + (slot.rom.size() - kLeastImage);
+  return slot.rom.data() + (slot.rom.size() - kMinImage);
 }
 
 const std::uint8_t* bank(const CartridgeSlot& slot) {
@@ -41,7 +41,7 @@ std::uint16_t with_high(std::uint16_t pointer, unsigned high) {
 }
 
 std::uint16_t moved(std::uint16_t pointer, unsigned distance) {
-  return static_cast<std::uint16_t>((pointer + distance) & kMostPointer);
+  return static_cast<std::uint16_t>((pointer + distance) & kMaxPointer);
 }
 
 std::uint8_t amplitude(CartridgeSlot& slot) {
@@ -149,7 +149,7 @@ void copy(CartridgeSlot& slot, bool fills) {
   const auto& given = chip.parameter;
   const unsigned from = given[0] + given[1] * 256U, to = chip.fetcher[given[2] & 7].pointer;
   for (unsigned i = 0; i < given[3]; ++i)
-    displayed(slot, to + i) = fills ? given[0] : banks(slot)[(from + i) % kLeastImage];
+    displayed(slot, to + i) = fills ? given[0] : banks(slot)[(from + i) % kMinImage];
   chip.parameters = 0;
 }
 
@@ -218,7 +218,7 @@ void write_register(CartridgeSlot& slot, unsigned offset, std::uint8_t value) {
     case 0x50: fetcher.pointer = with_low(fetcher.pointer, value); break;
     case 0x58: control(slot, index, value); break;
     case 0x60:
-      fetcher.pointer = moved(fetcher.pointer, kMostPointer);
+      fetcher.pointer = moved(fetcher.pointer, kMaxPointer);
       displayed(slot, fetcher.pointer) = value;
       break;
     case 0x68: fetcher.pointer = with_high(fetcher.pointer, value); break;
@@ -238,7 +238,7 @@ void select(CartridgeSlot& slot, std::uint16_t address) {
 }
 
 bool is_valid(const Chip& chip) {
-  const auto has_pointer = [](const auto& fetcher) { return fetcher.pointer <= kMostPointer; };
+  const auto has_pointer = [](const auto& fetcher) { return fetcher.pointer <= kMaxPointer; };
   return std::ranges::all_of(chip.fetcher, has_pointer) &&
          std::ranges::all_of(chip.fractional, has_pointer) &&
          std::ranges::all_of(chip.waveform, [](std::uint8_t number) { return number <= 0x7F; }) &&
@@ -256,8 +256,7 @@ void reset(CartridgeSlot& slot) {
   chip.random = kFirstRandom;
   slot.state.bank = {slot.scheme.initial_bank};
   const std::span image = slot.rom;
-  const auto driver = image.first(image.size() - kLeastImage),
-             others = image.last(kDisplaySize + kFrequencies);
+  const auto driver = image.first(image.size() - kMinImage), others = image.last(kDisplaySize + kFrequencies);
   const auto end = std::ranges::copy(driver, slot.ram.begin()).out;
   std::fill(end, slot.ram.begin() + kDriver, std::uint8_t{0});
   std::ranges::copy(others, slot.ram.begin() + kDriver);

@@ -16,8 +16,8 @@ namespace racebeam::dpcplus {
 
 constexpr unsigned kDriver = 3072, kBanks = 6, kBankSize = 4096, kDisplaySize = 4096, kFrequencies = 1024;
 constexpr unsigned kRam = kDriver + kDisplaySize + kFrequencies;
-constexpr unsigned kLeastImage = kBanks * kBankSize + kDisplaySize + kFrequencies;  // without a driver
-constexpr unsigned kMostImage = kDriver + kLeastImage;
+constexpr unsigned kMinImage = kBanks * kBankSize + kDisplaySize + kFrequencies;  // without a driver
+constexpr unsigned kMaxImage = kDriver + kMinImage;
 
 struct Fetcher {
   std::uint16_t pointer;  // 12 bits

@@ -15,8 +15,7 @@ namespace racebeam::harmony {
 // The instructions that the ARM may execute. A call that does not return ends when they are used up. A frame
 // grants instructions for its first kCyclesOfFrame cycles only.
 constexpr std::int32_t kCyclesOfFrame = 32768;
-constexpr std::uint32_t kInstructionsPerCycle = 35,
-                        kMostInstructions = kInstructionsPerCycle * kCyclesOfFrame;
+constexpr std::uint32_t kInstructionsPerCycle = 35, kMaxInstructions = kInstructionsPerCycle * kCyclesOfFrame;
 
 // A sample lasts 3579575 / 3 / 20000 CPU cycles, which is 143183 / 2400.
 constexpr unsigned kSampleParts = 143183, kPartsPerCycle = 2400;
@@ -36,10 +35,10 @@ struct Voice {
 
 struct Clock {
   std::array<Voice, 3> voice;
-  std::uint32_t instructions = kMostInstructions;  // that the ARM may still execute
-  std::uint32_t into_sample;                       // parts of the present sample that have passed
+  std::uint32_t instructions = kMaxInstructions;  // that the ARM may still execute
+  std::uint32_t into_sample;                      // parts of the present sample that have passed
 
-  bool is_valid() const { return instructions <= kMostInstructions && into_sample < kSampleParts; }
+  bool is_valid() const { return instructions <= kMaxInstructions && into_sample < kSampleParts; }
 
   void pass(State& machine, std::int32_t cycle) {
     const auto before = static_cast<std::int32_t>(machine.frame.cartridge_clock);
@@ -55,7 +54,7 @@ struct Clock {
  private:
   void add_instructions(std::int64_t cycles) {
     const auto all = instructions + kInstructionsPerCycle * static_cast<std::uint64_t>(cycles);
-    instructions = static_cast<std::uint32_t>(std::min<std::uint64_t>(kMostInstructions, all));
+    instructions = static_cast<std::uint32_t>(std::min<std::uint64_t>(kMaxInstructions, all));
   }
 };
 

@@ -11,11 +11,11 @@
 namespace racebeam::jentzsch {
 
 constexpr unsigned kWindows = 4, kWindow = 1024;
-constexpr unsigned kRamBank = 512, kRamBanks = 64, kMostRomBanks = 64;
+constexpr unsigned kRamBank = 512, kRamBanks = 64, kMaxRomBanks = 64;
 constexpr unsigned kRamFlag = 0x80;  // in the state's banks: the window shows RAM
 
 inline unsigned rom_banks(const CartridgeSlot& slot) {
-  return std::min(static_cast<unsigned>(slot.rom.size()) / kWindow, kMostRomBanks);
+  return std::min(static_cast<unsigned>(slot.rom.size()) / kWindow, kMaxRomBanks);
 }
 
 inline std::uint8_t* ram_bank(const CartridgeSlot& slot, unsigned number) {

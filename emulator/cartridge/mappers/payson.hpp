@@ -13,11 +13,11 @@ constexpr unsigned kMiddleWindow = 0x800, kUpperWindow = 0xE00, kFixedWindow = 0
 
 // kLower and kMiddle: the number of a block of ROM, or kInRam and that of a block of RAM. kUpper: a page.
 enum Bank { kLower, kMiddle, kUpper, kUpperIsRam };
-constexpr std::uint8_t kFirstMiddle = 0x10, kInRam = 0x40, kBlocks = 0x10, kMostRamPage = 0x7F;
+constexpr std::uint8_t kFirstMiddle = 0x10, kInRam = 0x40, kBlocks = 0x10, kMaxRamPage = 0x7F;
 
 inline std::uint8_t* ram_of(CartridgeSlot& slot, unsigned window) {
   const auto& bank = slot.state.bank;
-  if (window == kUpper) return bank[kUpperIsRam] ? &slot.ram[kPage * (bank[kUpper] & kMostRamPage)] : nullptr;
+  if (window == kUpper) return bank[kUpperIsRam] ? &slot.ram[kPage * (bank[kUpper] & kMaxRamPage)] : nullptr;
   return bank[window] & kInRam ? &slot.ram[kBlock * (bank[window] - kInRam)] : nullptr;
 }
 
@@ -82,7 +82,7 @@ inline void select_by_address(CartridgeState& state, unsigned page, unsigned low
     case 0x69: state.bank[kMiddle] ^= 2; break;
     case 0x6C: select_page(state, low, false); break;
     case 0x6D:
-      if (low <= kMostRamPage) select_page(state, low, true);
+      if (low <= kMaxRamPage) select_page(state, low, true);
       break;
     case 0x6E:
       if ((low & ~unsigned{kInRam}) < kBlocks) select_block(state, kLower, low, in_ram);

@@ -82,7 +82,7 @@ constexpr MapperOps kMb       = {atari::reset,           atari::map,          dy
 constexpr MapperOps kMc       = {megacart::reset,        megacart::map,       megacart::read, megacart::write,       megacart::admits};
 
 constexpr Scheme many(std::string_view name, std::uint8_t games) {
-  return {kMany, name, games * atari::kLeastGame, 0, games, 0, 0, false, Watch::kNothing, 0, games * atari::kMostGame};
+  return {kMany, name, games * atari::kMinGame, 0, games, 0, 0, false, Watch::kNothing, 0, games * atari::kMaxGame};
 }
 
 constexpr unsigned kChip = sizeof(dpc::Chip), kDpcPlusChip = sizeof(dpcplus::Chip);
@@ -91,7 +91,7 @@ constexpr unsigned kCdfChip = sizeof(cdf::Chip);
 constexpr Scheme cdf_of(std::string_view name, cdf::Version version) {
   return {kCdf, name, cdf::kImage, cdf::kFirstHotSpot, cdf::kBanks, cdf::kFirstBank, cdf::kRam, false, Watch::kNothing, kCdfChip, cdf::kImage, version};
 }
-constexpr unsigned kDpcPlusLeast = dpcplus::kLeastImage, kDpcPlusMost = dpcplus::kMostImage;
+constexpr unsigned kDpcPlusLeast = dpcplus::kMinImage, kDpcPlusMost = dpcplus::kMaxImage;
 
 constexpr Scheme kSchemes[] = {
     // ops      name          image  hot spot banks init ram  random  watch
@@ -116,7 +116,7 @@ constexpr Scheme kSchemes[] = {
     {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false},
     {kDpcPlus,  "DPC+", kDpcPlusLeast, 0xFF6,   6, 5, dpcplus::kRam, false, Watch::kNothing, kDpcPlusChip, kDpcPlusMost},
     cdf_of("CDF0", cdf::kCdf0), cdf_of("CDF", cdf::kCdf1), cdf_of("CDFJ", cdf::kCdfj),
-    {kCdf,      "CDFJ+", cdf::kImage, cdf::kFirstHotSpotPlus, cdf::kBanks, cdf::kFirstBankPlus, cdf::kMostRamPlus, false, Watch::kNothing, kCdfChip, cdf::kMostImagePlus, cdf::kCdfjPlus},
+    {kCdf,      "CDFJ+", cdf::kImage, cdf::kFirstHotSpotPlus, cdf::kBanks, cdf::kFirstBankPlus, cdf::kMaxRamPlus, false, Watch::kNothing, kCdfChip, cdf::kMaxImagePlus, cdf::kCdfjPlus},
     {k3f,       "3F",           2048, 0,        0, 0,     0, false, Watch::kTia},
     {k3e,       "3E",           2048, 0,        0, 0, 32768, true,  Watch::kTia},
     {k3e,       "3EX",          2048, 0,        0, 0, 262144, false, Watch::kTia},

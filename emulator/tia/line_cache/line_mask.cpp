@@ -12,7 +12,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kMost = 1 << 14;
+constexpr std::size_t kMax = 1 << 14;
 
 struct Key {
   ByteSet counts = 0, sets = 0;
@@ -33,7 +33,7 @@ const LineMask* find_or_add(const Key& key) try {
   static std::map<Key, LineMask> all;
   const std::lock_guard lock(mutex);
   if (const auto found = all.find(key); found != all.end()) return &found->second;
-  if (all.size() == kMost) return nullptr;
+  if (all.size() == kMax) return nullptr;
   return &(all[key] = {mask_of(key.counts), mask_of(key.sets)});
 } catch (const std::bad_alloc&) {
   return nullptr;

@@ -86,7 +86,7 @@ void LineRecord::open(const TiaRegisters& registers) {
 const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t origin) {
   assert(state() == LineState::kOpen);
   unsigned dependencies = 0, control = 0, events = count;
-  for (; events < kMostEvents; ++entry) {
+  for (; events < kMaxEvents; ++entry) {
     const LineWrite write(*entry, origin);
     if (!write.acts_here()) break;
     event[events++] = write.packed();

@@ -55,7 +55,7 @@ enum class LineState : std::uint8_t {
 };
 
 struct alignas(64) LineRecord {
-  static constexpr std::size_t kMostEvents = 16;
+  static constexpr std::size_t kMaxEvents = 16;
 
   TiaRegisters start;  // at the line's first clock
   TiaRegisters end;    // when the line is over
@@ -70,7 +70,7 @@ struct alignas(64) LineRecord {
   // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp).
   std::array<std::uint8_t, 2> hashes{};
   bool repeats = false;  // the line is that of the row before, and ends as it starts: see is_repetition_of()
-  alignas(16) std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
+  alignas(16) std::array<std::uint32_t, kMaxEvents> event;  // the writes, LineWrite::packed()
 
   // Derived from what each state brings, so that nothing more is stored.
   LineState state() const {

@@ -21,8 +21,8 @@ namespace racebeam {
 namespace {
 
 constexpr std::string_view kInMemory = "inline";
-constexpr std::size_t kMostLink = 1000;
-constexpr std::int64_t kMostTrial = 1'000'000;
+constexpr std::size_t kMaxLink = 1000;
+constexpr std::int64_t kMaxTrial = 1'000'000;
 
 // The words of `log` after the name.
 struct LogWords {
@@ -32,17 +32,17 @@ struct LogWords {
 };
 
 std::string checked_text(std::string_view text, std::string_view what) {
-  if (!is_plain_name(text, kMostAgentName))
+  if (!is_plain_name(text, kMaxAgentName))
     throw InvalidInput(std::string(what) + " is " + quote(text) + "; it takes " +
-                       plain_name_rule(kMostAgentName));
+                       plain_name_rule(kMaxAgentName));
   return std::string(text);
 }
 
 std::string checked_link(std::string_view text) {
   const bool is_address = text.starts_with("https://") || text.starts_with("http://");
-  if (!is_address || text.size() > kMostLink || text.find_first_of("\"\\") != text.npos)
+  if (!is_address || text.size() > kMaxLink || text.find_first_of("\"\\") != text.npos)
     throw InvalidInput("link is " + quote(text) + "; it takes https:// or http:// and at most " +
-                       std::to_string(kMostLink) + " characters");
+                       std::to_string(kMaxLink) + " characters");
   return std::string(text);
 }
 
@@ -69,14 +69,14 @@ constexpr std::array<LogOption, 9> kOptions = {{
      [](LogWords& words, std::string_view value) { words.about.version = checked_text(value, "version"); }},
     {"agent_seed",
      [](LogWords& words, std::string_view value) {
-       constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
-       words.origin.agent_seed = static_cast<std::uint32_t>(number_within(value, "agent_seed", 0, kMost));
+       constexpr std::int64_t kMax = std::numeric_limits<std::uint32_t>::max();
+       words.origin.agent_seed = static_cast<std::uint32_t>(number_within(value, "agent_seed", 0, kMax));
      }},
     {"trial", [](LogWords& words,
-                 std::string_view value) { words.origin.trial = count_of(value, "trial", kMostTrial); }},
+                 std::string_view value) { words.origin.trial = count_of(value, "trial", kMaxTrial); }},
     {"training_frames",
      [](LogWords& words, std::string_view value) {
-       words.about.training_frames = number_within(value, "training_frames", 0, kMostTrainingFrames);
+       words.about.training_frames = number_within(value, "training_frames", 0, kMaxTrainingFrames);
      }},
     {"phrase", [](LogWords& words, std::string_view value) { words.about.phrase = checked_phrase(value); }},
     {"role",
@@ -149,7 +149,7 @@ void begin_log(Context& context, std::string_view name, LogWords words, Reply& r
   words.origin.version = context.service.version;
   words.origin.unit =
       machine.game().name + '-' + words.about.agent + '-' + std::to_string(words.origin.trial);
-  context.memory.check(kMostLogBytes, "a log");
+  context.memory.check(kMaxLogBytes, "a log");
   std::shared_ptr<LogWriter> writer;
   if (name != kInMemory)
     writer = begin_writer(context.service, name,

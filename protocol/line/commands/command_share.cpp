@@ -14,8 +14,8 @@
 namespace racebeam {
 namespace {
 
-constexpr int kMostWatchers = 1'000'000;
-constexpr std::size_t kMostWatched = 256;  // shared sessions that one session watches
+constexpr int kMaxWatchers = 1'000'000;
+constexpr std::size_t kMaxWatched = 256;  // shared sessions that one session watches
 
 std::string share_name(std::string_view text) {
   constexpr std::size_t kLongest = 64;
@@ -30,12 +30,12 @@ std::string share_name(std::string_view text) {
   return std::string(text);
 }
 
-constexpr std::size_t kMostSimilar = 256;  // names that are compared: more would take milliseconds
+constexpr std::size_t kMaxSimilar = 256;  // names that are compared: more would take milliseconds
 
 [[noreturn]] void refuse_unknown(const Context& context, std::string_view name) {
   const auto all = context.service.shares->all();
   std::vector<std::string_view> names;
-  for (const auto& share : std::span(all).first(std::min(all.size(), kMostSimilar)))
+  for (const auto& share : std::span(all).first(std::min(all.size(), kMaxSimilar)))
     names.push_back(share->name());
   throw RequestError(ErrorCode::kBadValue, "unknown shared session " + quote(name) + ";" +
                                                did_you_mean(name, names) + " shared lists them");
@@ -49,11 +49,11 @@ std::unique_ptr<Share::Place> place_of(const std::shared_ptr<Share>& share) {
 
 // Makes room for one more name. Names that are no longer shared are forgotten first.
 void make_room(Watching& watching) {
-  if (watching.size() < kMostWatched) return;
+  if (watching.size() < kMaxWatched) return;
   std::erase_if(watching, [](const auto& entry) { return entry.second.ended(); });
-  if (watching.size() < kMostWatched) return;
+  if (watching.size() < kMaxWatched) return;
   throw RequestError(ErrorCode::kLimit,
-                     "a session may watch " + std::to_string(kMostWatched) + " shared sessions");
+                     "a session may watch " + std::to_string(kMaxWatched) + " shared sessions");
 }
 
 // A name that is shared anew keeps what its last reply showed, since the watcher keeps it, too.
@@ -93,7 +93,7 @@ void run_share(Context& context, Words arguments, Reply& reply) {
   int most = kUsualWatchers;
   if (arguments.size() > 1) {
     most = static_cast<int>(
-        number_within(value_of(arguments[1], "watchers", "share"), "watchers", 1, kMostWatchers));
+        number_within(value_of(arguments[1], "watchers", "share"), "watchers", 1, kMaxWatchers));
   }
   if (context.sharing && context.sharing->share().name() == name) context.sharing.reset();
   auto sharing = Sharing::open(context.service.shares, name, most);
@@ -131,8 +131,8 @@ void run_watch(Context& context, Words arguments, Reply& reply) {
   Words words = arguments.subspan(1);
   std::optional<std::int64_t> since;
   if (!words.empty() && words[0].starts_with("since=")) {
-    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-    since = number_within(value_of(words[0], "since", "watch"), "since", -kMost, kMost);
+    constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+    since = number_within(value_of(words[0], "since", "watch"), "since", -kMax, kMax);
     words = words.subspan(1);
   }
   const std::vector<Field> fields = parse_watched_fields(words);

@@ -93,5 +93,5 @@ TEST_CASE("A screen of noise has no more tiles than are allowed") {
   BlobFeatures set(1);
   const auto active = features(set, screen);
   const auto tiles = std::ranges::count_if(active, [](std::uint32_t feature) { return feature < kSpace; });
-  CHECK(tiles == BlobFeatures::kMostTiles);
+  CHECK(tiles == BlobFeatures::kMaxTiles);
 }

@@ -156,7 +156,7 @@ TEST_CASE("Of more than ten classes, those of the most similar shapes are merged
     discovery.add(screen.pixels, step == 0);
   }
   const ObjectClasses classes = discovery.classes();
-  REQUIRE(classes.size() == kMostClasses);
+  REQUIRE(classes.size() == kMaxClasses);
   int merged = 0;
   for (const ObjectClass& one : classes) {
     if (one.size() == 1) continue;

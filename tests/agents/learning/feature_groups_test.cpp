@@ -65,7 +65,7 @@ TEST_CASE("Features beyond the most that may be seen are left out") {
 
 TEST_CASE("Only features that were seen take memory, so much for each at most") {
   FeatureGroups groups(50000);
-  CHECK(groups.bytes() == FeatureGroups::kLeastBytes);
+  CHECK(groups.bytes() == FeatureGroups::kMinBytes);
   Random random(3);
   for (int state = 0; state < 2000; ++state) {
     Indices features;
@@ -73,12 +73,12 @@ TEST_CASE("Only features that were seen take memory, so much for each at most") 
     std::ranges::sort(features);
     features.erase(std::unique(features.begin(), features.end()), features.end());
     group(groups, features);
-    REQUIRE(groups.bytes() <= FeatureGroups::kLeastBytes +
-                                  (groups.seen() + 100) * FeatureGroups::kMostSlotBytes +
+    REQUIRE(groups.bytes() <= FeatureGroups::kMinBytes +
+                                  (groups.seen() + 100) * FeatureGroups::kMaxSlotBytes +
                                   groups.count() * FeatureGroups::kGroupBytes);
   }
   CHECK(groups.seen() == 50000);
-  CHECK(groups.bytes() <= 50000 * (FeatureGroups::kMostSlotBytes + FeatureGroups::kGroupBytes));
+  CHECK(groups.bytes() <= 50000 * (FeatureGroups::kMaxSlotBytes + FeatureGroups::kGroupBytes));
 }
 
 TEST_CASE("A learner on groups has the weights of one on the features themselves") {

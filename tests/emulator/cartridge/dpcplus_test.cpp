@@ -28,7 +28,7 @@ Properties asking_for_dpcplus() {
 // Byte k of the display data is k / 16, and of the frequencies k. All banks have `code` at $1100.
 Rom image(const Bytes& code = {}, std::initializer_list<Code> arm = {bx(kLr)}, std::size_t size = kSize) {
   Rom rom(size);
-  const std::size_t base = size - dpcplus::kLeastImage;
+  const std::size_t base = size - dpcplus::kMinImage;
   for (std::size_t i = 0; i < base; ++i) rom[i] = static_cast<std::uint8_t>(i + 1);
   for (std::size_t bank = 0; bank < dpcplus::kBanks; ++bank) {
     std::uint8_t* bytes = &rom[base + kBank * bank];

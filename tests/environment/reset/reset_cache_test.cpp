@@ -80,7 +80,7 @@ TEST_CASE("A copied reset of every game is what a run one is") {
 TEST_CASE("The resets that are kept are bounded, and the ones that were used last stay") {
   ResetCache cache;
   ResetStart start;
-  for (std::size_t i = 0; i < ResetCache::kMost + 10; ++i) {
+  for (std::size_t i = 0; i < ResetCache::kMax + 10; ++i) {
     start.mode = 0;
     if (i > 0) REQUIRE(cache.find(start));
     start.mode = static_cast<std::int32_t>(i);
@@ -89,7 +89,7 @@ TEST_CASE("The resets that are kept are bounded, and the ones that were used las
     cache.keep(start, end);
     REQUIRE(cache.find(start)->frames == i);
   }
-  CHECK(cache.size() == ResetCache::kMost);
+  CHECK(cache.size() == ResetCache::kMax);
   start.mode = 1;
   CHECK_FALSE(cache.find(start));
   start.mode = 0;

@@ -153,11 +153,11 @@ TEST_CASE("Saved states are a stack that a reset leaves alone") {
 TEST_CASE("The stack keeps the newest 4096 states") {
   Client client;
   client.say("0,0,0,0\n");
-  for (std::size_t i = 0; i < kMostClassicStates + 2; ++i) {
+  for (std::size_t i = 0; i < kMaxClassicStates + 2; ++i) {
     if (client.machine.game_over()) client.say("45,18\n");
     client.say("43,18\n3,18\n");
   }
-  for (std::size_t i = kMostClassicStates + 2; i-- > 2;) {
+  for (std::size_t i = kMaxClassicStates + 2; i-- > 2;) {
     client.say("44,18\n");
     if (client.machine.frame_number() != static_cast<int>(i)) FAIL("not the state of frame " << i);
   }

@@ -47,7 +47,7 @@ TEST_CASE("A machine that plays holds two pictures, or one if its screens are no
   CHECK(seen.played() == fresh + kPicture);
   CHECK(both.played() == fresh + kPicture);
   CHECK(unseen.played() == fresh);
-  CHECK(seen.held() <= MachineMemory::kMost);
+  CHECK(seen.held() <= MachineMemory::kMax);
 }
 
 TEST_CASE("The records of lines are held from a frame until the next rest") {

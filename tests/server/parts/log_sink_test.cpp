@@ -11,7 +11,7 @@ using namespace racebeam;
 
 namespace {
 
-constexpr int kLines = 3 * LogSink::kMostWaiting;
+constexpr int kLines = 3 * LogSink::kMaxWaiting;
 
 std::string read_until(int descriptor, const std::string& last) {
   std::string text;

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr std::uint64_t kMost = std::uint64_t{16} << 20, kHalfMiB = std::uint64_t{1} << 19;
+constexpr std::uint64_t kMax = std::uint64_t{16} << 20, kHalfMiB = std::uint64_t{1} << 19;
 
 // Sessions of one owner on one loop. A second owner has no sessions.
 struct Hall {
@@ -36,7 +36,7 @@ struct Hall {
     return -1;
   }
 
-  std::shared_ptr<MemoryBudget> all = std::make_shared<MemoryBudget>(kMost);
+  std::shared_ptr<MemoryBudget> all = std::make_shared<MemoryBudget>(kMax);
   std::shared_ptr<MemoryBudget> other = MemoryBudget::part(all, "other");
   Metrics metrics;
   Loops loops{1, 0us, metrics};
@@ -91,13 +91,13 @@ TEST_CASE("a session whose client does not read is ended first, whatever it hold
 }
 
 TEST_CASE("busy sessions are ended only of an owner that crowds out others, and idle ones before them") {
-  Hall hall{kMost / 4, kMost / 4};
+  Hall hall{kMax / 4, kMax / 4};
   for (const auto& client : hall.clients) client->working = true;
   CHECK(hall.first_to_end() == -1);  // the owner has half of the memory
   hall.clients[1]->memory()->take_anyway(1);
   CHECK(hall.first_to_end() == 1);
-  hall.enter(2 * kMost / 3).working = true;
-  Client& idle = hall.enter(kMost / 2);
+  hall.enter(2 * kMax / 3).working = true;
+  Client& idle = hall.enter(kMax / 2);
   CHECK(hall.first_to_end() == 3);
   idle.working = true;
   CHECK(hall.first_to_end() == 2);
@@ -130,16 +130,16 @@ TEST_CASE("at the second look, a loop ends sessions that hold its part of the sh
 }
 
 TEST_CASE("memory that was enough meanwhile begins anew, and clients that pause rest once") {
-  Hall hall{kMost};
+  Hall hall{kMax};
   Client& client = *hall.clients[0];
   int rests = 0;
   client.on_idle = [&rests] { ++rests; };
   client.working = true;
   MemoryRelief relief(1);
   CHECK(relief.relieve(hall.set) == 0);
-  client.memory()->give_back(kMost);
+  client.memory()->give_back(kMax);
   CHECK(relief.relieve(hall.set) == 0);
-  client.memory()->take_anyway(kMost);
+  client.memory()->take_anyway(kMax);
   CHECK(relief.relieve(hall.set) == 0);
   CHECK(rests == 0);
   client.working = false;

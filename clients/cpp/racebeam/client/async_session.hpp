@@ -71,7 +71,7 @@ class AsyncSession : public Commands<AsyncSession> {
 
   /// Bytes of requests without a reply. A server that cannot send its replies stops reading, so this must fit
   /// in its pipe.
-  static constexpr std::size_t kMostAhead = 1U << 15U;
+  static constexpr std::size_t kMaxAhead = 1U << 15U;
 
   class Turn {
    public:
@@ -106,7 +106,7 @@ class AsyncSession : public Commands<AsyncSession> {
     const std::size_t begin = line.find_first_not_of(' ');
     if (line.find('\n') != std::string::npos || (begin != std::string::npos && line[begin] == '#'))
       throw std::invalid_argument("a request is one line, and no comment: '" + line + "'");
-    while (ahead_ > 0 && ahead_ + line.size() > kMostAhead) arrived_.push_back(co_await outcome());
+    while (ahead_ > 0 && ahead_ + line.size() > kMaxAhead) arrived_.push_back(co_await outcome());
     if (ended_) throw Lost("the session has ended");
     ahead_ += line.size();
     unanswered_.push_back(line);
