@@ -145,7 +145,7 @@ class TestBoard(Folder):
         picture = (self.root / "site/curves-paper2013.svg").read_text()
         assert [game for game in games if f"<!-- {game} -->" in picture] == ["seaquest", "boxing"]
 
-    def test_names_are_no_formulas_and_a_picture_is_xml(self):
+    def test_a_name_is_not_a_formula_and_a_picture_is_xml(self):
         folder, _ = submission(self.root / "a")
         about = folder / "agent.toml"
         about.write_text(about.read_text().replace('"1.0"', r'"$\\frac{$ \u001b"'))

@@ -50,7 +50,7 @@ class TestTable:
         assert "| a\\|b | 1 |\n" in made.markdown()
         assert "a|b & 1 \\\\\n" in made.latex()
 
-    def test_names_are_no_commands_of_latex_and_no_tags_of_markdown(self):
+    def test_a_name_is_neither_a_command_of_latex_nor_a_tag_of_markdown(self):
         name = r"\input{~a^}<b>|"
         made = Table("made", "A caption.", pd.DataFrame({name: [1], "agent": [name]}), ())
         escaped = r"\textbackslash{}input\{\textasciitilde{}a\textasciicircum{}\}<b>|"
