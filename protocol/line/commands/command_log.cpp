@@ -39,9 +39,9 @@ std::string checked_text(std::string_view text, std::string_view what) {
 }
 
 std::string checked_link(std::string_view text) {
-  const bool is_address = text.starts_with("https://") || text.starts_with("http://");
-  if (!is_address || text.size() > kMaxLink || text.find_first_of("\"\\") != text.npos)
-    throw InvalidInput("link is " + quote(text) + "; it takes https:// or http:// and at most " +
+  const std::size_t scheme = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : text.size();
+  if (scheme >= text.size() || text.size() > kMaxLink || text.find_first_of("\"\\") != text.npos)
+    throw InvalidInput("link is " + quote(text) + "; it takes https://... or http://... and at most " +
                        std::to_string(kMaxLink) + " characters");
   return std::string(text);
 }

@@ -272,12 +272,12 @@ TEST_CASE("An invalid log is refused, and leaves nothing") {
     CHECK(code(desk.ask(request)) == "bad-arguments");
   }
   const std::string much(65, 'a');
-  for (const std::string& request :
-       std::vector<std::string>{"log ../a", "log a/b", "log .a", "log " + much, "log a agent=../a",
-                                "log a agent=", "log a agent=" + much, "log a agent=..", "log a version=\"",
-                                "log a trial=0", "log a agent_seed=-1", "log a training_frames=x",
-                                "log a phrase=\"", "log a phrase=" + std::string(1001, 'a'),
-                                "log a role=hero", "log a link=ftp://x", "log a link=https://\""}) {
+  for (const std::string& request : std::vector<std::string>{
+           "log ../a", "log a/b", "log .a", "log " + much, "log a agent=../a",
+           "log a agent=", "log a agent=" + much, "log a agent=..", "log a version=\"", "log a trial=0",
+           "log a agent_seed=-1", "log a training_frames=x", "log a phrase=\"",
+           "log a phrase=" + std::string(1001, 'a'), "log a role=hero", "log a link=ftp://x",
+           "log a link=https://\"", "log a link=https://", "log a link=http://"}) {
     INFO(request);
     CHECK(code(desk.ask(request)) == "bad-value");
   }
