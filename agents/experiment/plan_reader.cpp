@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -45,7 +46,11 @@ constexpr std::array kPresets = {
 static_assert(std::ranges::equal(kPresets, description::kEvaluationPresets, {}, &PlanPreset::name,
                                  &description::EvaluationPreset::name));
 
+// A number as errors show it. Whole numbers have all their digits: 100000, not 1e+05.
 std::string number_text(double value) {
+  constexpr double kMaxDecimal = 1e15;
+  if (value == std::floor(value) && std::abs(value) < kMaxDecimal)
+    return std::to_string(static_cast<std::int64_t>(value));
   std::string text;
   append_number(text, value);
   return text;

@@ -136,6 +136,8 @@ TEST_CASE("Mistakes in a plan are named with their line") {
   check("[agent.basic]\nalpha = 100.5\n", "test.toml:4: agent.basic.alpha: 100.5 is not accepted");
   check("[agent.basic]\ngrid_width = 2.5\n",
         "test.toml:4: agent.basic.grid_width: 2.5 is not accepted; it takes a whole number");
+  CHECK(refusal_of("games = [\"beamfall\"]\nagents = [\"lsh\"]\n[agent.lsh]\nones = 100001\n") ==
+        "test.toml:4: agent.lsh.ones: 100001 is not accepted; it takes a whole number from 1 to 100000");
   check("[agent.basic]\ngrid_width = 17\n",
         "test.toml:4: agent.basic.grid_width: 17 does not divide the screen's 160 pixels");
   check("[agent.basic]\nreward_scale = \"second\"\n",
