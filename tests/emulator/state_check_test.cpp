@@ -8,9 +8,9 @@
 #include <functional>
 #include <limits>
 
-#include "emulator/cartridge/mappers/cdf.hpp"
+#include "emulator/cartridge/harmony/cdf.hpp"
+#include "emulator/cartridge/harmony/dpcplus.hpp"
 #include "emulator/cartridge/mappers/dpc.hpp"
-#include "emulator/cartridge/mappers/dpcplus.hpp"
 #include "emulator/cartridge/mappers/savecircuit.hpp"
 #include "emulator/console.hpp"
 #include "emulator/state/power_on.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "emulator/cartridge/mappers/cdf.hpp"
+#include "emulator/cartridge/harmony/cdf.hpp"
 #include "tests/emulator/bench.hpp"
 #include "tests/emulator/cartridge/both_processors.hpp"
 #include "tests/emulator/reference/reference_cdf.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "emulator/cartridge/arm/memory.hpp"
-#include "emulator/cartridge/mappers/dpcplus.hpp"
+#include "emulator/cartridge/harmony/dpcplus.hpp"
 #include "tests/emulator/bench.hpp"
 #include "tests/emulator/cartridge/both_processors.hpp"
 #include "tests/support/thumb_code.hpp"

@@ -1,4 +1,4 @@
-#include "emulator/cartridge/mappers/cdf.hpp"
+#include "emulator/cartridge/harmony/cdf.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "emulator/cartridge/mappers/dpcplus.hpp"
+#include "emulator/cartridge/harmony/dpcplus.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "emulator/cartridge/cartridge.hpp"
-#include "emulator/cartridge/mappers/harmony.hpp"
+#include "emulator/cartridge/harmony/harmony.hpp"
 
 namespace racebeam::cdf {
 
