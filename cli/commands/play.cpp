@@ -183,6 +183,7 @@ void add_play(Subcommand& program) {
   command.flag("--terminal", options->terminal, "Play in the terminal");
   add_graphics_option(command, options->graphics);
   for (const char* name : kServeOnly) command.find(name).group("");
+  group_classic_options(command, "");
   command.exits_with([options, command] { return run(*options, complete(command)); });
 }
 

@@ -22,7 +22,7 @@ constexpr const char* kClassicOnly[] = {"seed",        "system_seed",    "frame_
 constexpr const char* kLineOnly[] = {"record_dir", "watch"};
 
 // Groups of options in the help text.
-constexpr auto kWhere = "Where", kLimits = "Limits", kOperation = "Operation";
+constexpr auto kWhere = "Where", kClassic = "With --classic", kLimits = "Limits", kOperation = "Operation";
 
 std::string check_endpoint(const std::string& text) {
   try {
@@ -241,9 +241,8 @@ void add_games(Subcommand& command, ServeOptions& options) {
   add_count(command, "--max-episode-frames", options.machine.settings.max_episode_frames, 0,
             "Frames after which an episode is truncated; 0: no limit");
   add_count(command, "--max-frames", options.protocol.max_num_frames, 0,
-            "With --classic: frames after which the session ends with DIE; 0: no limit");
-  command.flag("--full-screen", options.full_screen,
-               "With --classic: write every pixel of a screen instead of runs");
+            "Frames after which the session ends with DIE; 0: no limit");
+  command.flag("--full-screen", options.full_screen, "Write every pixel of a screen instead of runs");
   command.option("--roms", options.roms, "A folder with cartridge images that clients may load")
       .value_name("DIR");
   command.option("--record-dir", options.record_folder, "A folder that clients may record into")
@@ -312,6 +311,14 @@ void add_serve_options(Subcommand& command, ServeOptions& options) {
   add_limits(command, options);
   add_memory(command, options.server);
   add_operation(command, options);
+  group_classic_options(command, kClassic);
+}
+
+void group_classic_options(Subcommand& command, const std::string& group) {
+  for (std::string name : kClassicOnly) {
+    std::ranges::replace(name, '_', '-');
+    command.find("--" + name).group(group);
+  }
 }
 
 void finish(ServeOptions& options, const std::vector<Setting>& settings) {

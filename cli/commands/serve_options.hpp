@@ -29,6 +29,9 @@ struct ServeOptions {
 
 void add_serve_options(Subcommand& command, ServeOptions& options);  // `options` must outlive the parsing
 
+// Puts the options that only the classic protocol uses into a group of the help text; "" hides them.
+void group_classic_options(Subcommand& command, const std::string& group);
+
 // Call it after complete(). Computes the endpoints, and checks that all settings fit together. Throws
 // UsageError.
 void finish(ServeOptions& options, const std::vector<Setting>& settings);
