@@ -57,14 +57,15 @@ TEST_CASE("A batch gives the same on one thread and on several") {
   CHECK(std::ranges::count(a.ram, a.ram[0]) != std::ssize(a.ram));
 }
 
-TEST_CASE("A batch gives its large pages back, and a saved state keeps the one of its pictures") {
+TEST_CASE("A batch gives its large pages back, and a saved state keeps those of its pictures") {
   REQUIRE(large_pages_in_use() == 0);
   std::optional<Batch> batch(std::in_place, copies(64), short_episodes());
   play(*batch, 40);
-  if (can_prefer_large_pages()) CHECK(large_pages_in_use() > 2);
+  const auto all = large_pages_in_use();
+  if (can_prefer_large_pages()) CHECK(all > 2);
   std::shared_ptr<const Environment::Saved> saved = batch->slot(0).environment().save();
   batch.reset();
-  CHECK(large_pages_in_use() <= 2);
+  if (can_prefer_large_pages()) CHECK(large_pages_in_use() < all);
   saved.reset();
   CHECK(large_pages_in_use() == 0);
 }
