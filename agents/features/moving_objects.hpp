@@ -46,9 +46,9 @@ class ObjectList {
     return ShapeView(runs_).subspan(object.first_run, object.run_count);
   }
 
-  // Returns the nearest object of this list that `object`, of this shape, can have been on the screen before:
-  // within reach, and of the same shape. Otherwise one whose area is within a factor of 1.2, and of whose
-  // pixels at most 10 % differ. Null if there is no such object.
+  // Returns the nearest object of this list that `object`, of this shape, can have been on the screen before.
+  // It is within reach and has the same shape. If none has, its area is within a factor of 1.2, and at most
+  // 10 % of its pixels differ. Returns null if none fits.
   const ScreenObject* nearest(const ScreenObject& object, ShapeView shape, int reach) const;
 
  private:

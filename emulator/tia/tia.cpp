@@ -105,9 +105,9 @@ void Tia::rebuild() {
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
 
-// A sentinel after the last write holds the cycle before which there is no other write. On the line of that
-// cycle, only the writes that affect `latches` must be played. Returns false if the rest of that line was not
-// played.
+// All writes before `cycle` are in the log, and the sentinel after the last one holds that cycle. On the line
+// of `cycle`, only the writes that affect `latches` must be played. Returns false if the rest of that line
+// was not played.
 bool Tia::play_log(std::int32_t cycle, Collisions latches) {
   const bool empty = log_->size() == 0;
   if (empty && cycle < log_->base) return true;

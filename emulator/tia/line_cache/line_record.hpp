@@ -105,8 +105,8 @@ struct alignas(64) LineRecord {
     return is_zero(difference);
   }
 
-  // Whether a row that follows a row with the line of `before` needs no check of its own: both lines are the
-  // same, have no writes, and change no register that counts.
+  // Whether this line repeats `before`, that of the row above: both are the same, without writes, and leave
+  // the registers that count as they are. If the row above has recurred, so has this one.
   bool is_repetition_of(const LineRecord& before) const;
 
   // Compares only the bytes that pixels depend on. The registers may end differently.
