@@ -12,6 +12,7 @@ export const ACTIONS = ["NOOP", "FIRE", "UP", "RIGHT", "LEFT", "DOWN", "UPRIGHT"
   "LEFTFIRE", "DOWNFIRE", "UPRIGHTFIRE", "UPLEFTFIRE", "DOWNRIGHTFIRE", "DOWNLEFTFIRE", "RESET", "SELECT", "LEFT_A", "LEFT_B", "RIGHT_A",
   "RIGHT_B", "COLOR", "BW"] as const;
 export const JOYSTICK_ACTIONS = 18; // the others need action_set=console
+export const LAST_CONTROLLER_ACTION = 177; // DOWNLEFTFIRE+TRIGGER+BOOSTER, in the table of docs/spec/controllers.md
 
 /** One of two opposite directions, or neither. */
 function either(pressed: number, one: number, other: number, names: [string, string]): string {

@@ -1,6 +1,6 @@
 // Logs of episodes: docs/episodes.md describes the file.
 
-import { ACTIONS, JOYSTICK_ACTIONS } from "../input/actions.js";
+import { JOYSTICK_ACTIONS, LAST_CONTROLLER_ACTION } from "../input/actions.js";
 
 export interface Episode {
   /** For people. */
@@ -139,7 +139,7 @@ export async function readLog(file: Uint8Array, name: string): Promise<Episode> 
     throw new Error("the log's text does not begin with load, image, from and ended");
   }
   const settings = newWords(pairs(load.slice(2)));
-  const lastAction = (settings.action_set === "console" ? ACTIONS.length : JOYSTICK_ACTIONS) - 1;
+  const lastAction = settings.action_set === "console" ? LAST_CONTROLLER_ACTION : JOYSTICK_ACTIONS - 1;
   const { score, frames, decisions, end = "", lives } = pairs(ended);
   const hashes = contents.subarray(start, start + HASH_SIZE * (Math.floor(Number(decisions) / HASH_EVERY) + 1));
   const actions = contents.subarray(start + hashes.length, start + hashes.length + Number(decisions));

@@ -58,10 +58,11 @@ test("the number of hashes follows from that of decisions", async () => {
   assert.deepEqual(acts, actions.map(String));
 });
 
-test("a log has the console's switches where its settings say so", async () => {
+test("a log has actions of switches and other controllers only with action_set=console", async () => {
   const text = TEXT.replace("sticky=0", "sticky=0 action_set=console");
-  assert.deepEqual((await readLog(sealed(contents(text, 1, [18, 19, 25])), "")).acts, ["18", "19", "25"]);
-  await assert.rejects(readLog(sealed(contents(text, 1, [18, 19, 26])), ""), /from 0 to 25$/);
+  assert.deepEqual((await readLog(sealed(contents(text, 1, [18, 37, 177])), "")).acts, ["18", "37", "177"]);
+  await assert.rejects(readLog(sealed(contents(text, 1, [18, 19, 178])), ""), /from 0 to 177$/);
+  await assert.rejects(readLog(sealed(contents(TEXT, 1, [1, 0, 18])), ""), /from 0 to 17$/);
 });
 
 test("a log with strengths has them in its acts", async () => {
