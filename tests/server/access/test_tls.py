@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import signal
 import socket
 import ssl
 import subprocess
@@ -131,6 +132,33 @@ class TestTls(Folder):
             assert reader.readline() == b"160-210\n"
             connection.sendall(b"0,0,0,1\n3,18\n")
             assert reader.readline() == b"0,0:\n"
+
+    @pytest.mark.needs_posix
+    def test_a_hangup_reads_the_certificate_again_and_a_bad_file_keeps_the_old_one(self):
+        def presented(server):
+            return ssl.get_server_certificate(("127.0.0.1", self.port(server)))
+
+        def install(folder):
+            for name, path in zip(("cert", "key"), make_certificate(folder)):
+                with open(path) as file:
+                    self.write(name, file.read())
+            with open(self.path("cert")) as file:
+                return file.read()
+
+        options = ("--tls-cert", self.path("cert"), "--tls-key", self.path("key"))
+        with tempfile.TemporaryDirectory() as first, tempfile.TemporaryDirectory() as second:
+            old = install(first)
+            with Server("serve", "--listen", "tls://127.0.0.1:0", *options) as server:
+                assert presented(server) == old
+                new = install(second)
+                assert presented(server) == old
+                server.process.send_signal(signal.SIGHUP)
+                server.wait_for("racebeam: read the certificate again$")
+                assert presented(server) == new != old
+                self.write("key", "no key")
+                server.process.send_signal(signal.SIGHUP)
+                server.wait_for("warning: cannot use the key .*; the old certificate stays in use$")
+                assert presented(server) == new
 
     def test_a_certificate_and_a_key_are_needed(self, subtests):
         for options, status, hint in (
