@@ -65,6 +65,28 @@ class TestSystemd:
             process.stderr.close()
             notify.close()
 
+    def test_an_address_without_a_name_is_all_its_sockets(self):
+        with tempfile.TemporaryDirectory() as folder:
+            process, notify = self.start(folder, ["--listen", "systemd"])
+            assert notify.recv(100) == b"READY=1"
+            for name in ("s0", "s1"):
+                wire = connect_unix(os.path.join(folder, name))
+                assert ask(wire, b"hello").startswith(b"ok ")
+                wire.close()
+            process.terminate()
+            assert process.wait(PATIENCE) == 0
+            process.stderr.close()
+            notify.close()
+
+    def test_a_socket_can_be_selected_once(self):
+        for first in ("systemd:classic", "systemd"):
+            with tempfile.TemporaryDirectory() as folder:
+                process, notify = self.start(folder, ["--listen", first, "--listen", "systemd:classic"])
+                errors = process.communicate(timeout=PATIENCE)[1].splitlines()
+                assert errors == [b"racebeam: two addresses select the socket 'classic' of systemd; name it once"]
+                assert process.returncode == 1
+                notify.close()
+
     def test_what_it_did_not_pass_on_is_an_error(self):
         with tempfile.TemporaryDirectory() as folder:
             process, notify = self.start(folder, ["--listen", "systemd:other"])
