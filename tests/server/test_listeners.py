@@ -9,6 +9,7 @@ import signal
 import socket
 import tempfile
 import threading
+import time
 
 import pytest
 from harness import GAME, LISTEN, Server, connect_nearby, connect_tcp, connect_unix, open_pipes, run, sanitized
@@ -137,8 +138,14 @@ class TestAddresses:
 
     @pytest.mark.needs_posix
     def test_paths_that_cannot_be_had_are_refused(self):
-        self.refuse("unix:" + "x" * 200, 3, "too long")
         self.refuse("unix:nowhere/s", 3, "No such file")
+
+    @pytest.mark.needs_posix
+    def test_a_path_has_as_many_bytes_as_the_system_takes(self):
+        longest = 107  # of sun_path, less the 0 at the end (unix(7))
+        with listening("unix:" + "x" * longest) as server:
+            assert server.stop() == 0
+        self.refuse("unix:" + "x" * (longest + 1), 3, f"x is too long; a socket's path has at most {longest} bytes")
 
     def test_hosts_that_cannot_be_had_are_refused(self):
         self.refuse("tcp://192.0.2.1:1", 3, "cannot listen")
@@ -214,11 +221,15 @@ class TestClients:
     def test_a_server_that_has_too_many_clients_takes_others_later(self):
         with listening("unix:s") as server:
             resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (20, 20))
-            crowd = [connect_unix(server.path("s")) for _ in range(30)]
-            server.wait_for("cannot take a client on unix:s: Too many open files")
-            for wire in crowd:
-                wire.close()
-            assert play(connect_unix(server.path("s"))).endswith(b"DIE\n")
+            for times in (1, 2):
+                crowd = [connect_unix(server.path("s")) for _ in range(30)]
+                server.wait_for(rf"(?s)(cannot take a client on unix:s: Too many open files.*){{{times}}}")
+                if times == 1:
+                    time.sleep(0.3)  # the subject: the server tries again, and says nothing
+                    assert sum("cannot take a client" in line for line in server.log()) == 1
+                for wire in crowd:
+                    wire.close()
+                assert play(connect_unix(server.path("s"))).endswith(b"DIE\n")
 
 
 class TestSignals:
@@ -238,7 +249,9 @@ class TestSignals:
     @pytest.mark.parametrize("is_private, end", ((True, "signal"), (True, "client"), (False, "signal")))
     def test_pipes_that_the_server_has_made_are_removed_at_its_end(self, is_private, end):
         with Server(*SERVE, "--pipes", "p", before=None if is_private else self.make_pipes) as server:
-            server.wait_for("for a client that opens")
+            server.wait_for("for a client that opens p_out for reading, then p_in for writing$")
+            made = [line for line in server.log() if "made the pipe" in line]
+            assert made == (["racebeam: made the pipe p_out", "racebeam: made the pipe p_in"] if is_private else [])
             if end == "client":
                 wire = open_pipes(server, "p")
                 play(wire)

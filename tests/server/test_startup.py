@@ -33,6 +33,11 @@ class TestPipeNames(Refusals):
             )
             assert os.listdir(folder) == []
 
+    def test_pipes_in_a_folder_that_is_not_there_cannot_be_made(self):
+        self.check(
+            ["serve", "--pipes", "nowhere/q"], 3, "cannot make the pipe nowhere/q_out: No such file or directory"
+        )
+
     def test_pipes_beside_another_file_of_their_name_are_not_made(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "q_in"), "w"):

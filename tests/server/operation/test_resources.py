@@ -12,6 +12,7 @@ from harness import (
     Server,
     ask,
     connect_tcp,
+    connect_unix,
     sanitized,
     serve,
     thread_sanitized,
@@ -95,6 +96,33 @@ class TestFiles:
             self.check_health()
         assert sum("cannot take a client" in line for line in self.server.log()) < 20
         assert connections[0].rest() == b""
+
+
+@pytest.mark.needs_posix
+@pytest.mark.skipif(sanitized(), reason="the sanitizer's own checks fail without free descriptors")
+class TestFewFiles:
+    """A server that may open hardly more files than it needs."""
+
+    def start(self, files):
+        limit = (files, files)
+        options = ("--listen", "unix:s", "--threads", "1")
+        return Server("serve", *options, before=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, limit))
+
+    def test_as_many_files_as_the_error_names_are_enough_for_a_client(self):
+        with self.start(12) as server:
+            assert server.wait() == 1
+            sentence = r"the server may open 12 files \(ulimit -n\), but with these settings it needs at least (\d+)$"
+            enough = int(server.wait_for(sentence)[1])
+        with self.start(enough - 1) as server:
+            assert server.wait() == 1
+            server.wait_for(f"needs at least {enough}$")
+        with self.start(enough) as server:
+            server.wait_for("listening on unix:s")
+            wire, other = (connect_unix(server.path("s")) for _ in range(2))
+            assert ask(wire, b"load beamfall").startswith(b"ok ")
+            assert other.rest() == b"error busy the server may open no more files; try again later\n"
+            for each in (wire, other):
+                each.close()
 
 
 class TestThreads:
