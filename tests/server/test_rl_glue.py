@@ -163,8 +163,11 @@ class TestRlGlue:
             assert environment.wait(PATIENCE) == 0
 
     def refuse(self, hint, kind, payload=b"", size=None):
+        self.refuse_bytes(hint, struct.pack(">2I", kind, len(payload) if size is None else size) + payload)
+
+    def refuse_bytes(self, hint, data):
         core = self.start()
-        core.link.sendall(struct.pack(">2I", kind, len(payload) if size is None else size) + payload)
+        core.link.sendall(data)
         core.link.shutdown(socket.SHUT_WR)
         status, errors = core.end()
         assert status == 1
@@ -175,7 +178,18 @@ class TestRlGlue:
         self.refuse("without a whole number", STEP)
         self.refuse("without a whole number", STEP, struct.pack(">3I", 0, 0, 0))
         self.refuse("at most 1048576", STEP, size=0xFFFFFFFF)
-        self.refuse("was lost", STEP, b"abc", size=16)
+        self.refuse("was lost: a payload is missing", STEP, size=16)
+
+    def test_a_message_has_a_mebibyte_at_most(self):
+        most = 1 << 20
+        core = self.start()
+        message = struct.pack(">I", most - 4).ljust(most, b"x")
+        assert core.ask(MESSAGE, message) == message
+        self.refuse(f"announced a payload of {most + 1} bytes; at most {most} are accepted", MESSAGE, size=most + 1)
+
+    def test_a_core_that_leaves_in_the_middle_of_a_message_is_an_error(self):
+        self.refuse("the connection to the RL-Glue core was lost: ", STEP, b"abc", size=16)
+        self.refuse_bytes("the connection to the RL-Glue core was lost: ", struct.pack(">I", STEP))
 
     def test_a_port_and_a_screen_that_do_not_fit_are_refused(self):
         for port in ("0", "65536", "x"):
