@@ -152,6 +152,24 @@ class TestLeaving:
                 wire.close()
                 self.assert_serves(session)
 
+    @pytest.mark.needs_posix
+    @pytest.mark.parametrize("transport", TRANSPORTS)
+    def test_the_client_may_leave_in_the_middle_of_an_act(self, transport, tmp_path):
+        image = tmp_path / "endless.bin"  # JMP to itself: frames that take long
+        image.write_bytes(b"\x4c\x00\xf0".ljust(4090, b"\0") + b"\x00\xf0" * 3)
+        with Session(transport, "--frame-skip", "100000", image=str(image)) as session:
+            wire = session.wire
+            assert wire.line().startswith(b"160-")
+            wire.send(b"0,0,0,1\n3,18\n")
+            wire.line()
+            session.server.wait_until_it_works()
+            wire.close()
+            if transport in STREAMS:
+                assert session.server.wait() == 1
+                assert session.server.log()[-1] == "racebeam: the client stopped reading"
+            else:
+                session.server.wait_for("client 1: the client left in the middle of an act$")
+
     def assert_serves(self, session):
         """Another client has a whole session with the same server."""
         wire = session.connect()

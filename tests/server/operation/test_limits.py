@@ -152,6 +152,18 @@ class TestUntilIdle:
             server.wait_for("no session for 1 seconds: 0 sessions have 5 seconds to end")
             assert not os.path.exists(server.path("ready"))
 
+    @pytest.mark.needs_posix
+    def test_a_session_on_streams_keeps_it_alive(self):
+        with Server("serve", "--stdio", "--listen", "unix:s", "--until-idle", "1", streams=True) as server:
+            wire = Wire(os.dup(server.process.stdout.fileno()), os.dup(server.process.stdin.fileno()))
+            server.process.stdin.close()
+            assert ask(wire, b"hello").startswith(b"ok ")
+            time.sleep(2)  # the subject: longer than the second
+            assert ask(wire, b"hello").startswith(b"ok ")
+            wire.close()
+            assert server.wait() == 0
+            server.wait_for("no session for 1 seconds: ")
+
     def test_a_session_keeps_it_alive_and_a_short_one_begins_the_time_anew(self):
         with serve("--until-idle", "2") as server:
             wire = connect_tcp(server.port())
