@@ -12,6 +12,9 @@
 #   3  the server did not answer within $racebeam_timeout seconds; the session has ended
 #   4  the caller's words are not accepted
 # One session at a time; a subshell can have another.
+#
+# A value is a text that the server chooses, and bash executes parts of a text in arithmetic: a[$(COMMAND)]. Use racebeam_number
+# there.
 
 racebeam_timeout=60 racebeam_longest=268435456
 racebeam_input='' racebeam_output='' racebeam_error='' racebeam_code=''
@@ -186,6 +189,13 @@ racebeam_value() {
   printf '%s\n' "${rest%% *}"
 }
 
+# racebeam_number KEY: prints a value of the reply's first group that is a whole number. Prints nothing, and returns 1, if it is
+# another text.
+racebeam_number() {
+  local text
+  text=$(racebeam_value "$1") && [[ $text =~ ^-?[0-9]{1,18}$ ]] && printf '%s\n' "$text"
+}
+
 # racebeam_save_png PATH [MACHINE]: saves a picture of the screen as a PNG file.
 racebeam_save_png() {
   racebeam_ask shot ${2:+"machine=$2"} || return
@@ -198,11 +208,13 @@ _racebeam_follow() {
   local -a words
   read -ra words <<<"$racebeam_request"
   case ${words[0]-} in
-    load) racebeam_height=$(racebeam_value height); _racebeam_forget '[0-9]* *' ;;
+    load)
+      racebeam_height=$(racebeam_number height) || { _racebeam_lost 2 'the reply of load has no height'; return; }
+      _racebeam_forget '[0-9]* *' ;;
     observe) if ((${#words[@]} > 1)); then _racebeam_choose racebeam_encodings "${words[@]:1}"; _racebeam_forget '[0-9]* *'; fi ;;
     open) _racebeam_forget '[1-9]* *' ;;
     watch)
-      seen=$(racebeam_value height || echo "$racebeam_height")
+      seen=$(racebeam_number height || echo "$racebeam_height")
       for word in "${words[@]:2}"; do [[ $word == *=* ]] || seen+=" $word"; done
       [[ ${racebeam_watched["@${words[1]}"]-} == "$seen" ]] || _racebeam_forget "@${words[1]} *"
       racebeam_watched["@${words[1]}"]=$seen ;;
@@ -214,7 +226,7 @@ _racebeam_forget() {
   local key
   for key in "${!racebeam_arrays[@]}"; do
     # shellcheck disable=SC2053
-    if [[ $key == $1 ]]; then unset "racebeam_arrays[$key]"; fi
+    if [[ $key == $1 ]]; then unset 'racebeam_arrays[$key]'; fi  # unset expands the key
   done
 }
 
@@ -254,13 +266,13 @@ _racebeam_choose() {
 
 # Prints the size of a field in bytes, where screens have as many rows.
 _racebeam_size() {
-  local field=$1 height=$2
+  local field=$1 height=$2 pixel=${_racebeam_pixels[$1]-}
   if [[ $field =~ ^grey84(x([0-9]+))?$ ]]; then
     echo $((84 * 84 * ${BASH_REMATCH[2]:-1}))
   elif [[ $field =~ ^(grey|rgb)([0-9]+)x([0-9]+)x([0-9]+)$ ]]; then
     echo $((BASH_REMATCH[2] * BASH_REMATCH[3] * BASH_REMATCH[4] * (${#BASH_REMATCH[1]} == 3 ? 3 : 1)))
   else
-    echo "${_racebeam_sizes[$field]:-$((height * 160 * _racebeam_pixels[$field]))}"
+    echo "${_racebeam_sizes[$field]:-$((height * 160 * pixel))}"
   fi
 }
 

@@ -72,6 +72,40 @@ class TestAgents:
         assert (done.returncode, done.stdout) == (1, "")
         assert done.stderr == "the server has closed the connection, or sent an endless line\n"
 
+    @pytest.mark.parametrize(
+        "script",
+        [
+            "racebeam_ask load beamfall; racebeam_bytes 0 screen delta 000001AA01",
+            "racebeam_ask watch room screen:delta; racebeam_bytes @room screen delta 000001AA01",
+            "racebeam_ask look; echo $((1 + $(racebeam_number height)))",
+        ],
+    )
+    def test_what_a_server_sends_is_not_executed(self, script, tmp_path):
+        class Hostile(socketserver.StreamRequestHandler):
+            def handle(self):
+                for reply in ("protocol=1", "height=a[$(touch${IFS}executed)]"):
+                    self.rfile.readline()
+                    self.wfile.write(f"ok {reply}\n".encode())
+                self.rfile.readline()
+
+        with socketserver.TCPServer(("127.0.0.1", 0), Hostile) as server:
+            threading.Thread(target=server.handle_request, daemon=True).start()
+            connect = f"source {SHELL}/racebeam.bash; racebeam_connect tcp://127.0.0.1:{server.server_address[1]}"
+            run("bash", "-c", f"{connect} && {script}", cwd=tmp_path)
+        assert list(tmp_path.iterdir()) == []
+
+    def test_the_name_of_a_watched_session_is_not_executed(self, tmp_path):
+        script = """key='@a[$(touch executed)] screen'; racebeam_arrays[$key]=00; _racebeam_forget '@*'
+        echo "${#racebeam_arrays[@]}" """
+        done = run("bash", "-c", f"source {SHELL}/racebeam.bash; {script}", cwd=tmp_path)
+        assert (done.stdout, done.stderr, list(tmp_path.iterdir())) == ("0\n", "", [])
+
+    def test_a_number_is_not_another_text(self):
+        script = """racebeam_reply=' reward=-12 name=x big=1234567890123456789 empty='
+        for key in reward name big empty missing; do echo "$(racebeam_number $key)"; done"""
+        done = run("bash", "-c", f"source {SHELL}/racebeam.bash; {script}")
+        assert (done.stdout, done.stderr) == ("-12\n\n\n\n\n", "")
+
     def test_a_file_that_names_no_server_is_refused_in_a_sentence(self):
         tail = "; file:PATH takes the --ready-file or --announce file of a server"
         with tempfile.TemporaryDirectory() as folder:
