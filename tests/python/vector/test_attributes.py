@@ -34,6 +34,14 @@ class TestAttributes:
             with pytest.raises(IndexError, match=f"environment {env}"):
                 envs.get_action_meanings(env)
 
+    @pytest.mark.parametrize(("left", "last"), (("joystick", "BW"), ("genesis", "DOWNLEFTFIRE+C")))
+    def test_actions_of_the_console_and_of_controllers_have_names(self, left, last):
+        arguments = {"full_action_space": "console", "left": left}
+        envs = AtariVectorEnv("beamfall", 2, **arguments)
+        names = envs.get_action_meanings(1)
+        assert names == racebeam.AtariEnv("beamfall", **arguments).get_action_meanings()
+        assert (len(names), names[-1]) == (envs.single_action_space.n, last)
+
     def test_attributes_and_calls(self):
         envs = AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)
         assert envs.get_attr("game") == ("beamfall", "updraft")

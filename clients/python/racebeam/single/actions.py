@@ -14,7 +14,7 @@ from .._core import Action, ConsoleAction, ControllerAction
 from ..arguments import flag
 from ..errors import InvalidInput
 
-__all__ = ["EnvWithActions", "PlayerAction"]
+__all__ = ["EnvWithActions", "PlayerAction", "meaning_of"]
 
 AnyAction: TypeAlias = Action | ConsoleAction | ControllerAction
 PlayerAction: TypeAlias = Any  # an index, a pair of indices, or (radius, angle, fire)
@@ -24,6 +24,9 @@ KEYS = (("UP", "w"), ("DOWN", "s"), ("RIGHT", "d"), ("LEFT", "a"), ("FIRE", " ")
 KEY_OF_NOOP = "e"
 SIDES = {-1: "LEFT", 0: "", 1: "RIGHT"}
 HEIGHTS = {-1: "DOWN", 0: "", 1: "UP"}
+ACTIONS: dict[int, AnyAction] = {
+    action.value: action for kind in (Action, ConsoleAction, ControllerAction) for action in kind
+}
 
 
 class EnvWithActions(gymnasium.Env[Any, Any]):
@@ -101,7 +104,7 @@ class EnvWithActions(gymnasium.Env[Any, Any]):
 
     def get_action_meanings(self) -> list[str]:
         """Returns the names of the actions in the order of their indices, such as ["NOOP", "FIRE"]."""
-        return [_meaning(action) for action in self._action_set]
+        return [meaning_of(action.value) for action in self._action_set]
 
     def get_keys_to_action(self) -> dict[tuple[str, ...], int]:
         """Maps the keys that a player holds to actions.
@@ -132,8 +135,16 @@ def _look_up(action: Any, actions: Sequence[AnyAction]) -> int:
     return int(actions[index].value)
 
 
-def _meaning(action: AnyAction) -> str:
-    """Returns the action's name in the line protocol, such as "UP+C" for UP_C."""
+def meaning_of(number: int) -> str:
+    """Names an action as the line protocol does.
+
+    Args:
+        number: Number of a member of `Action`, `ConsoleAction` or `ControllerAction`.
+
+    Returns:
+        The name, such as "UP+C" for UP_C.
+    """
+    action = ACTIONS[number]
     return action.name.replace("_", "+") if isinstance(action, ControllerAction) else str(action.name)
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from gymnasium import error
 
 from .. import _core
+from ..single.actions import meaning_of
 from .base import VectorBase
 from .machines import Machines
 from .results import Pixels
@@ -61,7 +62,7 @@ class VectorOfEach(VectorBase):
         """
         self._check_open()
         self._check_env(env)
-        return [_core.Action(number).name for number in self._machines.actions_of(env)]
+        return [meaning_of(number) for number in self._machines.actions_of(env)]
 
     def call(self, name: str, *args: Any, **kwargs: Any) -> tuple[Any, ...]:
         """Calls a method once for each environment, as SyncVectorEnv of Gymnasium does.
