@@ -32,10 +32,15 @@ def _missing_roms(games):
     return [f"an image of {game}" for game in games or ("pong",) if not harness.rom(game)]
 
 
+def _missing_program():
+    found = os.path.exists(harness.BINARY)
+    return [] if found else [f"the program {harness.BINARY}, which scripts/build makes or RACEBEAM_BINARY names"]
+
+
 # A marker, and what its arguments name that is not here.
 NEEDS = {
     "needs_roms": _missing_roms,
-    "needs_program": lambda _: [] if os.path.exists(harness.BINARY) else ["the program racebeam"],
+    "needs_program": lambda _: _missing_program(),
     "needs_posix": lambda _: [] if os.name == "posix" and not harness.WINDOWS else ["POSIX"],
     "needs_glibc": lambda _: [] if platform.libc_ver()[0] == "glibc" else ["the GNU C library"],
     "needs_jax": lambda _: [] if _has_module("jax") else ["JAX"],
@@ -103,6 +108,13 @@ def pytest_sessionfinish(session):
     passed, failed, skipped = _counts(session.config)
     if skipped and not passed and not failed:
         session.exitstatus = SKIPPED
+
+
+def pytest_terminal_summary(terminalreporter):
+    """Says after tests that failed what makes the program, if it is missing."""
+    if _counts(terminalreporter.config)[1]:
+        for what in _missing_program():
+            terminalreporter.write_line(f"not found: {what}", red=True)
 
 
 def pytest_addoption(parser):
