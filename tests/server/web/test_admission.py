@@ -92,6 +92,7 @@ class TestTokens(Case, Folder):
 
     def test_before_the_token_a_message_is_short(self):
         self.start("--token-file", self.tokens)
+        assert self.connect().ask(b"help".ljust(4096) + b"\n").startswith(b"ok ")
         assert self.too_long(self.connect(), 4099) == 1009
         wire = self.connect()
         wire.ask(b"hello token=" + TOKEN.encode())

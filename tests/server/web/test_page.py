@@ -7,6 +7,13 @@ import socket
 from harness import PATIENCE, SOURCE
 from web_case import Case, port_of
 
+TYPES = {
+    "html": "text/html; charset=utf-8",
+    "js": "text/javascript; charset=utf-8",
+    "css": "text/css; charset=utf-8",
+    "svg": "image/svg+xml",
+}
+
 
 class TestPage(Case):
     def test_it_is_served_with_fields_that_keep_it_to_itself(self):
@@ -16,7 +23,9 @@ class TestPage(Case):
             assert (status, text) == (200, file.read())
         assert fields["Content-Type"] == "text/html; charset=utf-8"
         assert fields["X-Content-Type-Options"] == "nosniff"
-        assert fields["Content-Security-Policy"].startswith("default-src 'none'; script-src 'self'; ")
+        policy = fields["Content-Security-Policy"].split("; ")
+        assert policy[:2] == ["default-src 'none'", "script-src 'self'"]
+        assert {"connect-src 'self'", "base-uri 'none'", "form-action 'none'", "frame-ancestors 'none'"} < {*policy}
         assert self.get("/index.html")[2] == text
 
     def test_every_file_is_there_compressed_and_cached(self, subtests):
@@ -30,6 +39,8 @@ class TestPage(Case):
             with subtests.test(name), open(os.path.join(folder, name), "rb") as file:
                 status, fields, text = self.get("/" + name, **{"Accept-Encoding": "br, gzip"})
                 assert (status, fields["Content-Encoding"], gzip.decompress(text)) == (200, "gzip", file.read())
+                assert fields["Content-Type"] == TYPES[name.rpartition(".")[2]]  # a browser guesses none (nosniff)
+                assert (fields["Cache-Control"], fields["Vary"]) == ("no-cache", "Accept-Encoding")
                 assert self.get("/" + name, **{"If-None-Match": fields["ETag"]})[::2] == (304, b"")
                 assert self.get("/" + name, **{"If-None-Match": '"other"'})[0] == 200
 
@@ -56,6 +67,15 @@ class TestPage(Case):
         assert self.answers(b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 4000\r\nExpect: 100-continue\r\n\r\n")[
             0
         ].startswith(b"HTTP/1.1 413 ")
+
+    def test_a_header_may_have_8192_bytes_and_a_body_1024(self):
+        self.start()
+        start, end = b"HEAD / HTTP/1.1\r\nHost: x\r\nConnection: close\r\nX: ", b"\r\n\r\n"
+        for size, status in ((8192, b"HTTP/1.1 200 "), (9000, b"HTTP/1.1 431 ")):  # ends of lines are not counted
+            assert self.answers(start.ljust(size - len(end), b"x") + end)[0].startswith(status), size
+        for size, status in ((1024, b"HTTP/1.1 405 "), (1025, b"HTTP/1.1 413 ")):
+            header = b"POST / HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Length: %d\r\n\r\n" % size
+            assert self.answers(header + b"x" * size)[0].startswith(status), size
 
     def test_a_request_that_cannot_be_read_gets_an_error(self):
         self.start("--http", "127.0.0.1:0")

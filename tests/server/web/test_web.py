@@ -3,6 +3,7 @@
 import re
 import signal
 import struct
+import time
 
 import pytest
 from harness import Server, run
@@ -100,6 +101,17 @@ class TestConversation(Case):
     def test_idle_sessions_get_an_error_and_are_closed(self):
         self.start("--idle", "1")
         assert self.connect().end() == (b"error idle nothing came or went for 1 seconds", 1008)
+
+    def test_a_session_whose_client_only_pings_is_not_idle(self):
+        self.start("--idle", "2")
+        wire, idle = self.connect(), self.connect()
+        until = time.monotonic() + 4  # the subject: longer than the two seconds
+        while time.monotonic() < until:
+            wire.write(frame(PING, b"here"))
+            assert wire.message() == (PONG, b"here")
+            time.sleep(0.25)
+        assert wire.ask(b"hello").startswith(b"ok ")
+        assert idle.end()[1] == 1008
 
     def test_it_is_one_of_the_addresses(self):
         self.start("--ready-file", "ready", "--announce", "announce")
