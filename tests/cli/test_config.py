@@ -175,6 +175,16 @@ class TestConfig:
         assert b" max_line=999 " in done.stdout
         assert b" max_states=5 " in done.stdout
 
+    def test_a_file_may_have_settings_that_the_protocol_of_the_server_does_not_use(self):
+        path = self.file("seed = 5\nfull_screen = true\nrecord_dir = 'nowhere'\n")
+        done = self.run_racebeam(
+            "serve", "--classic", "--stdio", "--rom", "builtin:beamfall", "--config", path, data=b"0,0,0,0\n"
+        )
+        assert (done.returncode, done.stdout) == (0, b"160-210\n\nDIE\n"), done.stderr
+        path = self.file("seed = 5\nfull_screen = true\n")
+        done = self.run_racebeam("serve", "--stdio", "--config", path, data=b"hello\n")
+        assert (done.returncode, done.stdout[:10]) == (0, b"ok server="), done.stderr
+
     def refuse(self, text, *hints, **variables):
         done = self.run_racebeam("serve", "--stdio", *(["--config", self.file(text)] if text else []), **variables)
         assert (done.returncode, done.stdout, done.stderr.count(b"\n")) == (2, b"", 1), done.stderr
@@ -191,6 +201,7 @@ class TestConfig:
         self.refuse("max_states = \n", b"settings.toml", b"line 1")
         self.refuse("classic = 'perhaps'\n", b"must be true or false, not 'perhaps'")
         self.refuse("listen = ['nowhere']\n", b"listen", b"'nowhere' is not an address")
+        self.refuse("game = 'pong'\n", b"--game-file: excludes --game", RACEBEAM_GAME_FILE="mine.toml")
         self.refuse("", b"RACEBEAM_GRACE", b"'soon' is not a whole number", RACEBEAM_GRACE="soon")
         self.refuse("", b"this is a directory, not a file", RACEBEAM_CONFIG=self.folder)
         self.refuse("", b"nothing.toml", RACEBEAM_CONFIG="nothing.toml")

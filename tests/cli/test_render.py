@@ -1,6 +1,8 @@
 """racebeam render: films and pictures of the log of an episode."""
 
+import hashlib
 import os
+import pathlib
 import re
 import signal
 import stat
@@ -10,7 +12,7 @@ import time
 import wave
 
 import pytest
-from harness import BINARY, PATIENCE
+from harness import BINARY, PATIENCE, SOURCE
 
 PLAN = """games = ["beamfall"]
 agents = ["random"]
@@ -39,9 +41,9 @@ class TestRender:
         )
         (cls.log,) = (cls.place / "results" / "logs").rglob("*.episode")
 
-    def render(self, to, log=None, **more):
+    def render(self, to, log=None, *words, **more):
         done = subprocess.run(
-            [BINARY, "render", log or self.log, "--to", self.place / to],
+            [BINARY, "render", log or self.log, "--to", self.place / to, *words],
             capture_output=True,
             text=True,
             timeout=PATIENCE,
@@ -124,6 +126,18 @@ class TestRender:
     def test_a_film_of_the_real_ffmpeg_plays(self):
         assert self.render("real.webm")[0] == 0
         assert (self.place / "real.webm").read_bytes()[:4] == b"\x1aE\xdf\xa3"
+
+    def test_an_episode_that_has_another_score_here_is_not_filmed(self):
+        image = pathlib.Path(SOURCE, "games/homebrew/beamfall.bin").read_bytes()
+        rules = pathlib.Path(SOURCE, "games/catalogue/beamfall.toml").read_text()
+        other = self.place / "beamfall.toml"
+        listed = f'[[image]]\nmd5 = "{hashlib.md5(image).hexdigest()}"\n\n[rule]'
+        other.write_text(rules.replace("[rule]", listed).replace("bcd(0x84, 0x83, 0x82)", "lives * 1000"))
+        status, output, errors = self.render("other.gif", None, "--game-file", other)
+        assert (status, output) == (1, "")
+        scores = re.search(r"^racebeam: the log has the score (\d+), but the machine gives (-?\d+), or ", errors)
+        assert scores[1] != scores[2]
+        assert not [path.name for path in self.place.iterdir() if "other" in path.name]
 
     def test_what_cannot_be_made_is_refused_and_leaves_nothing(self):
         (self.place / "there.gif").write_text("mine")
