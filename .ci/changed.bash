@@ -1,4 +1,5 @@
 # What a change asks of continuous integration, by the paths that it touches.
+# shellcheck disable=SC2034  # .ci/run uses the tables
 
 # The last landed commit: RACEBEAM_LANDED, or where HEAD left origin/main. Empty if it is not known.
 landed() {

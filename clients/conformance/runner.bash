@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Takes the steps of a file with the client in bash, and prints what came of each: runner.bash FILE.
 set -u
+# shellcheck source=../shell/racebeam.bash
 source racebeam.bash
 racebeam_longest=1048576
 
@@ -105,6 +106,7 @@ while IFS= read -r -u "$steps" line; do
   while [[ $line =~ ^([^\$]*)\$([A-Za-z_]+)(.*)$ ]]; do
     filled+=${BASH_REMATCH[1]}${!BASH_REMATCH[2]} line=${BASH_REMATCH[3]}
   done
+  # shellcheck disable=SC2086  # words: `set -f` is in effect
   step $filled$line
 done
 racebeam_close

@@ -1,5 +1,6 @@
 # A client of the racebeam line protocol for bash 5, to be sourced. It needs bash and the programs of a base system; for zlib
 # also gzip.
+# shellcheck disable=SC2034,SC2004  # programs read the variables; keys of associative arrays
 #
 #   source racebeam.bash
 #   racebeam_connect tcp://127.0.0.1:7800
@@ -127,6 +128,7 @@ racebeam_launch() {
   type -P -- "$program" >/dev/null || { _racebeam_fail 2 "there is no program $program"; return; }
   coproc RACEBEAM_SERVER { exec "$program" serve --stdio --log-level warning; }
   exec {racebeam_input}<&"${RACEBEAM_SERVER[0]}" {racebeam_output}>&"${RACEBEAM_SERVER[1]}"
+  # shellcheck disable=SC1083  # names of descriptors
   exec {RACEBEAM_SERVER[0]}<&- {RACEBEAM_SERVER[1]}>&-
 }
 
@@ -147,7 +149,7 @@ racebeam_send() {
     _racebeam_fail 2 'the session has ended'
   else
     racebeam_sent+=("$line")
-    printf '%s\n' "$line" 2>/dev/null >&"$racebeam_output" || true  # the server may have said why it ends: receive reads that
+    printf '%s\n' "$line" 2>/dev/null 1>&"$racebeam_output" || true  # the server may have said why it ends: receive reads that
   fi
 }
 
