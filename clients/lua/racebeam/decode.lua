@@ -34,8 +34,9 @@ function decode.rle(text)
   return table.concat(pieces)
 end
 
+local ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
 local SEXTETS = {}
-for value, character in ("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"):gmatch("()(.)") do
+for value, character in ALPHABET:gmatch("()(.)") do
   SEXTETS[character:byte()] = value - 1
 end
 
@@ -115,8 +116,6 @@ function decode.delta(text, old)
   pieces[#pieces + 1] = old:sub(copied + 1)
   return table.concat(pieces)
 end
-
-local ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
 
 -- Bytes as base64, for images and states.
 function decode.to_base64(bytes)

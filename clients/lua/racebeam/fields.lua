@@ -6,8 +6,8 @@ local known = require("racebeam.field_table")
 
 local WIDTH = 160
 
--- Width, height, depth and bytes a pixel of fields such as grey84x84x4 and rgb40x30x2; nil for others.
-local function small(field)
+-- The size in bytes of fields such as grey84x84x4 and rgb40x30x2; nil for others.
+local function small_size(field)
   local kind, width, height, depth = field:match("^(%a+)(%d+)x(%d+)x(%d+)$")
   if not kind then
     local screens = field:match("^grey84x(%d+)$") or field == "grey84" and 1
@@ -24,7 +24,7 @@ local function encodings(words, first)
   for at = first, #words do
     local name, encoding = words[at]:match("^([^:]*):?(.*)$")
     if encoding == "" then
-      encoding = known.usual[name] or small(name) and "zlib"
+      encoding = known.usual[name] or small_size(name) and "zlib"
     end
     found[name] = not words[at]:find("=", 1, true) and encoding or nil
   end
@@ -46,7 +46,7 @@ Fields.__index = Fields
 
 -- The bytes of a field of screens of this height.
 local function size_of(field, height)
-  return small(field) or known.sizes[field] or height * WIDTH * known.pixels[field]
+  return small_size(field) or known.sizes[field] or height * WIDTH * known.pixels[field]
 end
 
 local has_ffi, ffi = pcall(require, "ffi")
@@ -62,8 +62,8 @@ local function zeros(size)
   return array
 end
 
--- Bytes line[from..to] of a delta field. What they change is in `source`, and is an array (`live`), or a string.
-function Fields:changed(source, field, line, from, to)
+-- Applies the delta line[from..to] to the field's bytes in `source`, and returns them: an array if `live`, else a string.
+function Fields:apply_delta(source, field, line, from, to)
   local kept = source.kept
   local size = size_of(field, source.height)
   if self.live then
@@ -75,7 +75,7 @@ function Fields:changed(source, field, line, from, to)
   return kept[field]
 end
 
--- Remembers what a request that was granted changes.
+-- Remembers what a request that was granted changes: the encodings of fields, and the height of screens.
 function Fields:follow(words, line)
   local command = words[1]
   if command == "observe" and words[2] then
@@ -108,15 +108,15 @@ function Fields:watch(words, line)
 end
 
 -- The encodings of the fields that a request names, or else of those that `observe` chose.
-function Fields:chosen_by(words)
+function Fields:encodings_of(words)
   if words[1] == "watch" then
     return encodings(words, 3)
   end
   return words[1] == "look" and words[2] and encodings(words, 2) or self.encodings
 end
 
--- The next `count` bytes of those that followed the line.
-function Fields:followed(count)
+-- Takes the next `count` bytes of those that followed the line.
+function Fields:take_raw(count)
   local begin = self.taken
   if not count or begin + count > #self.raw then
     error("fewer bytes follow the line than it says", 0)
@@ -140,7 +140,7 @@ end
 function Fields:groups(words, line, raw)
   self:follow(words, line)
   self.raw, self.taken = raw, 0
-  local chosen = self:chosen_by(words)
+  local chosen = self:encodings_of(words)
   local watched = words[1] == "watch" and self:watch(words, line)
   local first = first_machine(words)
   local source = watched or self:machine(first)
@@ -156,9 +156,9 @@ function Fields:groups(words, line, raw)
       local field = key:gsub("^final_", "")
       local encoding = chosen[field]
       if encoding == "delta" then
-        groups[#groups][key] = self:changed(source, field, line, equals + 1, to)
+        groups[#groups][key] = self:apply_delta(source, field, line, equals + 1, to)
       elseif encoding == "raw" then
-        groups[#groups][key] = self:followed(tonumber(line:sub(equals + 1, to)))
+        groups[#groups][key] = self:take_raw(tonumber(line:sub(equals + 1, to)))
       elseif key ~= "raw" then
         local text = line:sub(equals + 1, to)
         if encoding then

@@ -57,6 +57,7 @@ local function huffman(lengths, count)
   return { counts = counts, symbols = symbols }
 end
 
+-- Reads the next symbol of a code.
 local function decode(bits, code)
   local value, first, index = 0, 0, 1
   for length = 1, MOST_BITS do
@@ -72,6 +73,7 @@ local function decode(bits, code)
   error("a code is not in use", 0)
 end
 
+-- The codes of RFC 1951, 3.2.6: of literals and lengths, and of distances.
 local function fixed_codes()
   local lengths, distances = {}, {}
   for symbol = 0, 287 do
@@ -83,6 +85,7 @@ local function fixed_codes()
   return huffman(lengths, 288), huffman(distances, 30)
 end
 
+-- Reads the codes of a block (RFC 1951, 3.2.7).
 local function dynamic_codes(bits)
   local literals, distances, codes = bits:take(5) + 257, bits:take(5) + 1, bits:take(4) + 4
   local lengths = {}
@@ -94,7 +97,7 @@ local function dynamic_codes(bits)
   end
   local code = huffman(lengths, 19)
   local all, filled = {}, 0
-  local function repeated(value, times)
+  local function append(value, times)
     for _ = 1, times do
       all[filled] = value
       filled = filled + 1
@@ -103,24 +106,25 @@ local function dynamic_codes(bits)
   while filled < literals + distances do
     local symbol = decode(bits, code)
     if symbol < 16 then
-      repeated(symbol, 1)
+      append(symbol, 1)
     elseif symbol == 16 then
-      repeated(all[filled - 1] or error("nothing to repeat", 0), 3 + bits:take(2))
+      append(all[filled - 1] or error("nothing to repeat", 0), 3 + bits:take(2))
     else
-      repeated(0, symbol == 17 and 3 + bits:take(3) or 11 + bits:take(7))
+      append(0, symbol == 17 and 3 + bits:take(3) or 11 + bits:take(7))
     end
   end
   if filled > literals + distances then
     error("too many code lengths", 0)
   end
-  local of_distances = {}
+  local distance_lengths = {}
   for symbol = 0, distances - 1 do
-    of_distances[symbol] = all[literals + symbol]
+    distance_lengths[symbol] = all[literals + symbol]
   end
-  return huffman(all, literals), huffman(of_distances, distances)
+  return huffman(all, literals), huffman(distance_lengths, distances)
 end
 
-local function compressed(bits, output, filled, literals, distances)
+-- Inflates a compressed block behind output[1..filled]. Returns how many bytes there are then.
+local function inflate_block(bits, output, filled, literals, distances)
   while true do
     local symbol = decode(bits, literals)
     if symbol < 256 then
@@ -143,7 +147,8 @@ local function compressed(bits, output, filled, literals, distances)
   end
 end
 
-local function stored(bits, output, filled)
+-- Copies a stored block, as inflate_block() does with a compressed one.
+local function copy_block(bits, output, filled)
   bits:take(bits.count % 8)
   local length = bits:take(16)
   bits:take(16) -- its complement
@@ -166,20 +171,20 @@ end
 return function(data)
   local bits = setmetatable({ data = data, at = 3, held = 0, count = 0 }, Bits)
   if #data < 2 or data:byte(1) % 16 ~= 8 or (data:byte(1) * 256 + data:byte(2)) % 31 ~= 0 then
-    error("no zlib stream", 0)
+    error("not a zlib stream", 0)
   end
   local output, filled, last = {}, 0, 0
   while last == 0 do
     last = bits:take(1)
     local kind = bits:take(2)
     if kind == 0 then
-      filled = stored(bits, output, filled)
+      filled = copy_block(bits, output, filled)
     elseif kind == 1 then
-      filled = compressed(bits, output, filled, fixed_codes())
+      filled = inflate_block(bits, output, filled, fixed_codes())
     elseif kind == 2 then
-      filled = compressed(bits, output, filled, dynamic_codes(bits))
+      filled = inflate_block(bits, output, filled, dynamic_codes(bits))
     else
-      error("no such kind of block", 0)
+      error("a block of kind 3, which is not in use", 0)
     end
   end
   bits:take(bits.count % 8)

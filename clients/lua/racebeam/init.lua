@@ -75,6 +75,9 @@ function Session:close_connection()
   end
 end
 
+-- Lua 5.4 calls this at the end of the block of `local game <close> = racebeam.connect()`.
+Session.__close = Session.close_connection
+
 -- Requests and replies
 
 -- A word of a request: true is 1, and false is 0. A whole number has no fraction: Lua 5.3 and later write 10 / 2 as 5.0.
@@ -87,6 +90,7 @@ local function text_of(value)
   return tostring(value)
 end
 
+-- The line of a request. A table among the words has settings, which are sent in the order of their names.
 local function line_of(...)
   local words = { ... }
   for at, word in ipairs(words) do
@@ -123,12 +127,12 @@ function Session:send(...)
   self.connection:send(line)
 end
 
-local function lost(self, kind, sentence)
+-- Ends the session, and raises a fault of this kind.
+local function lose(self, kind, sentence)
   self:close_connection()
   fault(kind, "the session has ended: " .. sentence)
 end
 
--- The bytes that follow a reply's line, which then ends in raw=N.
 -- What a server sent, for people: a terminal would execute some of its bytes.
 local function printable(text)
   return (text:gsub("[^ -~]", function(byte)
@@ -136,15 +140,16 @@ local function printable(text)
   end))
 end
 
-local function bytes_behind(self, line)
+-- Receives the bytes that follow a reply's line, which then ends in raw=N.
+local function receive_raw(self, line)
   local count = tonumber(line:match(" raw=(%d+)$", -LONGEST_RAW)) or 0
   if count == 0 then
     return ""
   elseif count > self.longest then
-    lost(self, "lost", ("%d bytes follow its reply, which is longer than %d bytes"):format(count, self.longest))
+    lose(self, "lost", ("%d bytes follow its reply, which is longer than %d bytes"):format(count, self.longest))
   end
   local bytes, problem = self.connection:receive_bytes(count)
-  return bytes or lost(self, problem == "timeout" and "timeout" or "lost", problem)
+  return bytes or lose(self, problem == "timeout" and "timeout" or "lost", problem)
 end
 
 -- The next reply that arrives: its groups and its line, or the code and the sentence of a refusal.
@@ -154,7 +159,7 @@ function Session:outcome()
   end
   local line, problem = self.connection:receive(self.timeout, self.longest)
   if not line then
-    lost(self, problem == "timeout" and "timeout" or "lost", problem)
+    lose(self, problem == "timeout" and "timeout" or "lost", problem)
   end
   local request = self.unanswered[self.first] or "" -- without one, the server says why it ends
   self.unanswered[self.first] = nil
@@ -164,20 +169,21 @@ function Session:outcome()
   if code then
     return { code = code, sentence = sentence }
   elseif line ~= "ok" and line:sub(1, 3) ~= "ok " then
-    lost(self, "lost", ("the server sent an invalid reply: '%s'"):format(printable(line:sub(1, 60))))
+    lose(self, "lost", ("the server sent an invalid reply: '%s'"):format(printable(line:sub(1, 60))))
   end
   local words = {}
   for word in request:gmatch("%S+") do
     words[#words + 1] = word
   end
-  local done, groups = pcall(self.fields.groups, self.fields, words, line, bytes_behind(self, line))
+  local done, groups = pcall(self.fields.groups, self.fields, words, line, receive_raw(self, line))
   if not done then
-    lost(self, "lost", "a reply is damaged: " .. printable(tostring(groups)))
+    lose(self, "lost", "a reply is damaged: " .. printable(tostring(groups)))
   end
   return { groups = groups, line = line }
 end
 
-local function granted(outcome)
+-- Returns the groups and the line of an outcome, or raises its refusal.
+local function unwrap(outcome)
   if outcome.code then
     fault("refused", outcome.sentence, outcome.code)
   end
@@ -186,7 +192,7 @@ end
 
 -- Receives the next reply to a request that was sent ahead. Returns its groups, and its line.
 function Session:receive()
-  return granted(table.remove(self.arrived, 1) or self:outcome())
+  return unwrap(table.remove(self.arrived, 1) or self:outcome())
 end
 
 -- Sends a request. Returns the groups of its reply, and its line. Replies of requests that were sent ahead stay to be
@@ -196,7 +202,7 @@ function Session:request(...)
   while self.first < self.last do
     self.arrived[#self.arrived + 1] = self:outcome()
   end
-  return granted(self:outcome())
+  return unwrap(self:outcome())
 end
 
 local function first(self, ...)
@@ -211,7 +217,7 @@ local function split(text)
   return found
 end
 
--- Returns a value of the reply as it was sent.
+-- Sends a request. Returns the value of `key` in its reply as it was sent, or nil if the reply lacks it.
 function Session:request_text(key, ...)
   local _, line = self:request(...)
   return (line .. " "):match(" " .. key .. "=(%S*) ")
@@ -223,16 +229,19 @@ for name, method in pairs(require("racebeam.commands")) do
   Session[name] = method
 end
 
+-- Explains a command, setting, field, preset, encoding or error code. Returns a text for people.
 function Session:help(...)
   local _, line = self:request("help", ...)
   return line:sub(4)
 end
 
+-- Describes a game. Returns what the server knows about it.
 function Session:game(name)
   return first(self, "games", name)
 end
 
--- Powers on with an image and begins an episode. settings.image: the bytes of a cartridge, if `game` is "inline".
+-- Powers on and begins an episode. Returns the settings in effect. game: its name, or the MD5 of its image.
+-- settings.image: the bytes of a cartridge, if `game` is "inline".
 function Session:load(game, settings)
   if settings ~= nil and type(settings) ~= "table" then
     fault("invalid", ("the settings are of type %s; load takes a table"):format(type(settings)))
@@ -244,6 +253,7 @@ function Session:load(game, settings)
   return first(self, "load", game, words)
 end
 
+-- Names bytes of the fields ram and tia. Returns ram_names, pairs of index and name, and tia_names, the names in order.
 function Session:names()
   return first(self, "names")
 end
@@ -267,10 +277,12 @@ function Session:palette()
   return colours
 end
 
+-- Reads `count` bytes of RAM (default: 1) from an index on, 0 to 127. Returns a string.
 function Session:peek(index, count)
   return decode.hex(tostring(self:request_text("bytes", "peek", index, count or 1)))
 end
 
+-- Writes a string of bytes to RAM from an index on, 0 to 127.
 function Session:poke(index, bytes)
   if type(bytes) ~= "string" then
     fault("invalid", ("the bytes are of type %s; poke takes a string of bytes"):format(type(bytes)))
@@ -280,12 +292,13 @@ function Session:poke(index, bytes)
   end)))
 end
 
--- Exports a state, for later or for another process. settings: { episode = 1 } includes the score, the progress of the
--- episode and the stack of screens.
+-- Exports a state, for later or for another process. Returns a string. settings: { episode = 1 } includes the score, the
+-- progress of the episode and the stack of screens.
 function Session:export_state(name, settings)
   return decode.base64(self:request_text("data", "export", name, settings or ""))
 end
 
+-- Saves a state that was exported, under a name.
 function Session:import_state(name, bytes)
   self:request("import", name, decode.to_base64(bytes))
 end
@@ -303,7 +316,7 @@ local function rewards(text)
 end
 
 -- Plays lists of actions from a state; the session itself does not change. Returns a table for each list, in which
--- `rewards` is a list.
+-- `rewards` is a list. settings: { keep = PREFIX } saves the states at the ends of the lists under names with this prefix.
 function Session:branch(name, lists, settings)
   local words = {}
   for at, actions in ipairs(lists) do
@@ -340,6 +353,7 @@ function Session:save_png(path, machine)
   end
 end
 
+-- Ends the recording. Returns what was kept.
 function Session:stop_recording()
   return first(self, "record", "stop")
 end

@@ -81,7 +81,8 @@ function Socket:close()
   self.socket:close()
 end
 
-local function needed(module, kind)
+-- Requires a module that this kind of address needs.
+local function require_module(module, kind)
   local found, value = pcall(require, module)
   if not found then
     fault("invalid", ("%s needs the module %s, which is not installed"):format(kind, module))
@@ -89,9 +90,9 @@ local function needed(module, kind)
   return value
 end
 
--- A socket that is connected to ..., the place of `address`.
-local function connected(address, socket, timeout, ...)
-  local core = needed("socket", "this address")
+-- Connects a socket to ..., the place of `address`.
+local function connect(address, socket, timeout, ...)
+  local core = require_module("socket", "this address")
   socket:settimeout(timeout)
   local done, problem = socket:connect(...)
   if not done then
@@ -102,7 +103,7 @@ local function connected(address, socket, timeout, ...)
 end
 
 -- Whether a certificate is that of a host. LuaSec looks only at who signed it.
-local function names(certificate, host)
+local function certifies(certificate, host)
   local alternatives = certificate:extensions()["2.5.29.17"] or {}
   for _, kind in ipairs({ "dNSName", "iPAddress" }) do
     for _, name in ipairs(alternatives[kind] or {}) do
@@ -114,9 +115,9 @@ local function names(certificate, host)
   return false
 end
 
--- `trust`: a file of certificates, or parameters of LuaSec.
+-- Begins TLS on a connection. `trust`: a file of certificates, or parameters of LuaSec.
 local function secure(connection, host, trust)
-  local ssl = needed("ssl", "tls://")
+  local ssl = require_module("ssl", "tls://")
   local parameters = { mode = "client", protocol = "any", options = { "all", "no_sslv2", "no_sslv3", "no_tlsv1", "no_tlsv1_1" },
     verify = "peer", capath = "/etc/ssl/certs" }
   if type(trust) == "string" then
@@ -131,7 +132,7 @@ local function secure(connection, host, trust)
     socket:sni(host)
     local done
     done, problem = socket:dohandshake()
-    if done and not names(socket:getpeercertificate(), host) then
+    if done and not certifies(socket:getpeercertificate(), host) then
       done, problem = false, "its certificate is not that of " .. host
     end
     if done then
@@ -149,17 +150,17 @@ local function network(kind, rest, options)
   if not host or host == "" or tonumber(port) > 65535 then
     return nil
   end
-  local core = needed("socket", kind .. "://")
+  local core = require_module("socket", kind .. "://")
   local socket = core.tcp()
-  local connection = connected(kind .. ":" .. rest, socket, options.timeout, host, tonumber(port))
+  local connection = connect(kind .. ":" .. rest, socket, options.timeout, host, tonumber(port))
   socket:setoption("tcp-nodelay", true)
   return kind == "tls" and secure(connection, host, options.tls) or connection
 end
 
 local function unix(path, options)
-  local module = needed("socket.unix", "unix:")
+  local module = require_module("socket.unix", "unix:")
   local make = type(module) == "table" and (module.stream or module) or module
-  return connected("unix:" .. path, make(), options.timeout, path)
+  return connect("unix:" .. path, make(), options.timeout, path)
 end
 
 -- Streams, with plain Lua. Time limits are not possible.
@@ -205,18 +206,20 @@ function Streams:close()
   end
 end
 
-local function opened(path, mode)
+-- Opens a file, or raises a fault.
+local function open_file(path, mode)
   local file, problem = io.open(path, mode)
   return file or fault("lost", problem)
 end
 
 -- The pipe for requests is opened for reading, too: without a reader, a write would end this process.
 local function pipes(prefix)
-  local input = opened(prefix .. "_out", "rb")
-  return setmetatable({ input = input, output = opened(prefix .. "_in", "r+b") }, Streams)
+  local input = open_file(prefix .. "_out", "rb")
+  return setmetatable({ input = input, output = open_file(prefix .. "_in", "r+b") }, Streams)
 end
 
-local function quoted(word)
+-- A word as the shell reads it.
+local function quote(word)
   return "'" .. word:gsub("'", "'\\''") .. "'"
 end
 
@@ -225,33 +228,33 @@ end
 function transport.launch(program, options)
   local fifo = os.tmpname()
   os.remove(fifo)
-  local made = os.execute("mkfifo -m 600 " .. quoted(fifo))
+  local made = os.execute("mkfifo -m 600 " .. quote(fifo))
   if made ~= 0 and made ~= true then
     fault("lost", "no pipe can be made at " .. fifo)
   end
-  local words = { ("exec <%s && rm -f %s && exec"):format(quoted(fifo), quoted(fifo)), quoted(program),
+  local words = { ("exec <%s && rm -f %s && exec"):format(quote(fifo), quote(fifo)), quote(program),
     "serve --stdio --log-level warning" }
   for _, option in ipairs(options) do
-    words[#words + 1] = quoted(option)
+    words[#words + 1] = quote(option)
   end
   local input = io.popen(table.concat(words, " "), "r")
-  return setmetatable({ input = input, output = opened(fifo, "r+b") }, Streams)
+  return setmetatable({ input = input, output = open_file(fifo, "r+b") }, Streams)
 end
 
 local FILES = "; file:PATH takes the --ready-file or --announce file of a server"
 
 -- Whether `test` of a shell says so of a file.
 local function is(what, path)
-  local done = os.execute(("test %s %s"):format(what, quoted(path)))
+  local done = os.execute(("test %s %s"):format(what, quote(path)))
   return done == 0 or done == true
 end
 
 local ANNOUNCEMENT = "1" -- the version of announce files that this client reads
-local BETWEEN_TRIES = 0.05 -- seconds
+local RETRY_SECONDS = 0.05
 
 -- The lines of an announce file as those of a ready file, and its token. It has each address on its own line, and the
 -- token last (server/README.md).
-local function announced(path, text)
+local function parse_announcement(path, text)
   local version = text:match('^{"racebeam_announce": ([^,\n]*)')
   local token = text:match('\n "token": "([^"\n]*)"}%s*$')
   if version and version ~= ANNOUNCEMENT then
@@ -265,15 +268,15 @@ local function announced(path, text)
 end
 
 -- The first address of a ready file or an announce file that this client can use, and the token of the latter.
-local function in_file(path)
+local function address_in_file(path)
   if not is("-f", path) and is("-e", path) then -- a pipe might block
     fault("invalid", path .. " is not a regular file" .. FILES)
   end
-  local file = opened(path, "r")
+  local file = open_file(path, "r")
   local text, token = file:read("*a"), nil
   file:close()
   if text:sub(1, 1) == "{" then
-    text, token = announced(path, text)
+    text, token = parse_announcement(path, text)
   end
   for line in text:gmatch("[^\n]+") do
     if line:match("^tcp:") or line:match("^tls:") or line:match("^unix:") or line:match("^pipes:") then
@@ -287,12 +290,12 @@ local function in_file(path)
 end
 
 -- A connection to the server that a file names, and the file's token. Waits for both, `seconds` at most; needs LuaSocket then.
-local function open_file(path, seconds, options)
-  local core = seconds > 0 and needed("socket", "file:PATH?wait=SECONDS")
+local function connect_by_file(path, seconds, options)
+  local core = seconds > 0 and require_module("socket", "file:PATH?wait=SECONDS")
   local until_ = core and core.gettime() + seconds
   while true do
     local done, connection, token = pcall(function()
-      local address, found = in_file(path)
+      local address, found = address_in_file(path)
       local opens, connection = pcall(transport.open, address, options)
       if not opens and type(connection) == "table" then
         connection.sentence = ("%s (%s names %s)"):format(connection.sentence, path, address)
@@ -304,10 +307,11 @@ local function open_file(path, seconds, options)
     elseif not core or type(connection) ~= "table" or connection.kind == "invalid" or core.gettime() >= until_ then
       error(connection, 0)
     end
-    core.sleep(BETWEEN_TRIES)
+    core.sleep(RETRY_SECONDS)
   end
 end
 
+-- Whether a text is a number of seconds below 10^9.
 local function is_time(text)
   local whole = text:match("^(%d+)$") or text:match("^(%d+)%.%d+$")
   return whole and #whole <= 9
@@ -331,7 +335,7 @@ function transport.open(address, options)
     if seconds and not is_time(seconds) then
       fault("invalid", ("the address is '%s'; ?wait= takes seconds, from 0 to 999999999"):format(address))
     end
-    found, token = open_file(path or rest, tonumber(seconds) or 0, options)
+    found, token = connect_by_file(path or rest, tonumber(seconds) or 0, options)
   end
   if found then
     return found, token

@@ -34,6 +34,26 @@ describe("a server that the client starts", function()
     assert.is_nil(os.rename(name, name))
   end)
 
+  it("ends with the block of a variable to be closed", function()
+    if not _VERSION:match("5%.[4-9]") then
+      return pending("this Lua has no variables to be closed")
+    end
+    local play = assert(load([[
+      local racebeam = require("racebeam")
+      local kept
+      local done, problem = pcall(function()
+        local game <close> = racebeam.launch()
+        kept = game
+        error("an agent fails", 0)
+      end)
+      return kept, problem]]))
+    local game, problem = play()
+    assert.equal("an agent fails", problem)
+    local done, lost = pcall(game.hello, game)
+    assert.is_false(done)
+    assert.equal("lost", lost.kind)
+  end)
+
   it("has a method for each command", function()
     local folder = os.tmpname()
     os.remove(folder)
