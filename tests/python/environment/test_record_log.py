@@ -22,7 +22,7 @@ import numpy as np
 import racebeam.program
 from racebeam import InvalidInput, RecordLog
 from racebeam.episode_log import Episode, Origin, Start, log_of, play
-from racebeam.single import submission
+from racebeam.single import played, submission
 from racebeam.single.submission import COLUMNS
 
 if sys.platform == "win32":
@@ -30,6 +30,9 @@ if sys.platform == "win32":
 else:
     import fcntl
     import resource
+
+
+HEADER = pathlib.Path(__file__).parents[3] / "recording/episode_log.hpp"
 
 
 def play_games(env, games, seed=None):
@@ -173,6 +176,41 @@ class TestSubmissions:
             for _ in range(60):
                 env.step(2)
         assert (env.logged, env.unlogged, self.rows()) == (0, 2, [])
+
+    def test_an_episode_with_more_actions_than_a_log_has_gets_none(self):
+        with unittest.mock.patch.object(played, "MOST_ACTS", 10), unittest.mock.patch.object(played, "MOST_TURNS", 9):
+            env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=44), self.folder)
+            env.reset()
+            for _ in range(10):
+                env.step(1)
+            with pytest.warns(UserWarning, match="no log: it has more than 10 acts$") as found:
+                env.step(1)
+            assert [warning.filename for warning in found] == [__file__]
+            assert env.unwrapped.ale.game_over()
+            assert (env.logged, env.unlogged, env._played.actions) == (0, 1, [])
+            env.reset()
+            env.step(1)
+            assert env._played.actions == [1]
+            turning = played.Played()
+            answers = [turning.add(3, 0.5) for _ in range(11)]
+            assert answers == [None] * 9 + ["it has more than 9 acts with strengths", None]
+            assert (turning.actions, turning.strengths) == ([], [])
+
+    def test_an_episode_without_a_limit_of_frames_does_not_fill_the_memory(self):
+        env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=0, life_loss="end"), self.folder)
+        with unittest.mock.patch.object(played, "MOST_ACTS", 10):
+            with pytest.warns(UserWarning, match="more than 10 acts") as found:
+                play_games(env, 1)
+        assert (len(found), env.logged, env.unlogged) == (1, 0, 1)  # lives of one game, which got one warning
+        env.reset()
+        env.close()
+        assert env.unlogged == 1
+
+    @pytest.mark.skipif(not HEADER.exists(), reason="the tree is not here")
+    def test_the_program_has_the_same_limits(self):
+        found = dict(re.findall("constexpr int (kMaxDecisions|kMaxTurns) = ([0-9']+);", HEADER.read_text()))
+        numbers = {name: int(digits.replace("'", "")) for name, digits in found.items()}
+        assert numbers == {"kMaxDecisions": played.MOST_ACTS, "kMaxTurns": played.MOST_TURNS}
 
     def test_a_reset_before_the_first_action_leaves_nothing_behind(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)

@@ -5,6 +5,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import unittest.mock
 
 import harness
 import package
@@ -15,6 +16,7 @@ package.require("numpy", "gymnasium")
 import numpy as np
 import racebeam.program
 from racebeam import AtariVectorEnv, InvalidInput
+from racebeam.single import played
 
 PLAIN = {"noop_max": 0, "use_fire_reset": False, "max_num_frames_per_episode": 600}
 
@@ -129,6 +131,22 @@ class TestLogs:
         assert [rows[trial]["environment_seed"] for trial in "345"] == ["11", "15", "13"]
         assert {row["episode"] for row in self.rows()} == {"1"}
         assert self.verify()[0] == 0
+
+    def test_a_game_with_more_actions_than_a_log_has_gets_none(self):
+        envs = self.make("beamfall", 2, max_num_frames_per_episode=48)
+        envs.reset()
+        with unittest.mock.patch.object(played, "MOST_ACTS", 10):
+            for _ in range(10):
+                envs.step([1, 1])
+            with pytest.warns(UserWarning, match="a game of environment [01], .* it has more than 10 acts$") as found:
+                envs.step([1, 1])
+            assert [warning.filename for warning in found] == [__file__] * 2
+            envs.step([1, 1])  # both games end
+        envs.step([1, 1])  # begins the next ones
+        for _ in range(12):
+            envs.step([1, 1])
+        assert (envs._logs.logged, envs._logs.unlogged) == (2, 2)
+        assert {row["episode"] for row in self.rows()} == {"1"}
 
     def test_an_agent_is_the_first_trial_with_seed_0_unless_named(self):
         for number, (about, words) in enumerate(

@@ -15,6 +15,7 @@ from ..env import AtariEnv
 from ..episode_log import MOST_SEED, Origin, Start, play
 from ..errors import InvalidInput
 from ..vector_options import SEEDS
+from .played import Played
 from .submission import Submission
 
 __all__ = ["RecordLog"]
@@ -28,8 +29,8 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
     and powers the game on with it, because a log contains the seed of its episode. `reset(seed=S)` also determines what
     later resets draw.
 
-    An episode does not get a log if it was abandoned before its end, if a state was restored in it, or if the log
-    cannot be written. A warning then says why.
+    An episode does not get a log if it was abandoned before its end, if a state was restored in it, if it has more than
+    2,000,000 actions (400,000 with strengths), or if the log cannot be written. A warning then says why.
 
     Args:
         env: The environment. Its `frameskip` is a number, its `noop_max` 0, and it does not clip rewards.
@@ -86,8 +87,7 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         self._origin, self._phrase = Origin(agent, integer("trial", trial, 1, MOST), 1, seed), phrase
         self._seeds = np.random.default_rng()
         self._start: Start | None = None  # the start of the present episode
-        self._actions: list[int] = []
-        self._strengths: list[float] = []
+        self._played = Played()
         self.logged = self.unlogged = 0
         self._submission = Submission(
             folder,
@@ -141,9 +141,7 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         """
         result = self.env.step(action)
         if self._start is not None:
-            number, strength, *_ = self._base._parse_action(action)
-            self._actions.append(number)
-            self._strengths.append(strength)
+            self._record(action)
             if self._base.ale.game_over():
                 self._finish(self._start)
         return result
@@ -160,20 +158,27 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         digits = hashlib.sha256("\n".join(facts).encode()).hexdigest()[:8]
         return max(int(digits, 16) & 0x7FFFFFFF, 1)
 
+    def _record(self, action: Any) -> None:
+        number, strength, *_ = self._base._parse_action(action)
+        if (why := self._played.add(number, strength)) is not None:
+            self._skip(why)
+
     def _leave(self) -> None:
-        if self._start is not None and self._actions:
+        if self._start is not None and self._played.actions:
             self._skip("it was left before its end")
-        self._start, self._actions, self._strengths = None, [], []
+        self._start, self._played = None, Played()
 
     def _finish(self, start: Start) -> None:
-        actions, strengths = self._actions, self._strengths
-        self._start, self._actions, self._strengths = None, [], []
+        played = self._played
+        self._start, self._played = None, Played()
+        if played.is_forgotten:
+            return
         try:
-            episode = play(start, actions, strengths)
+            episode = play(start, played.actions, played.strengths)
             if not episode.is_over or episode.hashes[-1] != self._base.ale.state_hash():
                 return self._skip("the same actions lead to another state; a state was restored in it, or RAM was set")
             origin = self._origin._replace(episode=self.logged + 1)
-            self._submission.add(start, actions, episode, origin, strengths)
+            self._submission.add(start, played.actions, episode, origin, played.strengths)
             self.logged += 1
         except (InvalidInput, OSError) as error:
             self._skip(str(error))

@@ -11,6 +11,7 @@ import numpy as np
 from ..arguments import MOST, WrongType, integer, value_or
 from ..episode_log import MOST_SEED, Origin, Start, play
 from ..errors import InvalidInput
+from ..single.played import Played
 from ..single.submission import Submission
 from ..vector_options import SEEDS, VectorOptions
 from ..wire.action_words import joystick_actions
@@ -26,7 +27,8 @@ class VectorLogs:
     """Writes a log of each game of a vector of environments. Environment i plays the trial `trial` + i.
 
     A log begins at power-on, so each game begins with another seed. A game does not get a log if it was left before its
-    end, if a state was restored in it, or if the log cannot be written. A warning then says why.
+    end, if a state was restored in it, if it has more than 2,000,000 actions (400,000 with strengths), or if the log
+    cannot be written. A warning then says why.
 
     Args:
         arguments: A dict with "folder", and with other arguments of `RecordLog` except `env` and `phrase`.
@@ -112,10 +114,7 @@ class VectorLogs:
         self._is_over = ends | (~played & stays)
         numbers, strengths = self._acts(actions)
         for env in np.flatnonzero(played).tolist():
-            game = self._games[env]
-            game.actions.append(numbers[env])
-            game.strengths.append(strengths[env])
-            game.score += int(results.raw_rewards[env])
+            self._record(env, numbers[env], strengths[env], int(results.raw_rewards[env]))
             if ends[env]:
                 self._finish(env, results)
 
@@ -126,27 +125,39 @@ class VectorLogs:
             return acts[0].tolist(), acts[1].tolist()
         return [self._numbers[env][action] for env, action in enumerate(actions)], [1.0] * len(self._games)
 
+    def _record(self, env: int, action: int, strength: float, reward: int) -> None:
+        game = self._games[env]
+        game.score += reward
+        if (why := game.played.add(action, strength)) is not None:
+            self._skip(env, why)
+
     def _finish(self, env: int, results: Results) -> None:
         game, self._games[env] = self._games[env], _Game()
-        start = self._starts[env]._replace(seed=int(self._seeds[env]))
-        try:
-            episode = play(start, game.actions, game.strengths)
-            seen = (game.score, results.episode_frames[env], results.lives[env], len(game.actions))
-            if not episode.is_over or seen != (episode.score, episode.frames, episode.lives, episode.decisions):
-                self._skip(env, "the same actions lead to another end; a state was restored in it")
-            else:
-                self._submission.add(start, game.actions, episode, self._origins[env], game.strengths)
-                self._origins[env] = self._origins[env]._replace(episode=self._origins[env].episode + 1)
-                self.logged += 1
-        except (InvalidInput, OSError) as error:
-            self._skip(env, str(error))
+        if not game.played.is_forgotten and (why := self._write(env, game, results)) is not None:
+            self._skip(env, why)
         if self._options.autoreset_mode is AutoresetMode.NEXT_STEP:
             seed = self._next_seed(env)
             self._machines.end_episodes(np.array([env], np.int32), np.array([seed], np.int64))
             self._begin(env, seed)
 
+    def _write(self, env: int, game: _Game, results: Results) -> str | None:
+        """Writes the log of a game. Returns why it cannot, or None."""
+        start = self._starts[env]._replace(seed=int(self._seeds[env]))
+        actions, strengths = game.played.actions, game.played.strengths
+        try:
+            episode = play(start, actions, strengths)
+            seen = (game.score, results.episode_frames[env], results.lives[env], len(actions))
+            if not episode.is_over or seen != (episode.score, episode.frames, episode.lives, episode.decisions):
+                return "the same actions lead to another end; a state was restored in it"
+            self._submission.add(start, actions, episode, self._origins[env], strengths)
+        except (InvalidInput, OSError) as error:
+            return str(error)
+        self._origins[env] = self._origins[env]._replace(episode=self._origins[env].episode + 1)
+        self.logged += 1
+        return None
+
     def _leave(self, env: int) -> None:
-        if self._games[env].actions:
+        if self._games[env].played.actions:
             self._skip(env, "it was left before its end")
 
     def _begin(self, env: int, seed: int) -> None:
@@ -162,11 +173,10 @@ class VectorLogs:
 
 
 class _Game:
-    """The actions, their strengths and the score of a game since power-on."""
+    """The actions and the score of a game since power-on."""
 
     def __init__(self) -> None:
-        self.actions: list[int] = []
-        self.strengths: list[float] = []
+        self.played = Played()
         self.score = 0
 
 
