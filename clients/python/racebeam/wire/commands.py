@@ -34,6 +34,9 @@ class Commands(Exchange):
 
         Args:
             name: Name of the game.
+
+        Returns:
+            A dictionary with what `games NAME` replies, such as its modes and the MD5 of its image.
         """
         return self._first("games", name)
 
@@ -44,13 +47,20 @@ class Commands(Exchange):
             game: Name of the game, MD5 of its image, or "inline".
             image: The bytes of a cartridge, if `game` is "inline".
             **settings: Settings of the protocol. `as_` is its setting `as`, the game whose rules apply.
+
+        Returns:
+            A dictionary with what `load` replies, such as the MD5 of the image and the size of the screen.
         """
         rules = settings.pop("as_", None)
         data = None if image is None else base64.b64encode(image).decode()
         return self._first("load", game, *key_values(image=data, **{"as": rules}, **settings))
 
     def two_player_modes(self) -> list[int]:
-        """List the modes of the game for two players."""
+        """List the modes of the game for two players.
+
+        Returns:
+            The numbers of the modes.
+        """
         return self._ints_of("two_player_modes", "modes")
 
     def actions(self) -> dict[int, str]:
@@ -87,6 +97,9 @@ class Commands(Exchange):
         Args:
             index: Index of the first byte, 0 to 127.
             count: Number of bytes.
+
+        Returns:
+            The bytes.
         """
         return bytes.fromhex(self.ask("peek", index, count)[0]["bytes"])
 
@@ -96,6 +109,9 @@ class Commands(Exchange):
         Args:
             index: Index of the first byte, 0 to 127.
             data: The bytes, or numbers from 0 to 255.
+
+        Raises:
+            TypeError: If `data` is something else.
         """
         try:
             written = bytes(list(data))
@@ -110,6 +126,9 @@ class Commands(Exchange):
             name: Name of the state.
             episode: Whether the score, the progress of the episode and the stack of screens are included.
             whole: Old name of `episode`.
+
+        Returns:
+            The state as bytes, which `import_state` takes.
         """
         return base64.b64decode(self.ask("export", name, *key_values(episode=episode or whole or None))[0]["data"])
 
@@ -158,7 +177,11 @@ class Commands(Exchange):
             file.write(data)
 
     def stop_recording(self) -> Values:
-        """End the recording."""
+        """End the recording.
+
+        Returns:
+            A dictionary with what `record stop` replies: the files, and the frames that they have.
+        """
         return self._first("record", "stop")
 
     # generated: commands, from protocol/protocol.toml
