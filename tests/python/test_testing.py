@@ -1,6 +1,7 @@
 """racebeam.testing, run on all environments of the package, and on environments that break its rules."""
 
 import contextlib
+import itertools
 import os
 import tempfile
 import unittest
@@ -212,8 +213,105 @@ class Broken(unittest.TestCase):
         found = self.failures(VectorEnvironmentTests, "make_envs", lambda count: Shared("beamfall", count))
         self.assertEqual(found, {"test_a_vector_plays_like_its_environments_one_by_one"})
 
+    def check(self, kind, rules, **members):
+        """Environments of this kind with these members break these rules, and no others."""
+        tests = {AtariEnv: (EnvironmentTests, "make_env"), AtariVectorEnv: (VectorEnvironmentTests, "make_envs")}[kind]
+        broken = type("Broken", (kind,), members)
+        self.assertEqual(self.failures(*tests, lambda *count: broken("beamfall", *count, obs_type="ram")), rules)
+
+    def test_results_of_other_shapes_and_types(self):
+        wrong = {
+            AtariEnv: (lambda ram: ram.astype(int), lambda _: None, lambda _: None, lambda _: None, list),
+            AtariVectorEnv: (
+                lambda ram: ram.astype(int),
+                lambda rewards: rewards[:, None],
+                lambda ends: ends.astype(np.uint8),
+                lambda ends: ends.astype(np.uint8),
+                list,
+            ),
+        }
+        rules = {
+            AtariEnv: {"test_results_have_the_types_of_the_spaces"},
+            AtariVectorEnv: {"test_results_have_the_shapes_of_the_spaces"},
+        }
+        for kind, changes in wrong.items():
+            for place, change in enumerate(changes):
+
+                def step(self, action, kind=kind, place=place, change=change):
+                    result = list(kind.step(self, action))
+                    result[place] = change(result[place])
+                    return tuple(result)
+
+                with self.subTest(kind=kind, place=place):
+                    self.check(kind, rules[kind], step=step)
+
+    def test_a_first_observation_of_another_type(self):
+        for kind, rule in ((AtariEnv, "types"), (AtariVectorEnv, "shapes")):
+
+            def reset(self, kind=kind, **arguments):
+                ram, info = kind.reset(self, **arguments)
+                return ram.astype(int), info
+
+            with self.subTest(kind=kind):
+                self.check(kind, {f"test_results_have_the_{rule}_of_the_spaces"}, reset=reset)
+
+    def test_a_seed_that_means_something_else_later_or_elsewhere(self):
+        seeds = "test_a_seed_decides_all_results"
+        alone = "test_a_vector_plays_like_its_environments_one_by_one"
+        for kind in (AtariEnv, AtariVectorEnv):
+            made = itertools.count(1)
+
+            def later(self, *, seed=None, kind=kind, **arguments):
+                self.resets = getattr(self, "resets", 0) + 1
+                return kind.reset(self, seed=seed and 1000 * self.resets + seed, **arguments)
+
+            def elsewhere(self, *, seed=None, kind=kind, made=made, **arguments):
+                self.number = getattr(self, "number", None) or next(made)
+                return kind.reset(self, seed=seed and 1000 * self.number + seed, **arguments)
+
+            with self.subTest(kind=kind):
+                self.check(kind, {seeds}, reset=later)
+                self.check(kind, {seeds, alone} if kind is AtariVectorEnv else {seeds}, reset=elsewhere)
+
+    def test_a_vector_that_reuses_its_memory(self):
+        def step(self, actions):
+            ram, *others = AtariVectorEnv.step(self, actions)
+            self.memory[:] = ram
+            return self.memory, *others
+
+        def reset(self, **arguments):
+            ram, info = AtariVectorEnv.reset(self, **arguments)
+            self.memory = ram.copy()
+            return self.memory, info
+
+        tests = VectorEnvironmentTests, "make_envs"
+        broken = type("Reused", (AtariVectorEnv,), {"step": step, "reset": reset})
+        found = self.failures(*tests, lambda count: broken("beamfall", count, obs_type="ram"))
+        self.assertIn("test_results_belong_to_the_caller", found)
+
+    def test_a_state_that_is_not_restored(self):
+        self.check(AtariEnv, {"test_a_state_restores_the_game"}, restore_state=lambda *_: None)
+        self.check(AtariVectorEnv, {"test_a_state_restores_an_environment"}, restore=lambda *_: None)
+
+    def test_a_second_close_that_fails(self):
+        def close(self):
+            if getattr(self, "is_closed", False):
+                raise RuntimeError("closed")
+            self.is_closed = True
+            AtariEnv.close(self)
+
+        self.check(AtariEnv, {"test_a_second_close_does_nothing"}, close=close)
+
     def test_equal_compares_types_too(self):
         self.assertTrue(equal({"a": [np.zeros(2), 1]}, {"a": [np.zeros(2), 1]}))
         self.assertFalse(equal(np.zeros(2), np.zeros(2, int)))
         self.assertFalse(equal({"a": 1}, {"b": 1}))
+        self.assertFalse(equal({"a": 1}, {"a": 2}))
+        self.assertFalse(equal({"a": 1}, 1))
+        self.assertFalse(equal([1, 2], [1, 3]))
+        self.assertFalse(equal(np.zeros(2), np.zeros((2, 1))))
+        rows = np.array([np.zeros(2), None], dtype=object)
+        self.assertTrue(equal(rows, rows.copy()))
+        self.assertFalse(equal(rows, np.array([np.ones(2), None], dtype=object)))
+        self.assertFalse(equal(rows, rows[:1]))
         self.assertFalse(equal([1, 2], [1]))
