@@ -26,11 +26,31 @@ declare -A racebeam_encodings=() racebeam_arrays=()  # of fields; of `MACHINE FI
 declare -A racebeam_watched=()         # of `@NAME`: the height of the screen, and the fields
 
 # generated: fields, from protocol/protocol.toml
-# What bytes are written in where the client does not say.
-declare -rA racebeam_usual=([ram]=hex [tia]=hex [state_hash]=hex [screen]=rle [rgb]=zlib [grey]=zlib [palette]=hex [audio]=hex [audio_all]=hex)
-# Bytes of fields that always have the same number, and bytes of a pixel of those that have the size of the screen.
-declare -rA _racebeam_sizes=([ram]=128 [tia]=53 [state_hash]=8 [palette]=768 [audio]=512)
-declare -rA _racebeam_pixels=([screen]=1 [rgb]=3 [grey]=1)
+# The encodings of fields of bytes where a request does not name one.
+declare -rA racebeam_usual=(
+  [ram]=hex
+  [tia]=hex
+  [state_hash]=hex
+  [screen]=rle
+  [rgb]=zlib
+  [grey]=zlib
+  [palette]=hex
+  [audio]=hex
+  [audio_all]=hex
+)
+# The sizes in bytes of fields whose size never changes; bytes per pixel of those with the screen's size.
+declare -rA _racebeam_sizes=(
+  [ram]=128
+  [tia]=53
+  [state_hash]=8
+  [palette]=768
+  [audio]=512
+)
+declare -rA _racebeam_pixels=(
+  [screen]=1
+  [rgb]=3
+  [grey]=1
+)
 # end of fields
 
 _racebeam_fail() { racebeam_error=$2; return "$1"; }

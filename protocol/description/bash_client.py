@@ -7,19 +7,16 @@ PATH = "clients/shell/racebeam.bash"
 
 
 def array(name, pairs):
-    values = " ".join(f"[{key}]={str(value).strip(chr(34))}" for key, value in pairs)
-    return f"declare -rA {name}=({values})\n"
+    values = "".join(f"  [{key}]={str(value).strip(chr(34))}\n" for key, value in pairs)
+    return f"declare -rA {name}=(\n{values})\n"
 
 
 def fields(protocol):
     usual, sizes, pixels = entries_of(protocol)
     return (
-        "# What bytes are written in where the client does not say.\n"
+        "# The encodings of fields of bytes where a request does not name one.\n"
         + array("racebeam_usual", usual)
-        + (
-            "# Bytes of fields that always have the same number, and bytes of a pixel of those that have the size "
-            "of the screen.\n"
-        )
+        + "# The sizes in bytes of fields whose size never changes; bytes per pixel of those with the screen's size.\n"
         + array("_racebeam_sizes", sizes)
         + array("_racebeam_pixels", pixels)
     )

@@ -1,5 +1,6 @@
 """The tables and the methods of the client in C++."""
 
+from comments import about_number, comment_lines
 from javascript_client import generated, sentence
 
 from server import HEAD, quoted
@@ -42,7 +43,7 @@ def comment(command, shape, result):
             f"@param {shape.pack} "
             f"{'; '.join(about) or '`' + ' '.join(argument.usage for argument in shape.others) + '`'}"
         )
-    return "".join(f"  /// {line}\n" for line in lines)
+    return "".join(f"{line}\n" for line in comment_lines("  /// ", *lines))
 
 
 def method(command):
@@ -58,7 +59,7 @@ def method(command):
         argument = shape.only_key
         return (
             f"{head}  auto {command.method}() {{ return ask({', '.join(called)}); }}\n"
-            f"  /// The same with {argument.key}: {argument.about}.\n"
+            f"  /// The same with {argument.key}: {about_number(argument)}.\n"
             f"  auto {command.method}({TYPES[argument.type]} {argument.key}) {{\n"
             f"    return ask({', '.join([*called, f'Setting({quoted(argument.key)}, {argument.key})'])});\n  }}\n"
         )
@@ -122,8 +123,8 @@ def commands(protocol):
 
 def table(kind, name, pairs):
     rows = list(pairs)
-    values = ", ".join(f"{{{quoted(key)}, {value}}}" for key, value in rows)
-    return f"inline constexpr std::array<std::pair<std::string_view, {kind}>, {len(rows)}> {name}{{{{{values}}}}};\n"
+    values = "".join(f"    {{{quoted(key)}, {value}}},\n" for key, value in rows)
+    return f"inline constexpr std::array<std::pair<std::string_view, {kind}>, {len(rows)}> {name}{{{{\n{values}}}}};\n"
 
 
 def enumerator(encoding):
@@ -136,11 +137,11 @@ def fields(protocol):
         f"{HEAD}#pragma once\n\n#include <array>\n#include <cstddef>\n#include <string_view>\n#include <utility>\n\n"
         '#include "racebeam/client/config.hpp"\n#include "racebeam/client/encoding.hpp"\n\n'
         "namespace RACEBEAM_CLIENT_NAMESPACE::detail {\n\n"
-        "/// What bytes are written in where the client does not say.\n"
+        "/// The encodings of fields of bytes where a request does not name one.\n"
         + table("Encoding", "kUsual", ((field.name, enumerator(field.encoding)) for field in fields))
-        + "/// Bytes of fields that always have the same number.\n"
+        + "/// The sizes in bytes of fields whose size never changes.\n"
         + table("std::size_t", "kSizes", ((field.name, field.fixed_size) for field in fields if field.fixed_size))
-        + "/// Bytes of a pixel of fields that have the size of the screen.\n"
+        + "/// Bytes per pixel of fields with the size of the screen.\n"
         + table(
             "std::size_t", "kPixels", ((field.name, field.bytes_of_pixel) for field in fields if field.is_of_screen)
         )

@@ -1,5 +1,6 @@
 """The tables and the methods of the client in Java."""
 
+from comments import about_number, comment_lines
 from javascript_client import camel, generated, sentence
 
 FOLDER = "clients/java/src/main/java/racebeam"
@@ -54,22 +55,22 @@ def explained(command, argument):
     if argument is None:
         keys = [f"{one.key}: {one.about}" for one in command.keys]
         return "; ".join(keys)
-    return argument.about or (argument.usage.strip("[]").replace("@", "&#64;"))
+    return about_number(argument) or argument.usage.strip("[]").replace("@", "&#64;")
 
 
 def javadoc(command, parameters, result):
     rows = [f"@param {name_of(argument)} {explained(command, argument)}" for argument in parameters]
     rows += [f"@return {result}"] if result else []
     rows.append("@throws IOException if the session has ended")
-    return (
-        "  /**\n" + f"   * {sentence(command.summary)}\n   *\n" + "".join(f"   * {row}\n" for row in rows) + "   */\n"
-    )
+    summary = comment_lines("   * ", sentence(command.summary))
+    lines = ["  /**", *summary, "   *", *comment_lines("   * ", *rows), "   */"]
+    return "".join(f"{line}\n" for line in lines)
 
 
 def method(command, parameters):
     kind, _, key = command.returns.partition(" ")
     result, body, summary = (text.replace("{key}", key) for text in RESULTS[kind])
-    line = " + ".join([f'"{command.name}"', *map(expression, parameters)])
+    line = " + ".join([f'"{command.name}"', *map(expression, parameters)]).replace('" + "', "")  # one literal
     return (
         javadoc(command, parameters, summary)
         + f"  public {result} {camel(command.method)}({', '.join(map(parameter, parameters))}) throws IOException {{\n"
@@ -109,7 +110,7 @@ def commands(protocol):
 
 
 def map_of(pairs):
-    return "Map.of(" + ", ".join(f'"{key}", {value}' for key, value in pairs) + ")"
+    return "Map.of(\n" + ",\n".join(f'      "{key}", {value}' for key, value in pairs) + ")"
 
 
 def fields(protocol):
@@ -119,11 +120,11 @@ def fields(protocol):
     pixels = map_of((field.name, field.bytes_of_pixel) for field in fields if field.is_of_screen)
     return (
         f"{HEAD}import java.util.Map;\n\n/** The fields of bytes. */\nfinal class FieldTable {{\n"
-        f"  /** What bytes are written in where the client does not say. */\n  static final Map<String, Encoding> "
-        f"USUAL = {defaults};\n"
-        f"  /** Bytes of fields that always have the same number. */\n  static final Map<String, Integer> SIZES = "
+        f"  /** The encodings of fields of bytes where a request does not name one. */\n"
+        f"  static final Map<String, Encoding> USUAL = {defaults};\n"
+        f"  /** The sizes in bytes of fields whose size never changes. */\n  static final Map<String, Integer> SIZES = "
         f"{sizes};\n"
-        f"  /** Bytes of a pixel of fields that have the size of the screen. */\n"
+        f"  /** Bytes per pixel of fields with the size of the screen. */\n"
         f"  static final Map<String, Integer> PIXELS = {pixels};\n\n  private FieldTable() {{ }}\n}}\n"
     )
 

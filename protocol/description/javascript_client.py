@@ -1,5 +1,6 @@
 """The tables and the methods of the client in JavaScript, and their types for TypeScript."""
 
+from comments import COLUMNS, comment_lines
 from regions import with_region
 
 HEAD = "// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.\n\n"
@@ -114,11 +115,40 @@ def commands(protocol):
 def declaration(command):
     """The type of a method, and its comment, a line for each parameter that is explained."""
     kind, _, _ = command.returns.partition(" ")
-    about = [f"{argument.name}: {argument.about}" for argument in command.arguments if argument.about]
+    signature = Signature(command)
+    about = [
+        f"@param {'settings.' * (argument in signature.settings)}{argument.name} {argument.about}"
+        for argument in command.arguments
+        if argument.about
+    ]
     summary = sentence(command.summary)
-    lines = ["/**", *(f" * {line}" for line in (summary, *about)), " */"] if about else [f"/** {summary} */"]
-    lines.append(f"{camel(command.method)}({', '.join(Signature(command).types())}): Promise<{RESULTS[kind]}>;")
-    return "".join(f"  {line}\n" for line in lines)
+    lines = ["  /**", *comment_lines("   * ", summary, *about), "   */"] if about else [f"  /** {summary} */"]
+    lines.append(f"  {camel(command.method)}({', '.join(signature.types())}): Promise<{RESULTS[kind]}>;")
+    return "".join(f"{line}\n" for line in lines)
+
+
+def setting_type(setting, presets):
+    """The type of a setting of load, with what stands before it."""
+    words = ["none", *(preset.name for preset in presets)] if setting.name == "preset" else setting.values
+    if words and setting.type == "text":
+        line = " | ".join(f'"{word}"' for word in words)
+        return f" {line}" if len(line) < 80 else "".join(f'\n    | "{word}"' for word in words)
+    if setting.type == "text":
+        return " string" if setting.name == "scheme" else " number | string"
+    return " " + TYPES["seed" if setting.default == "random" else {"real": "int"}.get(setting.type, setting.type)]
+
+
+def load_settings(protocol):
+    """A member for each setting of load, with its comment."""
+    for setting in protocol.settings:
+        if not setting.deprecated:
+            kind = setting_type(setting, protocol.presets)
+            accepted = "" if '"' in kind and kind.strip() != TYPES["seed"] else f" Accepted: {setting.accepted}."
+            text = f"{sentence(setting.summary)}{accepted} Default: {setting.default}."
+            short = f"  /** {text} */"
+            lines = [short] if len(short) <= COLUMNS else ["  /**", *comment_lines("   * ", text), "   */"]
+            lines.append(f"  {setting.name}?:{kind};")
+            yield "".join(f"{line}\n" for line in lines)
 
 
 def entries_of(protocol):
@@ -131,22 +161,25 @@ def entries_of(protocol):
 
 
 def object_of(pairs):
-    return "{ " + ", ".join(f"{key}: {value}" for key, value in pairs) + " }"
+    return "{\n" + "".join(f"  {key}: {value},\n" for key, value in pairs) + "}"
 
 
 def fields(protocol):
     usual, sizes, pixels = map(object_of, entries_of(protocol))
     return (
-        f"{HEAD}/** What bytes are written in where the client does not say. */\nexport const USUAL = {usual};\n"
-        f"/** Bytes of fields that always have the same number. */\nexport const SIZES = {sizes};\n"
-        f"/** Bytes of a pixel of fields that have the size of the screen. */\nexport const PIXELS = {pixels};\n"
+        f"{HEAD}/** The encodings of fields of bytes where a request does not name one. */\n"
+        f"export const USUAL = {usual};\n"
+        f"/** The sizes in bytes of fields whose size never changes. */\nexport const SIZES = {sizes};\n"
+        f"/** Bytes per pixel of fields with the size of the screen. */\nexport const PIXELS = {pixels};\n"
     )
 
 
 def files(protocol, read):
     types = f"{FOLDER}/index.d.ts"
+    methods = "".join(map(declaration, generated(protocol)))
+    declared = with_region(read(types), "  ", "//", "settings", "".join(load_settings(protocol)))
     return {
         f"{FOLDER}/commands.js": commands(protocol),
         f"{FOLDER}/field_table.js": fields(protocol),
-        types: with_region(read(types), "  ", "//", "commands", "".join(map(declaration, generated(protocol)))),
+        types: with_region(declared, "  ", "//", "commands", methods),
     }

@@ -102,17 +102,17 @@ def flags(protocol):
 
 
 def table(pairs):
-    return "{ " + ", ".join(f"{key} = {value}" for key, value in pairs) + " }"
+    return "{\n" + "".join(f"    {key} = {value},\n" for key, value in pairs) + "  }"
 
 
 def fields(protocol):
     usual, sizes, pixels = (table(pairs) for pairs in entries_of(protocol))
     return (
         f"{HEAD}return {{\n"
-        f"  -- What bytes are written in where the client does not say.\n  usual = {usual},\n"
-        f"  -- Bytes of fields that always have the same number.\n  sizes = {sizes},\n"
-        f"  -- Bytes of a pixel of fields that have the size of the screen.\n  pixels = {pixels},\n"
-        f"  -- What is true or false where its value is 1 or 0: 0 would be true in Lua.\n  flags = "
+        f"  -- The encodings of fields of bytes where a request does not name one.\n  usual = {usual},\n"
+        f"  -- The sizes in bytes of fields whose size never changes.\n  sizes = {sizes},\n"
+        f"  -- Bytes per pixel of fields with the size of the screen.\n  pixels = {pixels},\n"
+        f"  -- Values that become true or false: 0 would be true in Lua.\n  flags = "
         f"{table((name, 'true') for name in flags(protocol))},\n}}\n"
     )
 

@@ -7,6 +7,100 @@ export type Group = Record<string, any>;
 /** Settings of a request, such as { seed: 7, frame_skip: 4, preset: "dqn2015" }. */
 export type Settings = Record<string, string | number | boolean>;
 
+/** Settings of load. */
+export interface LoadSettings {
+  /** The bytes of a cartridge, if the game is "inline". */
+  image?: Uint8Array;
+  /** With image: the game whose rules apply. It is one of the catalogue, or of an available image. */
+  as?: string;
+  // generated: settings, from protocol/protocol.toml
+  /** A set of settings from the literature; other keys override it. Default: none. */
+  preset?: "none" | "paper2013" | "dqn2015" | "machado2018" | "gym-v5";
+  /**
+   * Seed of everything that is random in play; random: the server chooses one. Accepted: random, or 1 to
+   * 4294967295. Default: random.
+   */
+  seed?: number | "random";
+  /** Seed of the memory's contents at power-on. Accepted: 0 to 4294967295. Default: 4753849. */
+  system_seed?: number;
+  /**
+   * Frames of an act; with a range, each act draws its number from it. Accepted: 1 to 1000, or a range such
+   * as 2-4. Default: 1.
+   */
+  frame_skip?: number | string;
+  /** Probability that a frame repeats the previous action. Accepted: 0 to 1. Default: 0.25. */
+  sticky?: number;
+  /** Variation of the game. Accepted: see `modes`. Default: the game's. */
+  mode?: number;
+  /** Difficulty switches. Accepted: see `difficulties`. Default: 0. */
+  difficulty?: number;
+  /** Frames after which an episode is truncated; 0: never. Accepted: 0 to 2147483647. Default: 108000. */
+  max_episode_frames?: number;
+  /** What a lost life does. Default: ignored. */
+  life_loss?: "ignored" | "reported" | "end" | "restart";
+  /**
+   * An episode begins with 0 to noop_max - 1 frames of NOOP, drawn by seed. Accepted: 0 to 1000. Default: 0.
+   */
+  noop_max?: number;
+  /** What happens at the end of an episode. Default: disabled. */
+  autoreset?: "disabled" | "next-step" | "same-step";
+  /** The actions that `act` accepts. Default: full. */
+  action_set?: "full" | "legal" | "minimal" | "console";
+  /** An act's reward is clamped to at least this. Accepted: none or a whole number. Default: none. */
+  reward_min?: number | string;
+  /** An act's reward is clamped to at most this. Accepted: none or a whole number. Default: none. */
+  reward_max?: number | string;
+  /** Rules of score and end: those of the reference, or corrected ones. Default: ale-0.12. */
+  rules?: "ale-0.12" | "fixed";
+  /** Blend each screen with the one before it. Accepted: 0 or 1. Default: 0. */
+  color_averaging?: 0 | 1 | boolean;
+  /** Generate the samples of the field audio. Accepted: 0 or 1. Default: 0. */
+  sound?: 0 | 1 | boolean;
+  /**
+   * How the cartridge switches its banks; auto detects it. Accepted: auto or a scheme's name, with _ for a
+   * blank. Default: the game's, else auto.
+   */
+  scheme?: string;
+  /** Controller in the left port. Default: the game's, else joystick. */
+  left?:
+    | "joystick"
+    | "paddles"
+    | "keyboard"
+    | "driving"
+    | "booster"
+    | "genesis"
+    | "light_gun"
+    | "trackball"
+    | "atari_mouse"
+    | "amiga_mouse"
+    | "savekey"
+    | "none";
+  /** Controller in the right port. Default: the game's, else joystick. */
+  right?:
+    | "joystick"
+    | "paddles"
+    | "keyboard"
+    | "driving"
+    | "booster"
+    | "genesis"
+    | "light_gun"
+    | "trackball"
+    | "atari_mouse"
+    | "amiga_mouse"
+    | "savekey"
+    | "none";
+  /** Television standard; auto detects it. Default: the game's, else auto. */
+  format?: "auto" | "ntsc" | "pal" | "pal60" | "secam";
+  /** First line of the picture. Accepted: 0 to 50. Default: the game's, else 34. */
+  ystart?: number;
+  /**
+   * Lines of the picture, 200 at least; with PAL and SECAM, 210 means 250. Accepted: 100 to 256. Default: the
+   * game's, else 210.
+   */
+  height?: number;
+  // end of settings
+}
+
 /** An action's name or number, with the marks of the protocol: "FIRE", 3, "UP*10", "5/LEFT@0.5". */
 export type Action = string | number;
 
@@ -68,33 +162,44 @@ export class Session {
   help(...topic: string[]): Promise<string>;
   /** Describe a game. */
   game(name: string): Promise<Group>;
-  /** Power on with an image and begin an episode. image: the bytes of a cartridge, if the game is "inline". */
-  load(game: string, settings?: Settings & { image?: Uint8Array } | Record<string, any>): Promise<Group>;
+  /**
+   * Power on with an image and begin an episode. Returns the settings in effect.
+   * @param game its name, the MD5 of its image, or "inline" for settings.image
+   */
+  load(game: string, settings?: LoadSettings | Settings): Promise<Group>;
   /** List the actions that act accepts. Returns their names by number. */
   actions(): Promise<Map<number, string>>;
   /** Name bytes of the fields ram, by their indices, and tia, in their order. */
   names(): Promise<{ ram: Map<number, string>; tia: string[] }>;
   /** The colour of each value of a pixel, 0xAABBGGRR: what a Uint32Array over the bytes of an ImageData takes. */
   palette(): Promise<Uint32Array>;
-  /** Read bytes of RAM. index: the index of the first byte, 0 to 127; count: the number of bytes, by default 1. */
+  /**
+   * Read bytes of RAM.
+   * @param index the index of the first byte, 0 to 127
+   * @param count the number of bytes, by default 1
+   */
   peek(index: number, count?: number): Promise<Uint8Array>;
-  /** Write bytes of RAM. index: the index of the first byte, 0 to 127. */
+  /**
+   * Write bytes of RAM.
+   * @param index the index of the first byte, 0 to 127
+   */
   poke(index: number, bytes: Uint8Array | number[]): Promise<void>;
   /**
    * Export a state, for later or for another process.
-   * episode: whether to include the score, the progress of the episode and the stack of screens; whole is its old name
+   * @param settings.episode whether to include the score, the progress of the episode and the stack of screens
+   * @param settings.whole the old name of episode
    */
   exportState(name: string, settings?: { episode?: 0 | 1 | boolean; whole?: 0 | 1 | boolean }): Promise<Uint8Array>;
   /** Save an exported state under a name. */
   importState(name: string, bytes: Uint8Array): Promise<void>;
   /**
    * Play lists of actions from a state; the session itself does not change.
-   * keep: the prefix of names under which the states at the ends of the lists are saved
+   * @param settings.keep the prefix of names under which the states at the ends of the lists are saved
    */
   branch(name: string, lists: Action[][], settings?: { keep?: string }): Promise<Branch[]>;
   /**
    * Save a picture of the screen as a PNG file. In a browser, offer the file for download under this name.
-   * machine: the index of a machine of open, from 0
+   * @param machine the index of a machine of open, from 0
    */
   savePng(path: string, machine?: number): Promise<void>;
   /** End the recording. Returns what was kept. */
@@ -103,20 +208,20 @@ export class Session {
   // generated: commands, from protocol/protocol.toml
   /**
    * Greet the server; the reply has its name, version and limits.
-   * token: a token that the server accepts
+   * @param token a token that the server accepts
    */
   hello(token?: string | { token?: string }): Promise<Group>;
   /**
    * List the games whose image is here, or all known games; or describe one.
-   * which: all for all known games, or the name of a game to describe
+   * @param which all for all known games, or the name of a game to describe
    */
   games(which?: string): Promise<string[]>;
   /** Show the settings in effect. */
   settings(): Promise<Group>;
   /**
    * Change the mode, from the next reset on, or the difficulty, at once.
-   * mode: a number that modes lists
-   * difficulty: a number that difficulties lists
+   * @param settings.mode a number that modes lists
+   * @param settings.difficulty a number that difficulties lists
    */
   set(settings?: { mode?: number; difficulty?: number; }): Promise<Group>;
   /** List the game's modes. */
@@ -125,53 +230,54 @@ export class Session {
   difficulties(): Promise<number[]>;
   /**
    * Select the fields of replies.
-   * fields: the fields, such as lives or screen:rle, or none; without them, the selection does not change
+   * @param fields the fields, such as lives or screen:rle, or none; without them, the selection does not
+   *     change
    */
   observe(...fields: string[]): Promise<string[]>;
   /**
    * Show these fields once; without fields, the selected ones.
-   * fields: the fields, such as lives or screen:rle
+   * @param fields the fields, such as lives or screen:rle
    */
   look(...fields: string[]): Promise<Group>;
   /**
    * Play actions until the episode ends.
-   * actions: names or numbers of actions, also with marks, such as RIGHT*10
+   * @param actions names or numbers of actions, also with marks, such as RIGHT*10
    */
   act(...actions: Action[]): Promise<Group>;
   /**
    * Begin an episode; with a seed, power on anew with it.
-   * seed: the seed with which the console is powered on anew, or random
+   * @param seed the seed with which the console is powered on anew, or random
    */
   reset(seed?: number | "random" | { seed?: number | "random" }): Promise<Group>;
   /**
    * Save the state; generator=1: with the random generator.
-   * name: a name for the state
-   * generator: 1: the state includes the random generator
-   * machine: the index of a machine of open, from 0
+   * @param name a name for the state
+   * @param settings.generator 1: the state includes the random generator
+   * @param settings.machine the index of a machine of open, from 0
    */
   save(name: string, settings?: { generator?: 0 | 1 | boolean; machine?: number; random?: 0 | 1 | boolean; }): Promise<void>;
   /**
    * Restore a saved state.
-   * name: the name of the state
-   * machine: the index of a machine of open, from 0
+   * @param name the name of the state
+   * @param machine the index of a machine of open, from 0
    */
   restore(name: string, machine?: number | { machine?: number }): Promise<Group>;
   /**
    * Delete states.
-   * names: the names of the states, or all
+   * @param names the names of the states, or all
    */
   drop(...names: string[]): Promise<void>;
   /** List the names of the states. */
   states(): Promise<string[]>;
   /**
    * Create N machines with the loaded game and settings; their seeds count up.
-   * count: the number of machines
-   * autoreset: what happens at the end of an episode
-   * steps: what a step is
-   * start: how an episode begins; requires steps=frames
-   * life_loss: what a lost life does
-   * stack: what a stack of screens begins with; requires steps=frames
-   * pool: which frames a stack shows; requires steps=frames
+   * @param count the number of machines
+   * @param settings.autoreset what happens at the end of an episode
+   * @param settings.steps what a step is
+   * @param settings.start how an episode begins; requires steps=frames
+   * @param settings.life_loss what a lost life does
+   * @param settings.stack what a stack of screens begins with; requires steps=frames
+   * @param settings.pool which frames a stack shows; requires steps=frames
    */
   open(count: number, settings?: {
     autoreset?: "next-step" | "disabled" | "same-step";
@@ -184,36 +290,36 @@ export class Session {
   }): Promise<Group[]>;
   /**
    * Play one act on each machine: an action each, or one for all.
-   * actions: an action for each machine, or one for all
+   * @param actions an action for each machine, or one for all
    */
   step(...actions: Action[]): Promise<Group[]>;
   /**
    * Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
-   * mask: a 0 or a 1 for each machine, such as 0110
-   * seed: the seed with which machine 0 is powered on anew; machine 1 gets the next one, and so on
+   * @param mask a 0 or a 1 for each machine, such as 0110
+   * @param seed the seed with which machine 0 is powered on anew; machine 1 gets the next one, and so on
    */
   restart(mask?: string | Settings, seed?: number | "random" | { seed?: number | "random" }): Promise<Group[]>;
   /** Close the machines. */
   closeMachines(): Promise<void>;
   /**
    * Record frames, sound or both into the server's folder.
-   * kinds: the kinds of files, separated by commas, such as gif,wav
-   * name: a name for the files, without an extension
-   * machine: the index of a machine of open, from 0
+   * @param kinds the kinds of files, separated by commas, such as gif,wav
+   * @param name a name for the files, without an extension
+   * @param machine the index of a machine of open, from 0
    */
   record(kinds: string, name: string, machine?: number | { machine?: number }): Promise<Group>;
   /**
    * Log the episodes from the next reset on, so that anybody can verify them.
-   * name: a name for the submission, or inline; last answers with the last log, and stop ends logging
-   * agent: the agent's name (default: agent)
-   * version: the agent's version (default: 1)
-   * agent_seed: the agent's seed (default: 0)
-   * trial: the number of the trial (default: 1)
-   * training_frames: frames that the agent was trained on (default: 0)
-   * phrase: the phrase that the episodes' seeds follow from, with _ for a blank
-   * role: what the agent is
-   * link: a page about the agent
-   * machine: the index of a machine of open, from 0
+   * @param name a name for the submission, or inline; last answers with the last log, and stop ends logging
+   * @param settings.agent the agent's name (default: agent)
+   * @param settings.version the agent's version (default: 1)
+   * @param settings.agent_seed the agent's seed (default: 0)
+   * @param settings.trial the number of the trial (default: 1)
+   * @param settings.training_frames frames that the agent was trained on (default: 0)
+   * @param settings.phrase the phrase that the episodes' seeds follow from, with _ for a blank
+   * @param settings.role what the agent is
+   * @param settings.link a page about the agent
+   * @param settings.machine the index of a machine of open, from 0
    */
   log(name: string, settings?: {
     agent?: string;
@@ -228,14 +334,14 @@ export class Session {
   }): Promise<Group>;
   /**
    * Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
-   * name: a name for the file, without .png
-   * machine: the index of a machine of open, from 0
+   * @param name a name for the file, without .png
+   * @param machine the index of a machine of open, from 0
    */
   shot(name?: string | Settings, machine?: number | { machine?: number }): Promise<Group>;
   /**
    * Let other sessions watch the game under this name.
-   * name: a name for the shared session
-   * watchers: the most sessions that may watch at the same time
+   * @param name a name for the shared session
+   * @param watchers the most sessions that may watch at the same time
    */
   share(name: string, watchers?: number | { watchers?: number }): Promise<Group>;
   /** Stop sharing the game. */
@@ -244,9 +350,9 @@ export class Session {
   shared(): Promise<Group[]>;
   /**
    * Show the latest copy of a shared session.
-   * name: the name of the shared session
-   * since: the frame of the last reply; the fields come only if there is a newer one
-   * fields: fields among screen, ram and palette, such as screen:delta
+   * @param name the name of the shared session
+   * @param settings.since the frame of the last reply; the fields come only if there is a newer one
+   * @param fields fields among screen, ram and palette, such as screen:delta
    */
   watch(name: string, settings?: { since?: number; }, ...fields: string[]): Promise<Group>;
   /** Show counters of this session. */

@@ -21,7 +21,7 @@ generate = importlib.util.module_from_spec(importlib.util.spec_from_loader("gene
 loader.exec_module(generate)
 
 CLIENTS = ("python", "java", "js", "lua", "cpp", "shell")
-COMPLETION = "clients/shell/completion.bash"
+COMPLETION, TYPES = "clients/shell/completion.bash", "clients/js/src/index.d.ts"
 
 
 def changed(text):
@@ -79,28 +79,52 @@ class TestRows:
         assert "run_rewind, " in files["protocol/description/command_rows.inc"]
 
     def test_a_setting_and_an_error_code_reach_the_program_and_the_document(self):
-        for text, table in (
+        for text, table, clients in (
             (
                 '[[setting]]\nname = "tint"\ntype = "int"\naccepted = "0 to 9"\ndefault = "0"\nsummary = "colours"\n',
                 "environment/settings/setting_tables.hpp",
+                {COMPLETION, TYPES},
             ),
-            ('[[error]]\ncode = "too-dark"\nmeaning = "nothing is seen"\n', "protocol/description/tables.hpp"),
+            (
+                '[[error]]\ncode = "too-dark"\nmeaning = "nothing is seen"\n',
+                "protocol/description/tables.hpp",
+                {COMPLETION},
+            ),
         ):
             files = changed(text)
             assert "protocol/PROTOCOL.md" in files
             assert table in files
             assert "protocol/racebeam-protocol.7" in files
-            assert set(files) & {path for path in files if path.startswith("clients/")} == {COMPLETION}
+            assert {path for path in files if path.startswith("clients/")} == clients
+
+    def test_a_setting_has_a_type_in_typescript(self):
+        for kind, accepted, default, expected in (
+            ("int", "0 to 9", "0", " number;"),
+            ("int", "random, or 1 to 9", "random", ' number | "random";'),
+            ("flag", "0 or 1", "0", " 0 | 1 | boolean;"),
+            ("text", "red, green or blue", "red", ' "red" | "green" | "blue";'),
+            ("text", "none or a whole number", "none", " number | string;"),
+        ):
+            row = (
+                f'name = "tint"\ntype = "{kind}"\naccepted = "{accepted}"\ndefault = "{default}"\nsummary = "colours"\n'
+            )
+            assert f"  tint?:{expected}\n" in changed(f"[[setting]]\n{row}")[TYPES]
 
     def test_what_is_true_or_false_is_known_where_0_would_be_true(self):
-        for text in (
-            '[[setting]]\nname = "tint"\ntype = "flag"\naccepted = "0 or 1"\ndefault = "0"\nsummary = "colours"\n',
-            '[[command]]\nname = "rewind"\nneeds = "game"\nsummary = "go back"\nreturns = "own"\n'
-            '[command.reply]\n"tint?" = "flag"\n',
+        for text, clients in (
+            (
+                '[[setting]]\nname = "tint"\ntype = "flag"\naccepted = "0 or 1"\ndefault = "0"\nsummary = "colours"\n',
+                {"lua", "shell", "js"},
+            ),
+            (
+                '[[command]]\nname = "rewind"\nneeds = "game"\nsummary = "go back"\nreturns = "own"\n'
+                '[command.reply]\n"tint?" = "flag"\n',
+                {"lua", "shell"},
+            ),
         ):
             files = changed(text)
-            assert folders(files) == {"lua", "shell"}
-            assert ", tint = true" in files["clients/lua/racebeam/field_table.lua"]
+            assert folders(files) == clients
+            assert "    tint = true,\n" in files["clients/lua/racebeam/field_table.lua"]
 
     def test_what_is_deprecated_is_marked(self):
         files = changed('[[encoding]]\nname = "old"\nsummary = "as before"\ndeprecated = "hex"\n')

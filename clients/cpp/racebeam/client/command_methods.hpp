@@ -36,7 +36,8 @@ class CommandMethods {
   auto settings() { return ask(first, "settings"); }
 
   /// Change the mode, from the next reset on, or the difficulty, at once. Returns Group.
-  /// @param settings `Setting("mode", N)`: a number that modes lists; `Setting("difficulty", N)`: a number that difficulties lists
+  /// @param settings `Setting("mode", N)`: a number that modes lists; `Setting("difficulty", N)`: a number
+  ///     that difficulties lists
   template <class... Words>
   auto set(const Words&... settings) {
     return ask(first, "set", settings...);
@@ -49,7 +50,8 @@ class CommandMethods {
   auto difficulties() { return ask(numbers("difficulties"), "difficulties"); }
 
   /// Select the fields of replies. Returns a list.
-  /// @param fields the fields, such as lives or screen:rle, or none; without them, the selection does not change
+  /// @param fields the fields, such as lives or screen:rle, or none; without them, the selection does not
+  ///     change
   template <class... Words>
   auto observe(const Words&... fields) {
     return ask(list("fields"), "observe", fields...);
@@ -71,14 +73,15 @@ class CommandMethods {
 
   /// Begin an episode; with a seed, power on anew with it. Returns Group.
   auto reset() { return ask(first, "reset"); }
-  /// The same with seed: the seed with which the console is powered on anew, or random.
+  /// The same with seed: the seed with which the console is powered on anew.
   auto reset(std::int64_t seed) {
     return ask(first, "reset", Setting("seed", seed));
   }
 
   /// Save the state; generator=1: with the random generator.
   /// @param name a name for the state
-  /// @param settings `Setting("generator", 1)`: 1: the state includes the random generator; `Setting("machine", N)`: the index of a machine of open, from 0
+  /// @param settings `Setting("generator", 1)`: 1: the state includes the random generator;
+  ///     `Setting("machine", N)`: the index of a machine of open, from 0
   template <class... Words>
   auto save(std::string_view name, const Words&... settings) {
     return ask(first, "save", name, settings...);
@@ -104,7 +107,11 @@ class CommandMethods {
 
   /// Create N machines with the loaded game and settings; their seeds count up. Returns the Group of each.
   /// @param count the number of machines
-  /// @param settings `Setting("autoreset", VALUE)`: what happens at the end of an episode; `Setting("steps", VALUE)`: what a step is; `Setting("start", VALUE)`: how an episode begins; requires steps=frames; `Setting("life_loss", VALUE)`: what a lost life does; `Setting("stack", VALUE)`: what a stack of screens begins with; requires steps=frames; `Setting("pool", VALUE)`: which frames a stack shows; requires steps=frames
+  /// @param settings `Setting("autoreset", VALUE)`: what happens at the end of an episode; `Setting("steps",
+  ///     VALUE)`: what a step is; `Setting("start", VALUE)`: how an episode begins; requires steps=frames;
+  ///     `Setting("life_loss", VALUE)`: what a lost life does; `Setting("stack", VALUE)`: what a stack of
+  ///     screens begins with; requires steps=frames; `Setting("pool", VALUE)`: which frames a stack shows;
+  ///     requires steps=frames
   template <class... Words>
   auto open(std::int64_t count, const Words&... settings) {
     return ask(rest, "open", count, settings...);
@@ -117,8 +124,10 @@ class CommandMethods {
     return ask(rest, "step", actions...);
   }
 
-  /// Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up. Returns the Group of each.
-  /// @param settings a 0 or a 1 for each machine, such as 0110; `Setting("seed", N|random)`: the seed with which machine 0 is powered on anew; machine 1 gets the next one, and so on
+  /// Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up. Returns the Group of
+  /// each.
+  /// @param settings a 0 or a 1 for each machine, such as 0110; `Setting("seed", N|random)`: the seed with
+  ///     which machine 0 is powered on anew; machine 1 gets the next one, and so on
   template <class... Words>
   auto restart(const Words&... settings) {
     return ask(rest, "restart", settings...);
@@ -138,14 +147,22 @@ class CommandMethods {
 
   /// Log the episodes from the next reset on, so that anybody can verify them. Returns Group.
   /// @param name a name for the submission, or inline; last answers with the last log, and stop ends logging
-  /// @param settings `Setting("agent", AGENT)`: the agent's name (default: agent); `Setting("version", VERSION)`: the agent's version (default: 1); `Setting("agent_seed", N)`: the agent's seed (default: 0); `Setting("trial", N)`: the number of the trial (default: 1); `Setting("training_frames", N)`: frames that the agent was trained on (default: 0); `Setting("phrase", PHRASE)`: the phrase that the episodes' seeds follow from, with _ for a blank; `Setting("role", VALUE)`: what the agent is; `Setting("link", URL)`: a page about the agent; `Setting("machine", N)`: the index of a machine of open, from 0
+  /// @param settings `Setting("agent", AGENT)`: the agent's name (default: agent); `Setting("version",
+  ///     VERSION)`: the agent's version (default: 1); `Setting("agent_seed", N)`: the agent's seed (default:
+  ///     0); `Setting("trial", N)`: the number of the trial (default: 1); `Setting("training_frames", N)`:
+  ///     frames that the agent was trained on (default: 0); `Setting("phrase", PHRASE)`: the phrase that the
+  ///     episodes' seeds follow from, with _ for a blank; `Setting("role", VALUE)`: what the agent is;
+  ///     `Setting("link", URL)`: a page about the agent; `Setting("machine", N)`: the index of a machine of
+  ///     open, from 0
   template <class... Words>
   auto log(std::string_view name, const Words&... settings) {
     return ask(first, "log", name, settings...);
   }
 
-  /// Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64. Returns Group.
-  /// @param settings a name for the file, without .png; `Setting("machine", N)`: the index of a machine of open, from 0
+  /// Write the screen as NAME.png into the server's folder; without NAME or folder, answer with it as base64.
+  /// Returns Group.
+  /// @param settings a name for the file, without .png; `Setting("machine", N)`: the index of a machine of
+  ///     open, from 0
   template <class... Words>
   auto shot(const Words&... settings) {
     return ask(first, "shot", settings...);
@@ -167,7 +184,8 @@ class CommandMethods {
 
   /// Show the latest copy of a shared session. Returns Group.
   /// @param name the name of the shared session
-  /// @param fields `Setting("since", FRAME)`: the frame of the last reply; the fields come only if there is a newer one; fields among screen, ram and palette, such as screen:delta
+  /// @param fields `Setting("since", FRAME)`: the frame of the last reply; the fields come only if there is a
+  ///     newer one; fields among screen, ram and palette, such as screen:delta
   template <class... Words>
   auto watch(std::string_view name, const Words&... fields) {
     return ask(first, "watch", name, fields...);

@@ -44,7 +44,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group hello(String token) throws IOException {
-    return request("hello" + " token=" + token).first();
+    return request("hello token=" + token).first();
   }
 
   /**
@@ -65,7 +65,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public List<String> games(String which) throws IOException {
-    return request("games" + " " + which).first().list("games");
+    return request("games " + which).first().list("games");
   }
 
   /**
@@ -122,7 +122,8 @@ public abstract sealed class Commands permits Session {
   /**
    * Select the fields of replies.
    *
-   * @param fields the fields, such as lives or screen:rle, or none; without them, the selection does not change
+   * @param fields the fields, such as lives or screen:rle, or none; without them, the selection does not
+   *     change
    * @return the list fields of the reply
    * @throws IOException if the session has ended
    */
@@ -165,12 +166,12 @@ public abstract sealed class Commands permits Session {
   /**
    * Begin an episode; with a seed, power on anew with it.
    *
-   * @param seed the seed with which the console is powered on anew, or random
+   * @param seed the seed with which the console is powered on anew
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
   public Group reset(long seed) throws IOException {
-    return request("reset" + " seed=" + seed).first();
+    return request("reset seed=" + seed).first();
   }
 
   /**
@@ -180,18 +181,19 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public void save(String name) throws IOException {
-    request("save" + " " + name);
+    request("save " + name);
   }
 
   /**
    * Save the state; generator=1: with the random generator.
    *
    * @param name a name for the state
-   * @param settings generator: 1: the state includes the random generator; machine: the index of a machine of open, from 0
+   * @param settings generator: 1: the state includes the random generator; machine: the index of a machine of
+   *     open, from 0
    * @throws IOException if the session has ended
    */
   public void save(String name, Map<String, ?> settings) throws IOException {
-    request("save" + " " + name + Racebeam.pairs(settings));
+    request("save " + name + Racebeam.pairs(settings));
   }
 
   /**
@@ -202,7 +204,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group restore(String name) throws IOException {
-    return request("restore" + " " + name).first();
+    return request("restore " + name).first();
   }
 
   /**
@@ -214,7 +216,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group restore(String name, long machine) throws IOException {
-    return request("restore" + " " + name + " machine=" + machine).first();
+    return request("restore " + name + " machine=" + machine).first();
   }
 
   /**
@@ -245,19 +247,21 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public List<Group> open(long count) throws IOException {
-    return request("open" + " " + count).rest();
+    return request("open " + count).rest();
   }
 
   /**
    * Create N machines with the loaded game and settings; their seeds count up.
    *
    * @param count the number of machines
-   * @param settings autoreset: what happens at the end of an episode; steps: what a step is; start: how an episode begins; requires steps=frames; life_loss: what a lost life does; stack: what a stack of screens begins with; requires steps=frames; pool: which frames a stack shows; requires steps=frames
+   * @param settings autoreset: what happens at the end of an episode; steps: what a step is; start: how an
+   *     episode begins; requires steps=frames; life_loss: what a lost life does; stack: what a stack of
+   *     screens begins with; requires steps=frames; pool: which frames a stack shows; requires steps=frames
    * @return the groups after the first
    * @throws IOException if the session has ended
    */
   public List<Group> open(long count, Map<String, ?> settings) throws IOException {
-    return request("open" + " " + count + Racebeam.pairs(settings)).rest();
+    return request("open " + count + Racebeam.pairs(settings)).rest();
   }
 
   /**
@@ -289,7 +293,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public List<Group> restart(long seed) throws IOException {
-    return request("restart" + " seed=" + seed).rest();
+    return request("restart seed=" + seed).rest();
   }
 
   /**
@@ -300,7 +304,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public List<Group> restart(String mask) throws IOException {
-    return request("restart" + " " + mask).rest();
+    return request("restart " + mask).rest();
   }
 
   /**
@@ -312,7 +316,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public List<Group> restart(String mask, long seed) throws IOException {
-    return request("restart" + " " + mask + " seed=" + seed).rest();
+    return request("restart " + mask + " seed=" + seed).rest();
   }
 
   /**
@@ -333,7 +337,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group record(String kinds, String name) throws IOException {
-    return request("record" + " " + kinds + " " + name).first();
+    return request("record " + kinds + " " + name).first();
   }
 
   /**
@@ -346,7 +350,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group record(String kinds, String name, long machine) throws IOException {
-    return request("record" + " " + kinds + " " + name + " machine=" + machine).first();
+    return request("record " + kinds + " " + name + " machine=" + machine).first();
   }
 
   /**
@@ -357,19 +361,23 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group log(String name) throws IOException {
-    return request("log" + " " + name).first();
+    return request("log " + name).first();
   }
 
   /**
    * Log the episodes from the next reset on, so that anybody can verify them.
    *
    * @param name a name for the submission, or inline; last answers with the last log, and stop ends logging
-   * @param settings agent: the agent's name (default: agent); version: the agent's version (default: 1); agent_seed: the agent's seed (default: 0); trial: the number of the trial (default: 1); training_frames: frames that the agent was trained on (default: 0); phrase: the phrase that the episodes' seeds follow from, with _ for a blank; role: what the agent is; link: a page about the agent; machine: the index of a machine of open, from 0
+   * @param settings agent: the agent's name (default: agent); version: the agent's version (default: 1);
+   *     agent_seed: the agent's seed (default: 0); trial: the number of the trial (default: 1);
+   *     training_frames: frames that the agent was trained on (default: 0); phrase: the phrase that the
+   *     episodes' seeds follow from, with _ for a blank; role: what the agent is; link: a page about the
+   *     agent; machine: the index of a machine of open, from 0
    * @return the first group of the reply
    * @throws IOException if the session has ended
    */
   public Group log(String name, Map<String, ?> settings) throws IOException {
-    return request("log" + " " + name + Racebeam.pairs(settings)).first();
+    return request("log " + name + Racebeam.pairs(settings)).first();
   }
 
   /**
@@ -390,7 +398,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group shot(long machine) throws IOException {
-    return request("shot" + " machine=" + machine).first();
+    return request("shot machine=" + machine).first();
   }
 
   /**
@@ -401,7 +409,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group shot(String name) throws IOException {
-    return request("shot" + " " + name).first();
+    return request("shot " + name).first();
   }
 
   /**
@@ -413,7 +421,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group shot(String name, long machine) throws IOException {
-    return request("shot" + " " + name + " machine=" + machine).first();
+    return request("shot " + name + " machine=" + machine).first();
   }
 
   /**
@@ -424,7 +432,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group share(String name) throws IOException {
-    return request("share" + " " + name).first();
+    return request("share " + name).first();
   }
 
   /**
@@ -436,7 +444,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group share(String name, long watchers) throws IOException {
-    return request("share" + " " + name + " watchers=" + watchers).first();
+    return request("share " + name + " watchers=" + watchers).first();
   }
 
   /**
@@ -467,7 +475,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group watch(String name, String... fields) throws IOException {
-    return request("watch" + " " + name + words(fields)).first();
+    return request("watch " + name + words(fields)).first();
   }
 
   /**
@@ -480,7 +488,7 @@ public abstract sealed class Commands permits Session {
    * @throws IOException if the session has ended
    */
   public Group watch(String name, long since, String... fields) throws IOException {
-    return request("watch" + " " + name + " since=" + since + words(fields)).first();
+    return request("watch " + name + " since=" + since + words(fields)).first();
   }
 
   /**
