@@ -1,3 +1,4 @@
+import java.util.Arrays;
 import java.util.Map;
 import java.util.Random;
 import racebeam.Group;
@@ -52,7 +53,7 @@ public final class Sarsa {
   /** Plays an episode, and learns from it. Returns the score. */
   private long play(Session game) throws Exception {
     for (double[] trace : traces) {
-      java.util.Arrays.fill(trace, 0);
+      Arrays.fill(trace, 0);
     }
     Group shown = game.reset();
     int[] features = features(shown.bytes("ram"));

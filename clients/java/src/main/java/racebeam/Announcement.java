@@ -28,11 +28,11 @@ record Announcement(List<String> addresses, String token) {
     if (!first.matches() || !last.matches()) {
       throw new IllegalArgumentException(path + " is not a whole announce file");
     }
-    List<String> addresses = lines.stream().flatMap(line -> ADDRESS.matcher(line).results()).map(Announcement::unquoted).toList();
+    List<String> addresses = lines.stream().flatMap(line -> ADDRESS.matcher(line).results()).map(Announcement::unescape).toList();
     return new Announcement(addresses, last.group(1));
   }
 
-  private static String unquoted(MatchResult found) {
+  private static String unescape(MatchResult found) {
     return found.group(1).replaceAll("\\\\(.)", "$1");
   }
 }

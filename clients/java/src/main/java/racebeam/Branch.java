@@ -1,5 +1,7 @@
 package racebeam;
 
+import java.util.ArrayList;
+import java.util.Collections;
 import java.util.List;
 
 /**
@@ -24,10 +26,10 @@ public record Branch(List<Long> rewards, List<Long> rewardsB, Group group) {
   }
 
   private static List<Long> rewards(Group group, String key) {
-    List<Long> rewards = new java.util.ArrayList<>();
+    List<Long> rewards = new ArrayList<>();
     for (String run : group.has(key) ? group.list(key) : List.<String>of()) {
       String[] parts = run.split("\\*");
-      rewards.addAll(java.util.Collections.nCopies(parts.length == 1 ? 1 : Integer.parseInt(parts[1]), Long.valueOf(parts[0])));
+      rewards.addAll(Collections.nCopies(parts.length == 1 ? 1 : Integer.parseInt(parts[1]), Long.valueOf(parts[0])));
     }
     return rewards;
   }

@@ -39,7 +39,7 @@ final class Connection implements Closeable {
     this.token = options.token();
   }
 
-  /** For the greeting: that of the caller, or of an announce file; or null. */
+  /** Returns the token for the greeting: that of the caller, or of an announce file; or null. */
   String token() {
     return token;
   }
@@ -49,7 +49,7 @@ final class Connection implements Closeable {
     output.flush();
   }
 
-  /** The next line, without its end. */
+  /** Reads the next line. Returns it without its end. */
   String readLine() throws IOException {
     start = System.nanoTime();
     int searched = begin;
@@ -65,7 +65,7 @@ final class Connection implements Closeable {
     }
   }
 
-  /** The next bytes, which follow a line. The time limit is that of the line. */
+  /** Reads the next bytes, which follow a line. The time limit is that of the line. */
   byte[] readBytes(int count) throws IOException {
     if (count > longest) {
       throw tooLong();
@@ -78,7 +78,7 @@ final class Connection implements Closeable {
     return bytes;
   }
 
-  /** Returns how far it moved to the front what was read before. */
+  /** Reads what arrives next. Returns by how much {@code begin} and {@code filled} were moved to the front. */
   private int readMore() throws IOException {
     int moved = makeRoom();
     int read = source.read(data, filled, data.length - filled, remaining());
@@ -93,7 +93,7 @@ final class Connection implements Closeable {
     return new IOException("the reply of the server is longer than " + longest + " bytes");
   }
 
-  /** Makes room behind what was read. Returns how far it moved to the front. */
+  /** Makes room behind what was read. Returns by how much that was moved to the front. */
   private int makeRoom() throws IOException {
     int moved = begin;
     if (filled - begin > longest || filled - begin == LARGEST) {

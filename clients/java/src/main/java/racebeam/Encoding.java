@@ -3,6 +3,7 @@ package racebeam;
 import java.io.ByteArrayInputStream;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
+import java.util.Arrays;
 import java.util.Base64;
 import java.util.zip.InflaterInputStream;
 
@@ -30,7 +31,7 @@ public enum Encoding {
       byte[] decoded = new byte[size];
       for (int at = 0, place = 0; at < runs.length; at += 2) {
         int end = place + (runs[at + 1] & 0xFF);
-        java.util.Arrays.fill(decoded, place, end, runs[at]);
+        Arrays.fill(decoded, place, end, runs[at]);
         place = end;
       }
       return decoded;
@@ -74,7 +75,7 @@ public enum Encoding {
   private static final byte[] DIGITS = new byte[256];
 
   static {
-    java.util.Arrays.fill(DIGITS, (byte) -1);
+    Arrays.fill(DIGITS, (byte) -1);
     for (char digit : "0123456789ABCDEFabcdef".toCharArray()) {
       DIGITS[digit] = (byte) Character.digit(digit, 16);
     }
@@ -108,7 +109,7 @@ public enum Encoding {
         if (end > array.length) {
           throw new IllegalArgumentException("a delta reaches byte " + end + " of " + array.length);
         }
-        java.util.Arrays.fill(array, place, end, (byte) octet(text, at));
+        Arrays.fill(array, place, end, (byte) octet(text, at));
         place = end;
       }
     }

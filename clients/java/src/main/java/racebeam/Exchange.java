@@ -79,7 +79,7 @@ final class Exchange implements Closeable {
     }
   }
 
-  /** The next reply to a request that was sent ahead. */
+  /** Receives the next reply to a request that was sent ahead. */
   synchronized Reply receive() throws IOException {
     return (arrived.isEmpty() ? outcome() : arrived.remove()).get();
   }
@@ -101,7 +101,7 @@ final class Exchange implements Closeable {
       }
       List<Map<String, String>> groups = groups(line);
       ByteBuffer raw = ByteBuffer.wrap(connection.readBytes(takeRaw(groups)));
-      return new Outcome(new Reply(fields.follow(List.of(request.strip().split(" +")), groups, raw), line), null);
+      return new Outcome(new Reply(fields.decode(List.of(request.strip().split(" +")), groups, raw), line), null);
     } catch (IOException failure) {
       refuseIfClosed(failure);
       close(); // half a reply may have been read
@@ -142,7 +142,7 @@ final class Exchange implements Closeable {
     return groups;
   }
 
-  /** How many bytes follow the line. Removes the pair that says so. */
+  /** Returns how many bytes follow the line, and removes the pair that says so. */
   private static int takeRaw(List<Map<String, String>> groups) {
     String raw = groups.get(groups.size() - 1).remove("raw");
     int count = raw == null ? 0 : Integer.parseInt(raw);

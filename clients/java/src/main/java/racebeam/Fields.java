@@ -22,8 +22,14 @@ final class Fields {
   private final Map<String, Source> watched = new HashMap<>(); // by the name of the session
   private int height;
 
-  /** The groups of a reply, decoded. `words`: those of the request; `raw`: the bytes that followed the reply's line. */
-  List<Group> follow(List<String> words, List<Map<String, String>> groups, ByteBuffer raw) {
+  /**
+   * Decodes the groups of a reply.
+   *
+   * @param words the words of the request
+   * @param groups the pairs of each group
+   * @param raw the bytes that followed the reply's line
+   */
+  List<Group> decode(List<String> words, List<Map<String, String>> groups, ByteBuffer raw) {
     String command = words.get(0);
     List<String> fields = words.subList(1, words.size());
     switch (command) {
@@ -85,8 +91,8 @@ final class Fields {
       Encoding encoding = encodings.get(field);
       if (encoding != null) {
         bytes.put(entry.getKey(), switch (encoding) {
-          case DELTA -> changed(source, field, entry.getValue());
-          case RAW -> taken(raw, Integer.parseInt(entry.getValue()));
+          case DELTA -> applyDelta(source, field, entry.getValue());
+          case RAW -> take(raw, Integer.parseInt(entry.getValue()));
           default -> encoding.decode(entry.getValue());
         });
       }
@@ -95,7 +101,7 @@ final class Fields {
     return new Group(texts, bytes);
   }
 
-  private static byte[] taken(ByteBuffer raw, int count) {
+  private static byte[] take(ByteBuffer raw, int count) {
     if (count < 0 || count > raw.remaining()) {
       throw new IllegalArgumentException("a field has " + count + " bytes, but " + raw.remaining() + " are left behind the line");
     }
@@ -104,7 +110,8 @@ final class Fields {
     return bytes;
   }
 
-  private static byte[] changed(Source source, String field, String delta) {
+  /** Applies a delta to the field's array in {@code source}. Returns a copy. */
+  private static byte[] applyDelta(Source source, String field, String delta) {
     byte[] array = source.arrays.computeIfAbsent(field, unused -> new byte[size(field, source.height)]);
     Encoding.applyDelta(array, delta);
     return array.clone();

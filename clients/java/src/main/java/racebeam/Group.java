@@ -37,6 +37,8 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
    *
    * @param key the key
    * @return its value
+   * @throws NoSuchElementException if the group does not have it
+   * @throws NumberFormatException if it is another text
    */
   public long number(String key) {
     return Long.parseLong(text(key));
@@ -47,6 +49,8 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
    *
    * @param key the key
    * @return its value
+   * @throws NoSuchElementException if the group does not have it
+   * @throws NumberFormatException if it is another text
    */
   public double real(String key) {
     return Double.parseDouble(text(key));
@@ -57,6 +61,7 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
    *
    * @param key the key
    * @return its elements
+   * @throws NoSuchElementException if the group does not have it
    */
   public List<String> list(String key) {
     String text = text(key);
@@ -68,6 +73,7 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
    *
    * @param field the field
    * @return its bytes
+   * @throws NoSuchElementException if the group does not have it, or it is not a field of bytes
    */
   public byte[] bytes(String field) {
     return found(bytes.get(field), field);
@@ -77,6 +83,7 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
    * Returns the field reward.
    *
    * @return the sum of the request's rewards
+   * @throws NoSuchElementException if it was not observed
    */
   public long reward() {
     return number("reward");
@@ -86,6 +93,7 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
    * Returns the field lives.
    *
    * @return the remaining lives
+   * @throws NoSuchElementException if it was not observed
    */
   public int lives() {
     return (int) number("lives");
@@ -95,6 +103,7 @@ public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
    * Returns whether the field terminated or truncated is 1.
    *
    * @return whether the episode has ended
+   * @throws NoSuchElementException if one of them was not observed
    */
   public boolean isOver() {
     return number("terminated") == 1 || number("truncated") == 1;

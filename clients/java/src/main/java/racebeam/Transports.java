@@ -4,6 +4,8 @@ import java.io.FileInputStream;
 import java.io.FileOutputStream;
 import java.io.IOException;
 import java.io.InputStream;
+import java.io.InterruptedIOException;
+import java.io.OutputStream;
 import java.net.InetSocketAddress;
 import java.net.Socket;
 import java.net.SocketTimeoutException;
@@ -19,6 +21,7 @@ import java.nio.channels.SocketChannel;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.security.NoSuchAlgorithmException;
 import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
@@ -34,7 +37,7 @@ final class Transports {
   private static final Pattern FILE = Pattern.compile("file:(.+?)(?:\\?wait=(.*))?", Pattern.DOTALL);
   private static final Pattern SECONDS = Pattern.compile("[0-9]{1,9}(\\.[0-9]+)?");
   private static final String FILES = "; file:PATH takes the --ready-file or --announce file of a server";
-  private static final long BETWEEN_TRIES = 50; // milliseconds
+  private static final long RETRY_MILLISECONDS = 50;
   private static final Pattern USABLE = Pattern.compile("(tcp:|tls:|unix:|pipes:).*");
   private static final int SECONDS_TO_END = 10; // for its own server
 
@@ -44,7 +47,7 @@ final class Transports {
     Matcher network = NETWORK.matcher(address);
     if (network.matches() && Integer.parseInt(network.group(3)) < 65536) {
       boolean tls = network.group(1).equals("tls");
-      return reached(address, () -> network(tls, network.group(2), Integer.parseInt(network.group(3)), options));
+      return openAt(address, () -> network(tls, network.group(2), Integer.parseInt(network.group(3)), options));
     }
     Matcher file = FILE.matcher(address);
     if (file.matches()) {
@@ -61,7 +64,7 @@ final class Transports {
     String rest = address.substring(colon);
     String kind = rest.isEmpty() ? "" : address.substring(0, colon);
     return switch (kind) {
-      case "unix:" -> reached(address, () -> unix(rest, options));
+      case "unix:" -> openAt(address, () -> unix(rest, options));
       case "pipes:" -> pipes(rest, options);
       default -> throw new IllegalArgumentException((address.isEmpty()
           ? "no address was given, and the variable RACEBEAM_ADDRESS is not set" : "the address is '" + address + "'")
@@ -74,12 +77,13 @@ final class Transports {
     Connection open() throws IOException;
   }
 
-  /** What {@code opener} opens. A failure says at which address. */
-  private static Connection reached(String address, Opener opener) throws IOException {
-    return explained("no server answers at " + address + ": ", opener, "");
+  /** Opens a connection. A failure says at which address. */
+  private static Connection openAt(String address, Opener opener) throws IOException {
+    return openOrExplain("no server answers at " + address + ": ", opener, "");
   }
 
-  private static Connection explained(String before, Opener opener, String after) throws IOException {
+  /** Opens a connection. A failure has a text before and after its message, except when the time was over. */
+  private static Connection openOrExplain(String before, Opener opener, String after) throws IOException {
     try {
       return opener.open();
     } catch (SocketTimeoutException late) {
@@ -101,7 +105,7 @@ final class Transports {
             () -> new IllegalArgumentException(isAnnounced || lines.get(0).startsWith("#")
                 ? path + " names no address that this client can use" : path + " has other contents" + FILES));
         Options admitted = options.token() == null ? options.withToken(announced.token()) : options;
-        return explained("", () -> open(address, admitted), " (" + path + " names this address)");
+        return openOrExplain("", () -> open(address, admitted), " (" + path + " names this address)");
       } catch (IOException failure) {
         if (System.nanoTime() >= until) {
           throw failure;
@@ -111,7 +115,7 @@ final class Transports {
     }
   }
 
-  /** One at least. A pipe might block, and is refused. */
+  /** Reads the lines of a file, at least one. A pipe might block, and is refused. */
   private static List<String> linesOf(Path path) throws IOException {
     if (Files.exists(path) && !Files.isRegularFile(path)) {
       throw new IllegalArgumentException(path + " is not a regular file" + FILES);
@@ -125,10 +129,10 @@ final class Transports {
 
   private static void pause() throws IOException {
     try {
-      Thread.sleep(BETWEEN_TRIES);
+      Thread.sleep(RETRY_MILLISECONDS);
     } catch (InterruptedException interrupted) {
       Thread.currentThread().interrupt();
-      throw new java.io.InterruptedIOException("interrupted while waiting for a server");
+      throw new InterruptedIOException("interrupted while waiting for a server");
     }
   }
 
@@ -141,7 +145,7 @@ final class Transports {
     try {
       plain.connect(new InetSocketAddress(host, port), milliseconds(options.timeout()));
       plain.setTcpNoDelay(true);
-      Socket socket = tls ? secured(plain, host, port, options) : plain;
+      Socket socket = tls ? secure(plain, host, port, options) : plain;
       InputStream input = socket.getInputStream();
       Connection.Source source = (data, at, length, limit) -> {
         socket.setSoTimeout(limit);
@@ -154,7 +158,7 @@ final class Transports {
     }
   }
 
-  private static Socket secured(Socket plain, String host, int port, Options options) throws IOException {
+  private static Socket secure(Socket plain, String host, int port, Options options) throws IOException {
     try {
       SSLContext context = options.tls() != null ? options.tls() : SSLContext.getDefault();
       SSLSocket socket = (SSLSocket) context.getSocketFactory().createSocket(plain, host, port, true);
@@ -164,7 +168,7 @@ final class Transports {
       socket.setSoTimeout(milliseconds(options.timeout()));
       socket.startHandshake();
       return socket;
-    } catch (java.security.NoSuchAlgorithmException failure) {
+    } catch (NoSuchAlgorithmException failure) {
       throw new IOException(failure);
     }
   }
@@ -197,7 +201,7 @@ final class Transports {
       }
       return read;
     };
-    var output = new java.io.OutputStream() {
+    var output = new OutputStream() {
       @Override
       public void write(int value) throws IOException {
         write(new byte[] {(byte) value}, 0, 1);
@@ -224,7 +228,7 @@ final class Transports {
       int ready = selector.select(limit);
       if (Thread.interrupted()) {
         Thread.currentThread().interrupt();
-        throw new java.io.InterruptedIOException("interrupted while waiting for the server");
+        throw new InterruptedIOException("interrupted while waiting for the server");
       }
       if (!channel.isOpen()) {
         throw new AsynchronousCloseException();
