@@ -13,7 +13,7 @@ function octet(text, at) {
   const high = DIGITS[text.charCodeAt(at)];
   const low = DIGITS[text.charCodeAt(at + 1)];
   if (!(high >= 0 && low >= 0)) { // undefined beyond the end, and for characters beyond 255
-    throw new RangeError(`no byte in hexadecimal: '${text.slice(at, at + 2)}'`);
+    throw new RangeError(`not a byte in hexadecimal: '${text.slice(at, at + 2)}'`);
   }
   return (high << 4) | low;
 }
@@ -44,12 +44,13 @@ export function rle(text) {
 
 export function base64(text) {
   if (text.length % 4 || !/^[A-Za-z0-9+/]*={0,2}$/.test(text)) {
-    throw new RangeError("no base64");
+    throw new RangeError("not base64");
   }
   return fromBase64(text);
 }
 
-function damaged(error) {
+/** Throws the error of a damaged stream. */
+function refuseStream(error) {
   throw new RangeError(`the zlib stream is damaged: ${error.message}`, { cause: error });
 }
 
@@ -57,9 +58,9 @@ function damaged(error) {
 export function zlib(text) {
   try {
     const inflated = inflate(base64(text));
-    return inflated instanceof Promise ? inflated.catch(damaged) : inflated;
+    return inflated instanceof Promise ? inflated.catch(refuseStream) : inflated;
   } catch (error) {
-    return damaged(error);
+    return refuseStream(error);
   }
 }
 

@@ -18,8 +18,8 @@ function sizeOfSmall(field) {
 function encodings(fields) {
   const found = new Map();
   for (const field of fields) {
-    const [name, told] = field.split(":");
-    const encoding = told ?? USUAL[name] ?? (sizeOfSmall(name) && "zlib");
+    const [name, chosen] = field.split(":");
+    const encoding = chosen ?? USUAL[name] ?? (sizeOfSmall(name) && "zlib");
     if (encoding) {
       found.set(name, encoding);
     }
@@ -38,8 +38,8 @@ function firstMachine([command, , ...rest]) {
   return restored ? Number(restored.slice("machine=".length)) + 1 : 0;
 }
 
-/** What a delta makes of the array that the last ones have made. */
-function changed({ arrays, height }, field, text) {
+/** Applies a delta to the array of a field, which the last ones have changed. Returns a copy. */
+function changeArray({ arrays, height }, field, text) {
   const array = arrays.get(field) ?? new Uint8Array(sizeOf(field, height));
   arrays.set(field, array);
   applyDelta(array, text);
@@ -48,7 +48,7 @@ function changed({ arrays, height }, field, text) {
 
 /** Decodes the fields of replies. It follows what requests that were granted change about later replies. */
 export class Fields {
-  #chosen = new Map();
+  #chosen = new Map(); // encodings, by field
   #arrays = new Map(); // what deltas have made, by machine and field; machine 0 is that of load
   #watched = new Map(); // the same of sessions that are watched, by name: { fields, height, arrays }
   #height = 0;
@@ -62,7 +62,7 @@ export class Fields {
     this.#raw = bytes;
     const words = request.split(" ").filter(Boolean);
     this.#follow(words, line);
-    const chosen = this.#chosenBy(words);
+    const chosen = this.#encodingsOf(words);
     const watched = words[0] === "watch" ? this.#watch(words, line) : undefined;
     const groups = [{}];
     const first = firstMachine(words);
@@ -81,13 +81,14 @@ export class Fields {
   }
 
   /** The encodings of the fields that a request asks for itself, or else of those that `observe` selected. */
-  #chosenBy([command, ...rest]) {
+  #encodingsOf([command, ...rest]) {
     if (command === "watch") {
       return encodings(rest.slice(1));
     }
     return command === "look" && rest.length ? encodings(rest) : this.#chosen;
   }
 
+  /** Remembers what a request that was granted changes: the encodings of fields, and the height of screens. */
   #follow([command, ...fields], line) {
     if (command === "observe" && fields.length) {
       this.#chosen = encodings(fields);
@@ -124,16 +125,16 @@ export class Fields {
     }
     switch (encoding) {
       case "delta":
-        return changed(source, field, text);
+        return changeArray(source, field, text);
       case "raw":
-        return this.#followed(Number(text));
+        return this.#takeRaw(Number(text));
       default:
         return DECODERS[encoding](text);
     }
   }
 
-  /** The next bytes of those that followed the line. */
-  #followed(size) {
+  /** Takes the next bytes of those that followed the line. */
+  #takeRaw(size) {
     if (!(size <= this.#raw.length)) {
       throw new RangeError(`${size} bytes do not follow the line`);
     }

@@ -9,10 +9,10 @@ export class Lines {
   #ended; // an error
   #timer;
   #closed;
-  #tellEnd;
+  #resolveLost;
 
   /** Resolves with the reason, once the connection has ended. */
-  lost = new Promise((resolve) => (this.#tellEnd = resolve));
+  lost = new Promise((resolve) => (this.#resolveLost = resolve));
 
   constructor(connection, { timeout, longestReply }) {
     this.#connection = connection;
@@ -34,7 +34,7 @@ export class Lines {
       }
       this.#waiting.push({ resolve, reject });
       if (this.#waiting.length === 1) {
-        this.#watch();
+        this.#restartTimer();
       }
       this.#connection.send(line);
     });
@@ -49,7 +49,7 @@ export class Lines {
 
   #answer(reply) {
     const next = this.#waiting.shift();
-    this.#watch();
+    this.#restartTimer();
     if (next) {
       next.resolve(reply);
     } else if (!this.#ended) {
@@ -57,8 +57,8 @@ export class Lines {
     }
   }
 
-  /** Limits the time until the next reply. */
-  #watch() {
+  /** Limits the time until the next reply, if a request waits for one. */
+  #restartTimer() {
     clearTimeout(this.#timer);
     if (this.#timeout && this.#waiting.length) {
       this.#timer = setTimeout(() => this.#lose(new TimeoutError(`the server did not answer in ${this.#timeout} ms`)), this.#timeout);
@@ -70,7 +70,7 @@ export class Lines {
       return;
     }
     this.#ended = error;
-    this.#tellEnd(error);
+    this.#resolveLost(error);
     clearTimeout(this.#timer);
     this.#closed = Promise.resolve(this.#connection.end());
     for (const { reject } of this.#waiting.splice(0)) {

@@ -15,16 +15,16 @@ function toHex(bytes) {
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("").toUpperCase();
 }
 
-/** The words of lists of actions. */
-function sequences(lists) {
+/** A word for each list of actions. */
+function wordsOfLists(lists) {
   if (!Array.isArray(lists) || !lists.every(Array.isArray)) {
     throw new TypeError(`the lists are '${lists}'; branch takes an array of arrays of actions, such as [["FIRE", "UP"]]`);
   }
   return lists.map((actions) => actions.join(","));
 }
 
-/** The groups, or a promise of them if values are still to be decoded. */
-function settled(groups) {
+/** Returns the groups, or a promise of them if values are still to be decoded. */
+function settle(groups) {
   const waiting = [];
   for (const group of groups) {
     for (const key in group) {
@@ -34,6 +34,11 @@ function settled(groups) {
     }
   }
   return waiting.length ? Promise.all(waiting).then(() => groups) : groups;
+}
+
+/** A map from pairs NUMBER:NAME. */
+function namesByNumber(pairs) {
+  return new Map(pairs.map((pair) => pair.split(":")).map(([number, name]) => [Number(number), name]));
 }
 
 /** The value of a key as it was sent. */
@@ -71,10 +76,11 @@ export class Session extends Commands {
     if (line.includes("\n") || /^ *#/.test(line)) {
       throw new TypeError(`a request is one line, and no comment: '${line}'`);
     }
-    return this.#understood(line, await this.#lines.ask(line));
+    return this.#parse(line, await this.#lines.ask(line));
   }
 
-  async #understood(request, { line, bytes }) {
+  /** Parses the reply to a request. Throws a RefusedError, or ends the session with a LostError. */
+  async #parse(request, { line, bytes }) {
     const refused = /^error (\S+) ?(.*)$/.exec(line);
     if (refused) {
       throw new RefusedError(refused[1], refused[2]);
@@ -83,7 +89,7 @@ export class Session extends Commands {
       if (line !== "ok" && !line.startsWith("ok ")) {
         throw new RangeError(`'${line.slice(0, 60)}' is not a reply`);
       }
-      return { groups: await settled(this.#fields.groups(request, line, bytes)), line };
+      return { groups: await settle(this.#fields.groups(request, line, bytes)), line };
     } catch (cause) {
       const error = new LostError(`the server sent an invalid reply: ${printable(cause.message)}`, { cause });
       this.#lines.end(error);
@@ -118,14 +124,12 @@ export class Session extends Commands {
   }
 
   async actions() {
-    const named = (await this.#list("actions", "actions")).map((pair) => pair.split(":"));
-    return new Map(named.map(([number, name]) => [Number(number), name]));
+    return namesByNumber(await this.#list("actions", "actions"));
   }
 
   async names() {
     const { ram_names: ram, tia_names: tia } = await this.#first("names");
-    const named = list(ram).map((pair) => pair.split(":"));
-    return { ram: new Map(named.map(([index, name]) => [Number(index), name])), tia: list(tia) };
+    return { ram: namesByNumber(list(ram)), tia: list(tia) };
   }
 
   async palette() {
@@ -151,7 +155,7 @@ export class Session extends Commands {
   }
 
   async branch(name, lists, settings = {}) {
-    const branches = (await this.request("branch", name, settings, sequences(lists))).slice(1);
+    const branches = (await this.request("branch", name, settings, wordsOfLists(lists))).slice(1);
     for (const branch of branches) {
       branch.rewards = rewards(branch.rewards);
       if ("rewards_b" in branch) {

@@ -63,6 +63,11 @@ test("an invalid reply is quoted for a terminal", async (context) => {
   await assert.rejects(session.act("FIRE"), ({ message }) => message.includes("'\\x1b[31mred") && /^[ -~]*$/.test(message));
 });
 
+test("an invalid number of bytes is not executed by a terminal", async (context) => {
+  const { session } = await served(context, () => "ok raw=\x1b[31mred\n");
+  await assert.rejects(session.act("FIRE"), ({ message }) => message.includes("raw=\\x1b[31mred") && /^[ -~]*$/.test(message));
+});
+
 test("a file that names no server is refused in a sentence", async (context) => {
   const folder = temporaryFolder(context);
   const at = (name) => `file:${path.join(folder, name)}`;

@@ -14,11 +14,11 @@ import { openWebSocket } from "./websocket.js";
 const USABLE = /^(tcp|tls|unix|pipes):/; // TCP is cheaper than WebSocket
 const ANNOUNCEMENT = 1; // the version of announce files that this client reads
 const FILES = "file:PATH takes the --ready-file or --announce file of a server";
-const BETWEEN_TRIES = 50; // milliseconds
+const RETRY_MILLISECONDS = 50;
 const openFile = promisify(openPath); // a plain descriptor, which a socket then owns
 
-/** Waits for a socket to connect; `event` says that it has. */
-function connected(socket, event, address, timeout) {
+/** Waits for a socket to connect; `event` says that it has. Resolves with a connection. */
+function connectSocket(socket, event, address, timeout) {
   return new Promise((resolve, reject) => {
     const fail = (error) => {
       clearTimeout(timer);
@@ -34,7 +34,8 @@ function connected(socket, event, address, timeout) {
   });
 }
 
-async function pipes(prefix) {
+/** Opens the named pipes of a server. */
+async function openPipes(prefix) {
   try {
     const input = new net.Socket({ fd: await openFile(`${prefix}_out`, "r"), readable: true, writable: false }); // in this order
     const output = new net.Socket({ fd: await openFile(`${prefix}_in`, "w"), readable: false, writable: true });
@@ -59,22 +60,23 @@ export function processOf(program, options) {
   return new Streams({ input: child.stdout, output: child.stdin, end });
 }
 
-function announcement(path, text) {
-  let announced;
+/** Parses an announce file. */
+function parseAnnouncement(path, text) {
+  let announcement;
   try {
-    announced = JSON.parse(text);
+    announcement = JSON.parse(text);
   } catch {
     throw new TypeError(`${path} is not a whole announce file`);
   }
-  const version = announced.racebeam_announce;
+  const version = announcement.racebeam_announce;
   if (version !== ANNOUNCEMENT) {
     throw new TypeError(`${path} is an announce file of version ${version}; this client reads version ${ANNOUNCEMENT}`);
   }
-  return announced;
+  return announcement;
 }
 
 /** The first address of a ready file or an announce file that this client can use, and the token of the latter. */
-async function inFile(path) {
+async function addressInFile(path) {
   let regular, text;
   try {
     regular = (await stat(path)).isFile();
@@ -85,7 +87,7 @@ async function inFile(path) {
   if (!regular) {
     throw new TypeError(`${path} is not a regular file; ${FILES}`);
   }
-  const { addresses, token } = text.startsWith("{") ? announcement(path, text) : { addresses: text.split("\n") };
+  const { addresses, token } = text.startsWith("{") ? parseAnnouncement(path, text) : { addresses: text.split("\n") };
   const address = addresses.find((line) => USABLE.test(line));
   if (address === undefined && !/^[{#]/.test(text)) {
     throw new TypeError(`${path} ${text ? "has other contents" : "is empty"}; ${FILES}`);
@@ -96,8 +98,8 @@ async function inFile(path) {
   return { address, token };
 }
 
-/** What failed was read in a file. */
-function tellSource(error, path) {
+/** Throws an error again, with the file that names the address. */
+function nameSource(error, path) {
   error.message += ` (${path} names this address)`;
   throw error;
 }
@@ -107,13 +109,13 @@ async function openFileAddress(path, seconds, options) {
   const until = performance.now() + seconds * 1000;
   for (;;) {
     try {
-      const { address, token } = await inFile(path);
-      return { connection: await openDirectly(address, options).catch((error) => tellSource(error, path)), token };
+      const { address, token } = await addressInFile(path);
+      return { connection: await openDirectly(address, options).catch((error) => nameSource(error, path)), token };
     } catch (error) {
       if (!(error instanceof LostError) || performance.now() >= until) {
         throw error;
       }
-      await sleep(BETWEEN_TRIES);
+      await sleep(RETRY_MILLISECONDS);
     }
   }
 }
@@ -121,10 +123,10 @@ async function openFileAddress(path, seconds, options) {
 function openNetwork(address, [, kind, host, port], { timeout, tls: trust = {} }) {
   const where = { host, port: Number(port), noDelay: true };
   if (kind === "tcp") {
-    return connected(net.connect(where), "connect", address, timeout);
+    return connectSocket(net.connect(where), "connect", address, timeout);
   }
   const servername = net.isIP(host) ? "" : host;
-  return connected(tls.connect({ ...where, servername, minVersion: "TLSv1.2", ...trust }), "secureConnect", address, timeout);
+  return connectSocket(tls.connect({ ...where, servername, minVersion: "TLSv1.2", ...trust }), "secureConnect", address, timeout);
 }
 
 /** A connection to the server at an address that no file names. */
@@ -142,9 +144,9 @@ async function openDirectly(address, options) {
   const [, kind, path] = /^(unix|pipes):(.+)$/.exec(address) ?? [];
   switch (kind) {
     case "unix":
-      return connected(net.connect({ path }), "connect", address, options.timeout);
+      return connectSocket(net.connect({ path }), "connect", address, options.timeout);
     case "pipes":
-      return pipes(path);
+      return openPipes(path);
     default:
       throw new TypeError((address ? `the address is '${address}'` : "no address was given, and the variable RACEBEAM_ADDRESS is not set")
         + "; it takes tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT, wss://HOST:PORT, unix:PATH, pipes:PREFIX, stdio or file:PATH, "

@@ -1,4 +1,4 @@
-import { LostError } from "../errors.js";
+import { LostError, printable } from "../errors.js";
 import { rawSize } from "../raw.js";
 
 const NEWLINE = 10;
@@ -63,11 +63,11 @@ export class Streams {
       return NOTHING;
     }
     this.#keep(data.subarray(0, end));
-    const line = this.#taken().toString("latin1");
+    const line = this.#takePieces().toString("latin1");
     this.#size = rawSize(line);
     if (Number.isNaN(this.#size)) {
       this.#size = 0;
-      this.#receiver.lost(new LostError(`the server's reply ends in no number of bytes: ${line.slice(-40)}`));
+      this.#receiver.lost(new LostError(`the server's reply ends in 'raw=' without a number of bytes: ${printable(line.slice(-40))}`));
     } else if (this.#size) {
       this.#line = line;
     } else {
@@ -84,7 +84,7 @@ export class Streams {
       const line = this.#line;
       this.#line = undefined;
       this.#size = 0;
-      this.#receiver.reply(line, this.#taken());
+      this.#receiver.reply(line, this.#takePieces());
     }
     return data.subarray(missing);
   }
@@ -94,7 +94,7 @@ export class Streams {
     this.#length += piece.length;
   }
 
-  #taken() {
+  #takePieces() {
     const whole = this.#pieces.length === 1 ? this.#pieces[0] : Buffer.concat(this.#pieces, this.#length);
     this.#pieces = [];
     this.#length = 0;

@@ -41,7 +41,7 @@ class WebSocketConnection {
     }
     const size = typeof data === "string" ? Math.max(data.length, rawSize(data)) : data.byteLength;
     if (Number.isNaN(size)) {
-      return `a reply that ends in no number of bytes: ${data.slice(-40)}`;
+      return `a reply that ends in 'raw=' without a number of bytes: ${printable(data.slice(-40))}`;
     }
     if (size > longest) {
       return `a reply longer than ${longest} bytes`;
