@@ -494,7 +494,7 @@ def reach(address: str | None, open_address: Callable[[str], Opened]) -> tuple[O
                 sentence = f"no server answers at {found}{source}: {error.strerror or error}"
                 if not error.strerror:  # such as a TimeoutError
                     raise type(error)(sentence) from error
-                error.strerror = sentence
+                error.strerror, error.args = sentence, (error.errno, sentence)  # the latter are what pickle copies
                 raise
             time.sleep(BETWEEN_TRIES)
 

@@ -3,6 +3,7 @@
 import base64
 import json
 import os
+import pickle
 import time
 import zlib
 
@@ -242,6 +243,7 @@ class TestAddresses:
             assert raised.value.strerror == (
                 f"no server answers at tcp://c:2, which {self.path} names: Connection refused"
             )
+            assert str(pickle.loads(pickle.dumps(raised.value))) == str(raised.value)  # from a worker process
         for wait in ("", "x", "-1", "1e3", "1000000000", "1."):
             with pytest.raises(ValueError, match="takes seconds, from 0 to 999999999"):
                 addresses.reach(f"file:{self.path}?wait={wait}", str)
