@@ -16,12 +16,12 @@ const play = new PlayView(server);
 const replay = new ReplayView(server);
 const watch = new WatchView(server);
 
-play.replay = (episode) => {
+play.onReplay = (episode) => {
   location.hash = "#replay";
   void replay.open(episode);
 };
 
-play.told = watch.told = (sentence) => {
+play.onStatus = watch.onStatus = (sentence) => {
   const status = byId("status", HTMLElement);
   tell(status, sentence);
   status.classList.toggle("lost", sentence !== "");

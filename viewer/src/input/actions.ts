@@ -47,7 +47,7 @@ export function actWord(playerA: number, playerB = 0): string {
 }
 
 /** Words of `act`, where equal ones that follow each other become one with its count. */
-export function joined(words: readonly string[]): string[] {
+export function joinRuns(words: readonly string[]): string[] {
   const runs: [string, number][] = [];
   for (const word of words) {
     const last = runs.at(-1);
@@ -61,6 +61,6 @@ export function joined(words: readonly string[]): string[] {
 }
 
 /** A word of `act` for people, such as "UPFIRE" or "LEFT, FIRE". */
-export function spoken(word: string): string {
+export function describeAct(word: string): string {
   return word.split("/").map((number) => ACTIONS[Number(number)] ?? number).join(", ");
 }

@@ -69,7 +69,7 @@ function terminal({ over, lives }: Findings): string {
 }
 
 /** A text in TOML's quotes. */
-function quoted(text: string): string {
+function quote(text: string): string {
   return JSON.stringify(text.replace(/[\x00-\x1f\x7f]/g, " "));
 }
 
@@ -84,7 +84,7 @@ export function gameFile(findings: Findings): string {
   return [
     `# ${title.replace(/\s+/g, " ")}: a draft from the memory search of the viewer`,
     "",
-    `title   = ${quoted(title)}`,
+    `title   = ${quote(title)}`,
     `minimal = [${minimal.map((action) => `"${ACTIONS[action]}"`).join(", ")}]`,
     "",
     "[[image]]",

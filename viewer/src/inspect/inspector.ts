@@ -1,4 +1,4 @@
-import { spoken } from "../input/actions.js";
+import { describeAct } from "../input/actions.js";
 import { byId, tell } from "../page/elements.js";
 import type { Shown } from "../play/player.js";
 import { AgentView } from "./agent_view.js";
@@ -73,7 +73,7 @@ export class Inspector {
     }
     this.#agent.draw();
     this.#palette.show(shown.screen);
-    tell(byId("action", HTMLElement), spoken(shown.act));
+    tell(byId("action", HTMLElement), describeAct(shown.act));
     this.#last = shown;
     if (!this.#plotting) {
       this.#plotting = true;

@@ -4,7 +4,7 @@ const COLUMNS = 16;
 const COLOURS = 128; // even values; an odd one is the grey of the value before it
 
 /** The values of pixels on a screen, the most frequent first. */
-export function used(screen: Uint8Array): number[] {
+export function valuesOf(screen: Uint8Array): number[] {
   const counts = new Uint32Array(256);
   for (const value of screen) {
     ++counts[value]!;
@@ -31,7 +31,7 @@ export class PaletteView {
   }
 
   show(screen: Uint8Array): void {
-    const values = used(screen);
+    const values = valuesOf(screen);
     if (this.#shown !== values.join()) {
       this.#shown = values.join();
       this.#list.replaceChildren(...values.map((value) => {

@@ -14,9 +14,9 @@ function list(value: unknown): string[] {
 /** The games, and the modes and difficulties of the one that is loaded. */
 export class GameChoice {
   /** Called when the user has chosen. */
-  chosen: (choice: Choice) => void = () => {};
+  onChoose: (choice: Choice) => void = () => {};
   /** Called when the user moves a difficulty switch: 1 is the left one, 2 the right one. */
-  moved: (bit: 1 | 2) => void = () => {};
+  onMoveSwitch: (bit: 1 | 2) => void = () => {};
 
   readonly #games: GameList;
   readonly #mode = byId("mode", HTMLSelectElement);
@@ -26,11 +26,11 @@ export class GameChoice {
 
   constructor(pictures: Pictures) {
     this.#games = new GameList(pictures);
-    this.#games.chosen = (game) => this.chosen({ game });
+    this.#games.onChoose = (game) => this.onChoose({ game });
     this.#mode.onchange = () => this.#choose({ mode: Number(this.#mode.value) });
     for (const [id, , bit] of SWITCHES) {
       const button = byId(id, HTMLButtonElement);
-      button.onclick = () => this.moved(bit);
+      button.onclick = () => this.onMoveSwitch(bit);
       button.onmousedown = (event) => event.preventDefault(); // the game keeps the focus
     }
   }
@@ -64,7 +64,7 @@ export class GameChoice {
   #choose(change: Partial<Choice>): void {
     if (this.#game) {
       const { key: game, mode } = this.#game;
-      this.chosen({ game, mode, difficulty: this.#difficulty, ...change });
+      this.onChoose({ game, mode, difficulty: this.#difficulty, ...change });
     }
   }
 }

@@ -7,7 +7,7 @@ const FILTERED_FROM = 8; // games: a shorter list is seen whole
 /** The games of the server: a small picture and a title each, and a filter. */
 export class GameList {
   /** Called with the name of the game that the user has chosen. */
-  chosen: (name: string) => void = () => {};
+  onChoose: (name: string) => void = () => {};
 
   readonly #list = byId("game-list", HTMLUListElement);
   readonly #filter = byId("filter", HTMLInputElement);
@@ -43,7 +43,7 @@ export class GameList {
     const element = copyOf("game");
     const button = element.querySelector("button")!;
     tell(part(element, "title", HTMLElement), title);
-    button.onclick = () => this.chosen(name);
+    button.onclick = () => this.onChoose(name);
     this.#pictures.add(name, part(element, "picture", HTMLCanvasElement));
     this.#items.set(name, { element, button, words: `${name} ${title}`.toLowerCase() });
     return element;
@@ -57,6 +57,6 @@ export class GameList {
       element.hidden = !parts.every((word) => words.includes(word));
       found += Number(!element.hidden);
     }
-    tell(byId("games-told", HTMLElement), found ? "" : "No game of this server has these words.");
+    tell(byId("games-status", HTMLElement), found ? "" : "No game of this server has these words.");
   }
 }

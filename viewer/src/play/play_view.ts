@@ -22,9 +22,9 @@ const INSPECTED = ["grey84x84x1:delta", "tia:raw"]; // fields of the panels
 /** The view in which a game is played. */
 export class PlayView {
   /** Called with the episode that the user wants to see again. */
-  replay: (episode: Episode) => void = () => {};
+  onReplay: (episode: Episode) => void = () => {};
   /** Called with a sentence about the connection; an empty one if all is well. */
-  told: (sentence: string) => void = () => {};
+  onStatus: (sentence: string) => void = () => {};
 
   readonly #server: Server;
   readonly #stage = byId("stage", HTMLElement);
@@ -41,7 +41,7 @@ export class PlayView {
   #session: Session | undefined;
   #lost = false;
   #active = false;
-  #begun: Promise<void> | undefined;
+  #beginning: Promise<void> | undefined;
   #games: string[] = [];
   #minimal: number[] = [0]; // actions of the game
 
@@ -72,7 +72,7 @@ export class PlayView {
       await this.#load({ game: first });
     }
     if (named && named !== first) {
-      this.told(`This server has no game "${named}". Choose one from the list.`);
+      this.onStatus(`This server has no game "${named}". Choose one from the list.`);
     }
   }
 
@@ -81,7 +81,7 @@ export class PlayView {
     this.#active = active;
     if (active) {
       requestAnimationFrame((now) => this.#tick(now));
-      this.#begun ??= this.#begin().catch((error) => this.#lose(error));
+      this.#beginning ??= this.#begin().catch((error) => this.#lose(error));
     } else if (this.#player?.motion !== "paused") {
       this.#move("paused");
     }
@@ -89,20 +89,20 @@ export class PlayView {
 
   /** Offers an image that the user has added, and loads it. */
   async add(md5: string): Promise<Game> {
-    await this.#begun;
+    await this.#beginning;
     this.#games = [...new Set([...this.#games, md5])];
     this.#choice.offer(this.#games);
     return this.#choose({ game: md5 });
   }
 
   async #open(): Promise<void> {
-    const { session, limits } = await this.#server.reopen(() => this.told("The server does not answer. Trying again."));
-    this.told("");
+    const { session, limits } = await this.#server.reopen(() => this.onStatus("The server does not answer. Trying again."));
+    this.onStatus("");
     this.#lost = false;
     this.#session = session;
     this.#player = new Player(session, limits.max_states);
-    this.#player.shown = (shown) => this.#take(shown);
-    this.#player.failed = (error) => void this.#lose(error);
+    this.#player.onShow = (shown) => this.#take(shown);
+    this.#player.onFail = (error) => void this.#lose(error);
     void session.ended.then((error) => (session === this.#session ? this.#lose(error) : undefined));
     await this.#player.observe(this.#inspector.open ? INSPECTED : []);
   }
@@ -110,14 +110,14 @@ export class PlayView {
   /** The session has ended: opens another one, which plays the same acts to the same moment. */
   async #lose(error: unknown): Promise<void> {
     if (error instanceof RefusedError) {
-      this.told(`The server refuses: ${reasonOf(error)}.`);
+      this.onStatus(`The server refuses: ${reasonOf(error)}.`);
       return;
     }
     if (this.#lost) {
       return;
     }
     this.#lost = true;
-    this.told("The connection is lost. Trying again.");
+    this.onStatus("The connection is lost. Trying again.");
     const { game, acts = [] } = this.#player ?? {};
     try {
       if (game) {
@@ -137,7 +137,7 @@ export class PlayView {
     const player = this.#player!;
     this.#move("paused");
     const game = await player.load(choice, acts);
-    this.told("");
+    this.onStatus("");
     await this.#server.claim(this.#session!, "player");
     const colours = await this.#session!.palette();
     this.#screen.become(colours, game.format, game.height);
@@ -168,8 +168,8 @@ export class PlayView {
 
   #listen(): void {
     const click = (id: string, action: () => void) => byId(id, HTMLButtonElement).addEventListener("click", action);
-    this.#choice.chosen = (choice) => void this.#choose(choice).catch((error) => this.#lose(error));
-    this.#choice.moved = (bit) => this.#moveSwitch(bit);
+    this.#choice.onChoose = (choice) => void this.#choose(choice).catch((error) => this.#lose(error));
+    this.#choice.onMoveSwitch = (bit) => this.#moveSwitch(bit);
     this.#start.onclick = () => this.#go();
     click("pause", () => (this.#player?.motion === "playing" ? this.#move("paused") : this.#go()));
     click("back", () => this.#single(-1));
@@ -310,7 +310,7 @@ export class PlayView {
     if (game) {
       const { key, mode, difficulty, seed } = game;
       const settings = { seed: String(seed), mode: String(mode), difficulty: String(difficulty), sticky: "0", frame_skip: "1", action_set: "console" };
-      this.replay({ title: `${titleOf(key)}, played here`, game: key, settings, acts: [...acts] });
+      this.onReplay({ title: `${titleOf(key)}, played here`, game: key, settings, acts: [...acts] });
     }
   }
 

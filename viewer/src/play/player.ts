@@ -1,5 +1,5 @@
 import type { Group, Session } from "racebeam";
-import { actWord, joined } from "../input/actions.js";
+import { actWord, joinRuns } from "../input/actions.js";
 import { LatencyMeter } from "./latency.js";
 import { History } from "./history.js";
 import { Pacer } from "./pacer.js";
@@ -59,9 +59,9 @@ export type Motion = "playing" | "paused" | "rewinding";
 export class Player {
   readonly latency = new LatencyMeter();
   /** Called with each moment as its reply arrives. */
-  shown: (shown: Shown) => void = () => {};
+  onShow: (shown: Shown) => void = () => {};
   /** Called when the session has ended, or refuses what should succeed. */
-  failed: (error: unknown) => void = () => {};
+  onFail: (error: unknown) => void = () => {};
   motion: Motion = "paused";
 
   readonly #session: Session;
@@ -117,7 +117,7 @@ export class Player {
     const { game, seed = newSeed(), ...settings } = choice;
     this.#busy = true;
     try {
-      this.#game = described(game, await this.#session.load(game, { sticky: 0, sound: 1, frame_skip: 1, action_set: "console", seed, ...settings }));
+      this.#game = gameOf(game, await this.#session.load(game, { sticky: 0, sound: 1, frame_skip: 1, action_set: "console", seed, ...settings }));
       this.#pacer.restart(frameRate(this.#game.format));
       await this.#begin(acts);
       return this.#game;
@@ -190,7 +190,7 @@ export class Player {
     this.#over = false;
     const restored = this.#session.restore(state);
     restored.catch(() => {}); // if it fails, the acts do, too
-    void this.#show(acts.length ? this.#session.act(...joined(acts)) : restored, this.now);
+    void this.#show(acts.length ? this.#session.act(...joinRuns(acts)) : restored, this.now);
   }
 
   /** The newest moment that has not been drawn yet. */
@@ -226,7 +226,7 @@ export class Player {
   #send(word: string): { moment: number; reply: Promise<Group> } {
     const state = this.#history.saves();
     if (state) {
-      this.#session.save(state, { generator: 1 }).catch(this.failed);
+      this.#session.save(state, { generator: 1 }).catch(this.onFail);
     }
     const moment = this.#history.add(word);
     const reply = this.#session.act(word).then((group) => {
@@ -246,7 +246,7 @@ export class Player {
         this.#take(group, moment, pressed);
       }
     } catch (error) {
-      this.failed(error);
+      this.onFail(error);
     } finally {
       --this.#ahead;
     }
@@ -263,7 +263,7 @@ export class Player {
     const act = this.#history.acts[moment - 1] ?? "0";
     const shown: Shown = { moment, act, reward, score: this.score(moment), lives, over, screen, ram, audio, ...(agent ? { agent } : {}), ...(tia ? { tia } : {}) };
     this.#newest = { shown, pressed: this.#newest?.pressed ?? pressed };
-    this.shown(shown);
+    this.onShow(shown);
   }
 }
 
@@ -271,7 +271,7 @@ function newSeed(): number {
   return 1 + Math.floor(Math.random() * 0xfffffffe);
 }
 
-function described(key: string, loaded: Group): Game {
+function gameOf(key: string, loaded: Group): Game {
   const { game, md5, format, height, mode, difficulty, seed, rule, image = "" } = loaded;
   return { key, name: String(game), md5: String(md5), format, height, mode, difficulty, seed, rule: rule === 1, image };
 }

@@ -1,4 +1,4 @@
-import { spoken } from "../input/actions.js";
+import { describeAct } from "../input/actions.js";
 import { copyOf, part, tell } from "../page/elements.js";
 import { reasonOf, type Server } from "../page/server.js";
 import { Screen } from "../picture/screen.js";
@@ -13,9 +13,9 @@ export class Deck {
   /** Whether the server records films. */
   records = false;
   /** Called when the user closes the deck. */
-  closed: () => void = () => {};
+  onClose: () => void = () => {};
   /** Called with the sound of a frame that follows the one shown before. */
-  sounded: (samples: Uint8Array) => void = () => {};
+  onSound: (samples: Uint8Array) => void = () => {};
 
   readonly #server: Server;
   readonly #screen = new Screen(part(this.element, "screen", HTMLCanvasElement));
@@ -23,15 +23,15 @@ export class Deck {
   #outcome: Outcome | undefined;
   #end: (() => Promise<void>) | undefined;
   #lost = false; // the session has ended, and this is told
-  #shown = -1; // step
-  #wanted = 0; // frame
+  #current = -1; // step
+  #target = 0; // frame
   #showing = false;
 
   constructor(server: Server, episode: Episode) {
     this.#server = server;
     this.episode = episode;
     tell(part(this.element, "title", HTMLElement), episode.title);
-    part(this.element, "close", HTMLButtonElement).onclick = () => this.closed();
+    part(this.element, "close", HTMLButtonElement).onclick = () => this.onClose();
   }
 
   /** Frames of the episode; 0 until it has been played through. */
@@ -68,8 +68,8 @@ export class Deck {
     this.#screen.become(await session.palette(), String(this.#track.loaded.format), this.#track.loaded.height);
     progress.hidden = true;
     part(this.element, "facts", HTMLElement).classList.toggle("problem", !!this.#outcome.differences?.length);
-    this.#shown = -1;
-    this.show(this.#wanted);
+    this.#current = -1;
+    this.show(this.#target);
   }
 
   async close(): Promise<void> {
@@ -95,23 +95,23 @@ export class Deck {
 
   /** Shows a frame. While the server works, only the newest wish counts. */
   show(frame: number): void {
-    this.#wanted = frame;
+    this.#target = frame;
     if (!this.#showing && this.#outcome) {
       void this.#follow();
     }
   }
 
-  /** Shows frames until it has shown the wanted one. Meanwhile the element is busy, for readers of screens and for tests. */
+  /** Shows frames until the target is shown. Meanwhile the element is busy, for readers of screens and for tests. */
   async #follow(): Promise<void> {
     const track = this.#track!;
     this.#busy(true);
     try {
-      for (let step = this.#step(); step !== this.#shown; step = this.#step()) {
+      for (let step = this.#step(); step !== this.#current; step = this.#step()) {
         const group = await track.show(step);
-        if (step === this.#shown + 1) {
-          this.sounded(group.audio);
+        if (step === this.#current + 1) {
+          this.onSound(group.audio);
         }
-        this.#shown = step;
+        this.#current = step;
         this.#screen.draw(group.screen);
         tell(part(this.element, "facts", HTMLElement), this.#facts(step, group.lives));
       }
@@ -129,10 +129,10 @@ export class Deck {
     this.element.setAttribute("aria-busy", String(showing));
   }
 
-  /** The step that shows the wanted frame. */
+  /** The step that shows the target frame. */
   #step(): number {
     const track = this.#track!;
-    return Math.max(0, Math.min(track.length, Math.floor(this.#wanted / track.framesAStep)));
+    return Math.max(0, Math.min(track.length, Math.floor(this.#target / track.framesAStep)));
   }
 
   /** The session has ended: unless the deck was closed, plays the episode again as soon as the server answers. */
@@ -161,7 +161,7 @@ export class Deck {
     return [
       `score ${track.score(step)} of ${track.score(track.length)}`,
       `lives ${lives}`,
-      act === undefined ? "start" : spoken(act),
+      act === undefined ? "start" : describeAct(act),
       ...(differences ? [differences.length ? `does not play as logged: ${differences.join(", ")}` : "plays as logged"] : []),
     ].join(" · ");
   }

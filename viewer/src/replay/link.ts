@@ -1,7 +1,7 @@
 // Links to a frame of an episode: the episode is in the part of the address after #, which no browser sends to a server.
 
-import { joined } from "../input/actions.js";
-import { inflated, type Episode } from "./log.js";
+import { joinRuns } from "../input/actions.js";
+import { inflate, type Episode } from "./log.js";
 
 const LONGEST = 4 * 1024 * 1024; // characters of a link
 const MOST_TEXT = 32 * 1024 * 1024; // bytes, before they are deflated
@@ -9,7 +9,7 @@ const MOST_ACTS = 1_000_000;
 // A number, which may have the strength of a paddle, then the number of the other player, and how often they are played.
 const ACT = /^(\d{1,3}(?:@-?\d{1,21}(?:\.\d{1,20})?(?:e[+-]?\d{1,3})?)?(?:\/\d{1,2})?)(?:\*(\d{1,7}))?$/;
 
-async function deflated(bytes: Uint8Array): Promise<Uint8Array> {
+async function deflate(bytes: Uint8Array): Promise<Uint8Array> {
   const stream = new Blob([bytes as BlobPart]).stream().pipeThrough(new CompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
@@ -24,12 +24,12 @@ function fromText(text: string): Uint8Array {
 
 /** The part of a link after #. */
 export async function linkTo({ title, game, settings, acts }: Episode, frame: number): Promise<string> {
-  const text = JSON.stringify({ title, game, settings, acts: joined(acts) });
-  return `replay=${toText(await deflated(new TextEncoder().encode(text)))}&frame=${frame}`;
+  const text = JSON.stringify({ title, game, settings, acts: joinRuns(acts) });
+  return `replay=${toText(await deflate(new TextEncoder().encode(text)))}&frame=${frame}`;
 }
 
-/** Words without counts, from those that `joined` made. */
-function separate(words: unknown): string[] {
+/** Words without counts, from those that `joinRuns` made. */
+function expandRuns(words: unknown): string[] {
   const acts: string[] = [];
   for (const word of Array.isArray(words) ? words : [words]) {
     const [, act, times = "1"] = ACT.exec(String(word)) ?? [];
@@ -50,8 +50,8 @@ export async function readLink(hash: string): Promise<{ episode: Episode; frame:
     return undefined;
   }
   try {
-    const { title, game, settings, acts } = JSON.parse(new TextDecoder().decode(await inflated(fromText(found[1]), MOST_TEXT)));
-    return { episode: { title: String(title), game: String(game), settings, acts: separate(acts) }, frame: Number(found[2] ?? 0) };
+    const { title, game, settings, acts } = JSON.parse(new TextDecoder().decode(await inflate(fromText(found[1]), MOST_TEXT)));
+    return { episode: { title: String(title), game: String(game), settings, acts: expandRuns(acts) }, frame: Number(found[2] ?? 0) };
   } catch (error) {
     throw new Error("the link is damaged: its episode cannot be read", { cause: error });
   }

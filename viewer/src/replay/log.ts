@@ -45,8 +45,8 @@ export function crc32(...pieces: Uint8Array[]): number {
   return (crc ^ 0xffffffff) >>> 0;
 }
 
-/** The bytes of a zlib stream. Throws if there are more than `most`. */
-export async function inflated(bytes: Uint8Array, most = LARGEST): Promise<Uint8Array> {
+/** Inflates a zlib stream. Throws if there are more than `most`. */
+export async function inflate(bytes: Uint8Array, most = LARGEST): Promise<Uint8Array> {
   const reader = new Blob([bytes as BlobPart]).stream().pipeThrough(new DecompressionStream("deflate")).getReader();
   const pieces: Uint8Array[] = [];
   let size = 0;
@@ -63,8 +63,8 @@ export async function inflated(bytes: Uint8Array, most = LARGEST): Promise<Uint8
   return whole;
 }
 
-/** The contents that the seal of a log protects. */
-async function opened(file: Uint8Array): Promise<Uint8Array> {
+/** Checks the seal of a log. Returns the contents that it protects. */
+async function unseal(file: Uint8Array): Promise<Uint8Array> {
   if (file.length > LARGEST) {
     throw new Error(`the file has ${file.length} bytes; a log has at most ${LARGEST}`);
   }
@@ -80,7 +80,7 @@ async function opened(file: Uint8Array): Promise<Uint8Array> {
   if (header.getUint32(20, true) !== crc32(file.subarray(0, 20), packed)) {
     throw new Error("the log was altered or cut off: its checksum does not fit");
   }
-  const contents = await inflated(packed);
+  const contents = await inflate(packed);
   if (contents.length !== Number(header.getBigUint64(12, true))) {
     throw new Error("the log was altered: the size of its contents does not fit");
   }
@@ -131,7 +131,7 @@ function endOfText(contents: Uint8Array): number {
 
 /** Reads a log. Throws an Error with a sentence if the file is not a log. */
 export async function readLog(file: Uint8Array, name: string): Promise<Episode> {
-  const contents = await opened(file);
+  const contents = await unseal(file);
   const start = endOfText(contents);
   const lines = new TextDecoder().decode(contents.subarray(0, start)).split("\n").map((line) => line.split(" "));
   const [load = [], image = [], from = [], ended = []] = lines;

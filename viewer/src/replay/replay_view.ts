@@ -59,8 +59,8 @@ export class ReplayView {
     }
     const deck = new Deck(this.#server, episode);
     this.#decks.push(deck);
-    deck.closed = () => this.#close(deck);
-    deck.sounded = (samples) => this.#runs && deck === this.#decks[0] && this.#speed.value === "1" && this.#speaker.play(samples);
+    deck.onClose = () => this.#close(deck);
+    deck.onSound = (samples) => this.#runs && deck === this.#decks[0] && this.#speed.value === "1" && this.#speaker.play(samples);
     byId("decks", HTMLElement).append(deck.element);
     try {
       await deck.open();
@@ -181,13 +181,13 @@ export class ReplayView {
 
   #offerFilm(possible: boolean): void {
     byId("film", HTMLButtonElement).disabled = byId("film-kind", HTMLSelectElement).disabled = !possible;
-    tell(byId("link-told", HTMLElement), possible ? "" : "This server makes no films: it was started without --record-dir.");
+    tell(byId("link-status", HTMLElement), possible ? "" : "This server makes no films: it was started without --record-dir.");
   }
 
   /** Makes a film of the first episode. */
   async #film(): Promise<void> {
     const button = byId("film", HTMLButtonElement);
-    const note = byId("link-told", HTMLElement);
+    const note = byId("link-status", HTMLElement);
     button.disabled = true;
     tell(note, "The server makes the film.");
     let made = "";
@@ -204,7 +204,7 @@ export class ReplayView {
     if (deck) {
       history.replaceState(null, "", `#${await linkTo(deck.episode, this.#frame)}`);
       const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
-      tell(byId("link-told", HTMLElement), copied ? "The link is in the clipboard." : "The link is in the address bar.");
+      tell(byId("link-status", HTMLElement), copied ? "The link is in the clipboard." : "The link is in the address bar.");
     }
   }
 }

@@ -1,5 +1,5 @@
 import type { Group, Session } from "racebeam";
-import { joined } from "../input/actions.js";
+import { joinRuns } from "../input/actions.js";
 import { isOwn } from "../page/titles.js";
 import { HASH_EVERY, hexOf, type Episode } from "./log.js";
 
@@ -92,14 +92,14 @@ export class Track {
     const acts = this.#steps.slice(onward ? this.#at : state * this.#spacing, target);
     this.#at = target;
     if (onward) {
-      return this.#session.act(...joined(acts));
+      return this.#session.act(...joinRuns(acts));
     }
     const restored = this.#session.restore(name(state));
     if (!acts.length) {
       return restored;
     }
     restored.catch(() => {}); // if it fails, the acts do, too
-    return this.#session.act(...joined(acts));
+    return this.#session.act(...joinRuns(acts));
   }
 
   /** Records the episode under a name in the server's folder, in another session. The reply says what was made. */

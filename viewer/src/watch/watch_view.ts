@@ -18,15 +18,15 @@ interface Tile {
 /** The view of sessions that their clients have shared: a wall of small pictures, and a large one. */
 export class WatchView {
   /** Called with a sentence about the connection; an empty one if all is well. */
-  told: (sentence: string) => void = () => {};
+  onStatus: (sentence: string) => void = () => {};
 
   readonly #server: Server;
   readonly #tiles = new Map<string, Tile>();
   #session: Session | undefined;
   #large: Feed | undefined;
   #active = false;
-  #listed = 0; // times of the last
-  #drawn = 0;
+  #listTime = 0; // of the last list, by requestAnimationFrame
+  #drawTime = 0; // of the last thumbnails
 
   constructor(server: Server) {
     this.#server = server;
@@ -45,17 +45,17 @@ export class WatchView {
   async #run(): Promise<void> {
     while (this.#active) {
       try {
-        this.#session ??= (await this.#server.reopen(() => this.told("The server does not answer. Trying again."))).session;
-        this.told("");
+        this.#session ??= (await this.#server.reopen(() => this.onStatus("The server does not answer. Trying again."))).session;
+        this.onStatus("");
         await this.#follow(this.#session);
       } catch (error) {
         this.#forget();
         if (error instanceof RefusedError) {
-          this.told(`The server refuses: ${reasonOf(error)}.`);
+          this.onStatus(`The server refuses: ${reasonOf(error)}.`);
           return; // a server that has no sessions to share
         }
         this.#session = undefined;
-        this.told("The connection is lost. Trying again.");
+        this.onStatus("The connection is lost. Trying again.");
       }
     }
   }
@@ -63,12 +63,12 @@ export class WatchView {
   async #follow(session: Session): Promise<void> {
     while (this.#active) {
       const now = await new Promise<number>(requestAnimationFrame);
-      if (now - this.#listed >= LIST_EVERY) {
-        this.#listed = now;
+      if (now - this.#listTime >= LIST_EVERY) {
+        this.#listTime = now;
         this.#list(session, (await session.shared()).filter(({ name }) => !this.#server.owns(String(name))));
       }
-      const thumbnails = now - this.#drawn >= THUMBNAILS_EVERY;
-      this.#drawn = thumbnails ? now : this.#drawn;
+      const thumbnails = now - this.#drawTime >= THUMBNAILS_EVERY;
+      this.#drawTime = thumbnails ? now : this.#drawTime;
       const feeds = [...(this.#large ? [this.#large] : []), ...(thumbnails ? [...this.#tiles.values()].map(({ feed }) => feed) : [])];
       await Promise.all(feeds.map((feed) => this.#poll(feed)));
     }

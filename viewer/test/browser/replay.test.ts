@@ -80,7 +80,7 @@ describe("the view Replay", () => {
 
   test("a film is made on the server", async () => {
     await page.getByRole("button", { name: "Make it on the server" }).click();
-    const note = page.locator("#link-told");
+    const note = page.locator("#link-status");
     await until(async () => /recordings: /.test(await note.textContent() ?? ""), "the film");
     const [, name, frames] = /: (beamfall-\d{14}\.gif): (\d+) frames\.$/.exec(await note.textContent() ?? "")!;
     assert.match(await page.locator("#place").textContent() ?? "", new RegExp(` of ${frames}$`));
@@ -124,7 +124,7 @@ describe("the view Replay", () => {
     await settled();
     const seen = await screen();
     await page.getByRole("button", { name: "Copy a link" }).click();
-    await page.locator("#link-told").filter({ hasText: "The link is" }).waitFor();
+    await page.locator("#link-status").filter({ hasText: "The link is" }).waitFor();
     const other = await tabs.open(page.url());
     await until(async () => /^frame 321 /.test(await other.locator("#place").textContent() ?? ""), "the frame of the link");
     await until(async () => await other.locator('.deck [data-part="screen"]').evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL()) === seen,
@@ -205,7 +205,7 @@ test("a server that does not record offers no film", async () => {
     await server.start();
     const page = await tabs.open(`${server.address}#replay`);
     await page.locator("#log").setInputFiles(log!);
-    await page.locator("#link-told").filter({ hasText: "started without --record-dir" }).waitFor();
+    await page.locator("#link-status").filter({ hasText: "started without --record-dir" }).waitFor();
     assert.ok(await page.locator("#film").isDisabled());
   } finally {
     await tabs.close();

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { ACTIONS, actionOf, actWord, DOWN, FIRE, joined, JOYSTICK_ACTIONS, LEFT, moveOf, RESET, RIGHT, SELECT, spoken, UP } from "../../src/input/actions.js";
+import { ACTIONS, actionOf, actWord, DOWN, FIRE, joinRuns, JOYSTICK_ACTIONS, LEFT, moveOf, RESET, RIGHT, SELECT, describeAct, UP } from "../../src/input/actions.js";
 import { pressedOn } from "../../src/input/gamepad.js";
 import { directionAt } from "../../src/input/touch.js";
 
@@ -30,12 +30,12 @@ test("a difficulty switch moves to its other position", () => {
 test("an act has player B if B presses something", () => {
   assert.equal(actWord(FIRE), "1");
   assert.equal(actWord(0, FIRE), "0/1");
-  assert.equal(spoken("0/1"), "NOOP, FIRE");
+  assert.equal(describeAct("0/1"), "NOOP, FIRE");
 });
 
 test("equal acts in a row are one word", () => {
-  assert.deepEqual(joined(["1", "1", "1", "0/2", "1", "1"]), ["1*3", "0/2", "1*2"]);
-  assert.deepEqual(joined([]), []);
+  assert.deepEqual(joinRuns(["1", "1", "1", "0/2", "1", "1"]), ["1*3", "0/2", "1*2"]);
+  assert.deepEqual(joinRuns([]), []);
 });
 
 test("a gamepad has a stick, a cross and buttons", () => {

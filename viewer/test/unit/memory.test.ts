@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { gameFile, outcome } from "../../src/inspect/draft.js";
-import { used } from "../../src/inspect/palette.js";
+import { valuesOf } from "../../src/inspect/palette.js";
 import { addressOf, byteOf, MemorySearch } from "../../src/inspect/search.js";
 
 const ram = (bytes: Record<number, number>) => {
@@ -86,5 +86,5 @@ test("a score may have any number of bytes", () => {
 });
 
 test("the colours of a screen come by their number", () => {
-  assert.deepEqual(used(Uint8Array.of(2, 0, 2, 6, 6, 6)), [6, 2, 0]);
+  assert.deepEqual(valuesOf(Uint8Array.of(2, 0, 2, 6, 6, 6)), [6, 2, 0]);
 });
