@@ -53,9 +53,9 @@ def results(folder, agents, scores, seconds="2.0", frames="1000"):
 class TestBounds:
     def test_they_are_those_of_students_t_for_as_many_scores(self):
         assert bounds([5]) is None
-        assert bounds([4, 6]) == pytest.approx((5 - 12.706, 5 + 12.706))
-        assert bounds(range(11)) == pytest.approx((5 - 2.228, 5 + 2.228))  # whose standard error is 1
-        for count, quantile in ((30, 2.045), (40, 2.045)):
+        assert bounds([4, 6]) == pytest.approx((5 - 12.7062, 5 + 12.7062))
+        assert bounds(range(11)) == pytest.approx((5 - 2.22814, 5 + 2.22814))  # whose standard error is 1
+        for count, quantile in ((30, 2.04523), (40, 2.04523)):
             low, high = bounds([0, 2] * (count // 2))
             assert (high - low) / 2 == pytest.approx(quantile / (count - 1) ** 0.5)
 
@@ -139,12 +139,21 @@ class TestPaperResults:
         for others, cause in (
             ([700, 650, 600], "the frame in which play begins: after some no-ops, it is the paper's score"),
             ([600, 700, 600], "the frame in which play begins: no-ops give lower and higher scores"),
-            ([600, 500], "the emulator or the rules of 2012: no start gives the paper's score"),
+            ([600, 500], "the emulator or the rules of 2012: none of these starts gives the paper's score"),
         ):
             with subtests.test(cause=cause):
                 results(self.folder / "const-again", ["const"], {"const_up": [others]})
                 row = f"| asterix | const up | 600.0 | {min(others):.1f} to {max(others):.1f} | 650.0 | {cause} |"
                 assert row in self.text()
+
+    def test_another_action_with_the_papers_score_is_named(self):
+        scores = {"random": [[288.1]], "const_up": [[700]], "const_fire": [[650]], "const_down": [[650]]}
+        results(self.folder / "baselines", ["random", "const"], scores)
+        results(self.folder / "const-again", ["const"], {"const_up": [[700, 690]]})
+        cause = (
+            "the emulator or the rules of 2012: none of these starts gives the paper's score, but fire, down give it"
+        )
+        assert f"| asterix | const up | 700.0 | 690.0 to 700.0 | 650.0 | {cause} |" in self.text()
 
     def test_learners_have_scores_and_speeds(self):
         results(self.folder / "hour", ["random", "basic"], {"random": [[10]], "basic": [[20, 40], [60]]})
@@ -191,13 +200,29 @@ class TestPaperResults:
 
     def test_whole_training_stands_beside_the_paper(self):
         results(self.folder / "learners", ["disco"], {"disco": [[700, 800], [770]]})
+        plan = self.folder / "learners/plan.toml"
+        plan.write_text(plan.read_text().replace("training_frames = 500", "training_episodes = 5000"))
         curves = [f"asterix-disco-1,asterix,disco,1,{place},{10 * place},1000,200" for place in range(20)]
         write(self.folder / "learners/curves.csv", ["unit,game,agent,trial,episode,score,frames,decisions", *curves])
         text = self.text()
         # half the difference of 20, times 12.706
         assert "| asterix | disco | 2 | 3 | 760.0 | 632.9 to 887.1 | 754.6 | 1.01 | yes |" in text
         assert "| asterix | disco | 5 | 25 | 45 | 65 | 85 | 105 | 125 | 145 | 165 | 185 |" in text
+        assert "| disco | 1 | 1 | 1.01 | 1.01 | 1.01 |" in text
         assert "Not run yet: `racebeam experiment ram`." in text
+
+    def test_another_length_of_training_is_not_comparable(self):
+        results(self.folder / "blob_prost", ["blob_prost"], {"blob_prost": [[700]]})
+        curves = ["asterix-blob_prost-1,asterix,blob_prost,1,1,10,1000,200"]
+        write(self.folder / "blob_prost/curves.csv", ["unit,game,agent,trial,episode,score,frames,decisions", *curves])
+        cause = "not comparable: the published agent was trained for 200,000,000 frames"
+        assert f"| asterix | blob_prost | 1 | 1 | 700.0 | - | 3,996.6 | 0.18 | {cause} |" in self.text()
+        assert "median of score / published" not in self.text()
+
+    def test_games_of_searches_are_counted(self):
+        results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
+        assert "| UCT, full tree | 55 games, 10 episodes | 0 games and 0 games, 1 episode |" in self.text()
+        assert "54 games | 1 game, 1 episode | the same | the same |" in self.text()
 
     def test_perturb_of_some_games_stands_beside_the_paper(self):
         results(

@@ -4,9 +4,26 @@ import statistics
 
 from plan_figures import ROOT
 
-from .parts import Part, agreement, bounds, number, rows_of
+from .parts import Part, agreement, bounds, number, published_training, rows_of
 
 LEARNERS = {"basic": 8000, "lsh": 4000, "disco": 3000, "bass": 1000, "ram": 500}  # decisions a second: the goals
+
+RATIOS = ("agent", "games", "score above the published", "median of score / published", "lowest", "highest")
+
+
+def training(settings):
+    """How long an agent was trained, in the words of protocols.csv."""
+    for unit in ("episodes", "frames"):
+        if count := settings.get(f"training_{unit}"):
+            return f"{count:,} {unit}"
+    return ""
+
+
+def summary(ratios):
+    """The columns of RATIOS after the agent."""
+    above = sum(ratio > 1 for ratio in ratios)
+    parts = (statistics.median(ratios), min(ratios), max(ratios))
+    return [str(len(ratios)), str(above), *(number(part, 2) for part in parts)]
 
 
 class Learners(Part):
@@ -49,7 +66,7 @@ class Learners(Part):
         self.say(f"""The next table has the number of games in which the mean of a learner is above that of Random
             (goal: at least three), and the learner's speed, emulation included. {trial["trials"]} trials are too few
             to tell such a difference from chance. `racebeam-evaluate` computes an interval for the number of games,
-            and tests each game.""")
+            and tests each game. A mean that the table above shows as 0.0 can be above 0.""")
         self.add(
             rows_of(
                 ["learner", "games above Random", "decisions a second, mean of the games", "lowest", "highest", "goal"],
@@ -86,23 +103,37 @@ class Learners(Part):
     def whole_training(self):
         self.add("## Learners, whole training")
         plans = [name for name in ("learners", "ram", "blob_prost") if name in self.figures]
+        trained_for = published_training()
         self.lacks(*(name for name in ("learners", "ram", "blob_prost") if name not in plans))
         if not plans:
             return
         self.say("""Training and evaluation are as long as in the paper: 5,000 and 500 episodes. Blob-PROST trains for
-            2,000. A score is the mean over trials of the mean over their episodes. The 95 % interval is by Student's
-            t over trials; a single trial has no interval. A score agrees with the published one if its interval
-            contains it.""")
-        rows, curves = [], []
+            2,000 episodes, which is a small part of the published training. It also chooses from all 18 actions, unlike
+            its authors' program ([paper-notes.md](paper-notes.md#successors)). A score is the mean over trials of the
+            mean over their episodes. The 95 % interval is by Student's t over trials; a single trial has no interval. A
+            score agrees with the published one if its interval contains it.""")
+        self.say("""Such an agreement is weak evidence. With three trials, the interval reaches 2.5 standard deviations
+            of the trials to each side. The published mean has an interval, too, which nobody printed. And these five
+            games are not independent of the agents: where the paper is silent, their scores decided some defaults
+            ([paper-notes.md](paper-notes.md)).""")
+        rows, curves, ratios = [], [], {}
         for game, agent, found in self.trained(plans):
             theirs, score = self.paper[game].get(agent), found["scores"][agent][game]
             trials = found["trials"][agent][game]
             row = [game, agent, str(len(trials)), f"{found['episodes'][agent][game]:,}", number(score)]
             row += [" to ".join(map(number, bounds(trials) or ())) or "-", number(theirs)]
-            rows.append([*row, number(score / theirs, 2) if theirs else "-", agreement(trials, theirs, "trial")])
+            same = agreement(trials, theirs, "trial")
+            if (published := trained_for.get(agent)) != training(found["settings"][agent]):
+                same = f"not comparable: the published agent was trained for {published}"
+            elif theirs:
+                ratios.setdefault(agent, []).append(score / theirs)
+            rows.append([*row, number(score / theirs, 2) if theirs else "-", same])
             curves.append([game, agent, *(number(part, 0) for part in found["curves"][agent][game])])
         header = ["game", "agent", "trials", "episodes", "score", "95 % interval", "published", "score / published"]
         self.add(rows_of([*header, "agrees"], *rows))
+        if ratios:
+            self.say("The next table has the same ratios by agent, without those that are not comparable.")
+            self.add(rows_of(RATIOS, *([agent, *summary(each)] for agent, each in ratios.items())))
         self.say("""The next table has the mean scores of training episodes, by tenths of the training. The agent
             explores in training as it does in evaluation.""")
         width = max(len(row) for row in curves)

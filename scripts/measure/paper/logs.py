@@ -25,7 +25,7 @@ class Logs(Part):
             return
         unverified = [self.title(name) for name, found in self.figures.items() if not found["verified"]]
         if unverified:
-            self.say(f"Not verified yet: {', '.join(unverified)}.")
+            self.say(f"Not verified yet: {'; '.join(unverified)}.")
         for name, found in self.figures.items():
             if found["verified"] and (more := found["verified"]["confirmed"] - episodes(found)) > 0:
                 self.say(f"""The figures of {self.title(name)} include {more:,} rows that the tables no longer have,

@@ -13,12 +13,13 @@ PLANS = (
     *("baselines", "perturb", "hour", "basic", "learners", "ram", "blob_prost"),
     *("uct", "uct10", "uct50", "uct150", "full_tree", "iw1", "searches"),
 )
+FULL_SEARCHES = ("uct", "full_tree", "iw1", "searches")  # with the whole budget of a decision
 PARTIAL = "baselines-partial"
 # The 97.5 % quantile of Student's t for 1 to 29 degrees of freedom: the paper has 30 trials.
 STUDENT = (
-    *(12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228),
-    *(2.201, 2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086),
-    *(2.080, 2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045),
+    *(12.70620, 4.30265, 3.18245, 2.77645, 2.57058, 2.44691, 2.36462, 2.30600, 2.26216, 2.22814),
+    *(2.20099, 2.17881, 2.16037, 2.14479, 2.13145, 2.11991, 2.10982, 2.10092, 2.09302, 2.08596),
+    *(2.07961, 2.07387, 2.06866, 2.06390, 2.05954, 2.05553, 2.05183, 2.04841, 2.04523),
 )
 AGAIN = {  # other episodes of the policies whose score is not the paper's
     "random-again": "Random, other episodes",
@@ -36,6 +37,11 @@ def published(name):
 def paper():
     learners, planners, successors = map(published, ("paper2013/learners", "paper2013/planners", "successors"))
     return {game: learners[game] | planners[game] | successors.get(game, {}) for game in learners}
+
+
+def published_training():
+    """{agent: how long the agent with published scores was trained}, such as "5,000 episodes"."""
+    return {row["agent"]: row["training"] for row in table(PUBLISHED / "protocols.csv")}
 
 
 def number(value, digits=1):

@@ -2,7 +2,7 @@
 
 import statistics
 
-from .parts import Part, agreement, number, rows_of
+from .parts import FULL_SEARCHES, Part, agreement, number, rows_of
 
 SEARCH_GOALS = {("uct", "boxing"): 95, ("uct", "asterix"): 100000, ("uct", "seaquest"): 2500}
 SIMULATIONS = {10: "uct10", 50: "uct50", 150: "uct150", 500: "uct"}
@@ -22,16 +22,17 @@ class Searches(Part):
 
     def searches(self):
         self.add("## Search")
-        plans = [plan for plan in ("uct", "full_tree", "iw1", "searches") if not self.lacks(plan)]
+        plans = [plan for plan in FULL_SEARCHES if not self.lacks(plan)]
         every = [(self.figures[plan], episode) for plan in plans for episode in self.figures[plan]["searches"]]
         if every:
-            self.say("""Each row is one episode, at the full budget of a decision. The last column compares the speed
-                with that of `racebeam bench --search --frame-skip 5`.""")
+            self.say("""Each row is one episode, at the full budget of a decision. The published scores of UCT and of
+                the full tree are means of 10 episodes, from which one episode can differ by chance. The last column
+                compares the speed with that of `racebeam bench --search --frame-skip 5`.""")
             self.add(rows_of(SEARCHES, *(self.search_row(*each) for each in every)))
         seconds_of_uct = [seconds_a_decision(episode) for _, episode in every if episode["agent"] == "uct"]
         if seconds_of_uct:
-            self.say(f"""UCT takes {number(statistics.mean(seconds_of_uct), 2)} seconds a decision on average
-                (goal: at most 1; the paper's took 15).""")
+            self.say(f"""UCT takes {number(statistics.mean(seconds_of_uct), 2)} seconds a decision, the mean of these
+                games (goal: at most 1). The paper says that a decision of its searches took about 15 seconds.""")
 
     def search_row(self, found, episode):
         """The row of an episode of a plan, with the columns of SEARCHES."""
