@@ -157,6 +157,7 @@ class TestFiles:
             "envs.reset(seed=np.int64(4)), envs.reset(seed=[np.int64(4), None])\n"
             "racebeam.AtariVectorEnv('beamfall', options=racebeam.VectorOptions(), frameskip=2, seed=1)\n"
             "racebeam.AtariVectorEnv('beamfall', frame_skip=2)  # type: ignore[call-arg]\n"
+            "racebeam.AtariEnv('beamfall', frame_skip=2)  # type: ignore[arg-type]\n"
             "racebeam.AtariVectorEnv('beamfall', frameskip='2')  # type: ignore[arg-type]\n"
             "reveal_type(envs.step([0, 1]))\n"
             "reveal_type(racebeam.envpool.make('Pong-v5', env_type='gymnasium'))\n"

@@ -361,7 +361,12 @@ def console_of(**settings: Any) -> dict[str, str]:
 
 
 # Options of others, and what is meant by them here.
-OTHER_NAMES = {"max_episode_steps": "max_num_frames_per_episode takes the frames of an episode"}
+OTHER_NAMES = {
+    "max_episode_steps": "max_num_frames_per_episode takes the frames of an episode",
+    "terminal_on_life_loss": "life_loss takes the effect of a lost life",
+    "episodic_life": "life_loss takes the effect of a lost life",
+    "seed": "reset() takes the seed",
+}
 
 
 def check_names(names: Iterable[str], known: Sequence[str], where: str) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import os
-from typing import Any, Literal, TypeAlias, TypedDict
+from typing import Any, Literal, NoReturn, TypeAlias, TypedDict
 
 from . import images
 from ._core import Action, ConsoleAction, View, controller_actions
@@ -13,6 +14,7 @@ from .arguments import (
     WrongValue,
     action_space,
     check_choice,
+    check_names,
     check_source,
     check_token,
     console_of,
@@ -124,6 +126,7 @@ class AtariEnv(EnvWithView):
         server: Address of the server that runs the game.
         token: Token that the server requires.
         timeout: Seconds to wait for each reply of the server. Default: no limit.
+        **unknown: Other names are refused; the error suggests similar ones.
 
     Attributes:
         ale: The `ALEInterface` of the game.
@@ -186,7 +189,10 @@ class AtariEnv(EnvWithView):
         token: str | None = None,
         timeout: float | None = None,
         life_loss_ends: bool | None = None,
+        **unknown: NoReturn,
     ) -> None:
+        if unknown:
+            check_names(unknown, [*inspect.signature(AtariEnv).parameters], "help(racebeam.AtariEnv)")
         defaults = preset_of(preset)
         check_rules(rules)
         check_choice("obs_type", obs_type, tuple(VIEWS))

@@ -14,6 +14,7 @@ import functools
 import importlib.machinery
 import os
 import pathlib
+import re
 import types
 from collections.abc import Mapping
 from typing import Any, TypeAlias
@@ -23,6 +24,8 @@ from .errors import InvalidInput, MissingImage, UnknownGame
 
 VARIABLES = ("RACEBEAM_ROMS", "ALE_ROMS_DIR")
 BUILT_IN = "builtin:"
+SIMILAR = 0.65  # as difflib compares a wrong name with one that is suggested
+ID = re.compile(r"(?:.*/)?(.+?)(?:-ram)?(?:Deterministic|NoFrameskip)?-v\d+")  # of Gymnasium
 
 Rom: TypeAlias = str | os.PathLike[str] | bytes
 Files: TypeAlias = tuple[
@@ -67,9 +70,15 @@ def check_name(game: str) -> None:
     """
     if isinstance(game, str) and game in titles():
         return
-    near = difflib.get_close_matches(str(game), titles(), n=3)
+    near = difflib.get_close_matches(_name_in_id(str(game)).lower(), titles(), n=3, cutoff=SIMILAR)
     hint = f"; did you mean {' or '.join(near)}?" if near else "; racebeam.games() lists them"
     raise UnknownGame(f"unknown game {game!r}{hint}")
+
+
+def _name_in_id(text: str) -> str:
+    """Returns the name in an id of Gymnasium, such as "Pong" in "ALE/Pong-v5", and another text as it is."""
+    found = ID.fullmatch(text)
+    return found[1] if found else text
 
 
 def ale_folder() -> pathlib.Path | None:

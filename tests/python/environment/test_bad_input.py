@@ -33,11 +33,24 @@ class TestBadInput:
         make, wrong = racebeam.AtariEnv, gym.error.Error
         self.check_refusal(racebeam.UnknownGame, "game 'beamfal'.* beamfall", make, "beamfal")
         self.check_refusal(racebeam.UnknownGame, r"game \[1\]", make, [1])
+        for name in ("Pong", "PONG", "ALE/Pong-v5", "PongNoFrameskip-v4", "Pong-ramDeterministic-v0"):
+            self.check_refusal(racebeam.UnknownGame, f"game '{name}'; did you mean pong\\?", make, name)
+        self.check_refusal(racebeam.UnknownGame, r"games\(\) lists them", make, "nothing")
         self.check_refusal(wrong, "^obs_type .*'text'", make, "beamfall", obs_type="text")
         self.check_refusal(
             wrong, "render_mode is 'ansi'; it takes None, human, rgb_array", make, "beamfall", render_mode="ansi"
         )
         self.check_refusal(wrong, "frameskip has the type float", make, "beamfall", frameskip=4.0)
+        for name, hint in (
+            ("frame_skip", "did you mean frameskip"),
+            ("max_episode_steps", "max_num_frames_per_episode takes the frames"),
+            ("seed", r"reset\(\) takes the seed"),
+            ("colour", r"help\(racebeam.AtariEnv\) lists the options"),
+        ):
+            sentence = f"unknown option '{name}'; {hint}"
+            self.check_refusal(wrong, sentence, make, "beamfall", **{name: 4})
+        self.check_refusal(TypeError, "did you mean frameskip", gym.make, "racebeam/Beamfall-v5", frame_skip=4)
+        assert gym.make("racebeam/Beamfall-v5", max_episode_steps=4).spec.max_episode_steps == 4  # of Gymnasium
         for frameskip in (0, -1, (0, 3), (3, 3), (4, 3), (1, 2, 3), ()):
             self.check_refusal(wrong, "frameskip is", make, "beamfall", frameskip=frameskip)
         self.check_refusal(RuntimeError, "mode 7", make, "beamfall", mode=7)
