@@ -33,13 +33,14 @@ std::vector<std::string_view> similar_names(std::string_view name,
                                             std::span<const std::string_view> candidates) {
   if (name.empty() || name.size() > kLongest) return {};
   const std::string small = lower_case(name);
-  const std::size_t farthest = std::min(std::max<std::size_t>(2, name.size() / 3), name.size() - 1);
+  const std::size_t farthest = std::max<std::size_t>(2, name.size() / 3);
   std::vector<std::pair<std::size_t, std::string_view>> near;
   for (const std::string_view one : candidates) {
     const std::string other = lower_case(one);
     const bool begins_alike = small.size() > 2 && other != small && other.starts_with(small);
     const std::size_t distance = begins_alike ? 1 : edit_distance(small, other);
-    if (distance <= farthest) near.emplace_back(distance, one);
+    if (distance <= farthest && distance < std::min(name.size(), one.size()))
+      near.emplace_back(distance, one);
   }
   std::ranges::sort(near);
   std::vector<std::string_view> names;

@@ -105,6 +105,7 @@ TEST_CASE("Each place on the screen, number of times and letter is taken up to i
 TEST_CASE("An action that was misspelt is suggested from the player's set") {
   CHECK_THAT(refusal("fier"), Contains("did you mean FIRE?"));
   CHECK_THAT(refusal("NOOP/fier"), Contains("did you mean FIRE?"));
+  CHECK_THAT(refusal("JUMP"), !Contains("did you mean"));
 }
 
 TEST_CASE("Player B, strengths and repetition") {
