@@ -114,6 +114,12 @@ class TestCompiled:
                 handle, result = call(handle, jnp.uint32(2**32 - 1))  # counts on at 0
                 self.check(result, plain.reset(seed=[2**31 - 1, 0, 1]))
 
+    @pytest.mark.parametrize("seed", (2**31 - COUNT, np.full(COUNT, 2**31 - 1)))
+    def test_the_largest_seeds_are_taken(self, seed):
+        compiled, plain = both(obs_type="ram")
+        handle, reset, _ = compiled.xla()
+        self.check(reset(handle, seed)[1], plain.reset(seed=seed))
+
     def test_continuous_actions(self):
         compiled, plain = both(continuous=True, continuous_action_threshold=0.3)
         handle, _, step = compiled.xla()
@@ -162,7 +168,9 @@ class TestRefused:
     def test_errors_before_anything_is_compiled(self):
         envs = both()[0]
         handle, reset, step = envs.xla()
+        *_, push = both(continuous=True)[0].xla()
         for error, call in (
+            (InvalidInput, lambda: push(handle, np.zeros((COUNT, 2), np.float32))),
             (TypeError, lambda: step(handle, np.zeros(COUNT))),
             (InvalidInput, lambda: step(handle, ACTIONS[0][:2])),
             (InvalidInput, lambda: reset(handle, np.zeros(2, np.int32))),
@@ -171,6 +179,7 @@ class TestRefused:
             (InvalidInput, lambda: reset(handle, None, np.ones(2, bool))),
             (InvalidInput, AtariVectorEnv("beamfall", 2, autoreset_mode="SameStep").xla),
             (InvalidInput, AtariVectorEnv("beamfall", 2, batch_size=1).xla),
+            (InvalidInput, AtariVectorEnv("beamfall", 2, sound_obs=True).xla),
         ):
             with pytest.raises(error):
                 call()
