@@ -2,6 +2,8 @@
 
 import os
 import pathlib
+import sys
+import threading
 import time
 
 import package
@@ -71,7 +73,92 @@ class TestServers:
             raise KeyError
         self.nothing_is_left()
 
+    def test_without_submitit_it_says_what_is_missing(self, monkeypatch):
+        monkeypatch.setitem(sys.modules, "submitit", None)
+        with pytest.raises(ImportError, match="racebeam.cluster needs submitit; "), SlurmServers(1, folder=self.folder):
+            pass
+        assert list(self.folder.iterdir()) == []
+
     @pytest.mark.parametrize("arguments", ({"n": 0}, {"n": "two"}, {"n": 1, "image": "/nonexistent"}))
     def test_bad_input(self, arguments):
         with pytest.raises(racebeam.InvalidInput):
             SlurmServers(**arguments)
+
+
+class Job:
+    def __init__(self):
+        self.ends = []
+
+    def cancel(self, check=True):
+        self.ends.append(check)
+
+
+class Executor:
+    """Takes jobs as an executor of submitit does, and runs none."""
+
+    def __init__(self, error=None):
+        self.error = error
+
+    def update_parameters(self, **parameters):
+        self.parameters = parameters
+
+    def map_array(self, _, options):
+        if self.error:
+            raise self.error
+        self.options = options
+        self.jobs = [Job() for _ in options]
+        return self.jobs
+
+
+class TestJobs:
+    """What the scheduler is asked for."""
+
+    @pytest.mark.parametrize("image, roms", (("roms/game.bin", "roms"), ("roms", "roms"), (None, None)))
+    def test_each_server_has_the_options_and_an_announce_file(self, tmp_path, image, roms):
+        (tmp_path / "roms").mkdir()
+        (tmp_path / "roms" / "game.bin").touch()
+        (tmp_path / "jobs").mkdir()
+        executor, options = Executor(), ("--max-machines", "2")
+        image = image and tmp_path / image
+        servers = SlurmServers(
+            2, image, options=options, folder=tmp_path / "jobs", wait=2.5, executor=executor, slurm_partition="cpu"
+        )
+        with servers as addresses:
+            assert executor.parameters == {"name": "racebeam-servers", "slurm_partition": "cpu"}
+            (folder,) = (tmp_path / "jobs").iterdir()
+            files = [f"{folder}/server-{number}" for number in range(2)]
+            assert addresses == [f"file:{file}?wait=2.5" for file in files]
+            start = [*(["--roms", str(tmp_path / roms)] if roms else []), *options, "--listen", "tcp://0.0.0.0:0"]
+            assert executor.options == [[*start, "--announce", file] for file in files]
+            assert servers.jobs == executor.jobs
+        assert [job.ends for job in executor.jobs] == [[False], [False]]
+        assert servers.jobs == []
+        assert list((tmp_path / "jobs").iterdir()) == []
+
+    def test_jobs_may_have_another_name(self, tmp_path):
+        executor = Executor()
+        with SlurmServers(1, folder=tmp_path, executor=executor, name="mine"):
+            assert executor.parameters == {"name": "mine"}
+
+    def test_jobs_that_are_refused_leave_nothing(self, tmp_path):
+        refusal = RuntimeError("no such partition")
+        with pytest.raises(RuntimeError) as raised, SlurmServers(1, folder=tmp_path, executor=Executor(refusal)):
+            pass
+        assert raised.value is refusal
+        assert list(tmp_path.iterdir()) == []
+
+    def test_a_job_that_still_writes_leaves_nothing(self, tmp_path):
+        def write(folder):
+            until = time.monotonic() + 0.5
+            while time.monotonic() < until:
+                try:
+                    (folder / f"{time.monotonic()}").touch()
+                except FileNotFoundError:
+                    break
+
+        with SlurmServers(1, folder=tmp_path, executor=Executor()):
+            (folder,) = tmp_path.iterdir()
+            job = threading.Thread(target=write, args=(folder,))
+            job.start()
+        assert list(tmp_path.iterdir()) == []
+        job.join()
