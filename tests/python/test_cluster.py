@@ -135,6 +135,15 @@ class TestJobs:
         assert servers.jobs == []
         assert list((tmp_path / "jobs").iterdir()) == []
 
+    def test_without_an_executor_submitit_chooses_one_whose_logs_go_with_the_jobs(self, tmp_path, monkeypatch):
+        executor, folders = Executor(), []
+        monkeypatch.setattr(submitit, "AutoExecutor", lambda folder: folders.append(folder) or executor)
+        with SlurmServers(1, folder=tmp_path) as (address,):
+            (folder,) = tmp_path.iterdir()
+            assert folders == [folder / "%j"]  # submitit replaces %j by the number of the job
+            assert address == f"file:{folder}/server-0?wait=300"
+        assert list(tmp_path.iterdir()) == []
+
     def test_jobs_may_have_another_name(self, tmp_path):
         executor = Executor()
         with SlurmServers(1, folder=tmp_path, executor=executor, name="mine"):
