@@ -178,9 +178,9 @@ case(VectorEnvironmentTests, "VectorOfEnvPool", SeededPool)
 class Broken(unittest.TestCase):
     """Environments that break a rule fail the test of that rule."""
 
-    def failures(self, kind, maker, make):
+    def failures(self, kind, maker, make, **attributes):
         tests = unittest.defaultTestLoader.loadTestsFromTestCase(
-            type("Broken", (kind, unittest.TestCase), {maker: staticmethod(make)})
+            type("Broken", (kind, unittest.TestCase), {maker: staticmethod(make), **attributes})
         )
         result = tests.run(unittest.TestResult())
         return {test.id().split(".")[-1] for test, _ in result.failures + result.errors}
@@ -301,6 +301,47 @@ class Broken(unittest.TestCase):
             AtariEnv.close(self)
 
         self.check(AtariEnv, {"test_a_second_close_does_nothing"}, close=close)
+
+    def test_an_environment_that_takes_no_step_after_an_end_keeps_the_rules(self):
+        class Strict(gymnasium.Wrapper):
+            ends = itertools.cycle(((True, False), (False, True)))
+            steps = 0  # of the episode; None: it is over
+
+            def reset(self, **arguments):
+                self.steps = 0
+                return self.env.reset(**arguments)
+
+            def step(self, action):
+                assert self.steps is not None
+                self.steps += 1
+                ram, reward, _, _, info = self.env.step(action)
+                ends = (False, False)
+                if self.steps == 3:
+                    self.steps, ends = None, next(self.ends)
+                return ram, reward, *ends, info
+
+        tests = EnvironmentTests, "make_env"
+        found = self.failures(*tests, lambda: Strict(AtariEnv("beamfall", obs_type="ram")), has_states=False, steps=48)
+        self.assertEqual(found, set())
+
+    def test_each_environment_is_closed(self):
+        for kind, tests in (
+            (AtariEnv, (EnvironmentTests, "make_env")),
+            (AtariVectorEnv, (VectorEnvironmentTests, "make_envs")),
+        ):
+            made, closed = [], []
+
+            def close(self, kind=kind, closed=closed):
+                closed.append(self)
+                kind.close(self)
+
+            def make(*count, kind=kind, made=made, close=close):
+                made.append(type("Counted", (kind,), {"close": close})("beamfall", *count, obs_type="ram"))
+                return made[-1]
+
+            with self.subTest(kind=kind):
+                self.assertEqual(self.failures(*tests, make), set())
+                self.assertEqual({*map(id, made)}, {*map(id, closed)})
 
     def test_equal_compares_types_too(self):
         self.assertTrue(equal({"a": [np.zeros(2), 1]}, {"a": [np.zeros(2), 1]}))
