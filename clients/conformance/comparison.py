@@ -8,9 +8,8 @@ import subprocess
 import servers
 
 STEPS = servers.ROOT / "clients/conformance"
-PATIENCE = (
-    550  # seconds for a conversation: a busy machine takes three times the minute of bash; ctest waits for ten minutes
-)
+# Seconds for a conversation: a busy machine takes three times the minute of bash. ctest waits for ten minutes.
+PATIENCE = 550
 DESCRIPTORS = 128  # that a runner may have open: fewer than its connections, should it leak any
 SECTION = re.compile(r"section (\S+)(?: like (\S+))?(?: needs (.+))?\n?$")
 
@@ -39,7 +38,7 @@ def section_names(names, offers=()):
 
 def run(client, names, racebeam, roms=None, **variables):
     """What `client` prints about the steps of the files, with its own servers."""
-    with servers.started(racebeam, roms) as places:
+    with servers.run_servers(racebeam, roms) as places:
         path = servers.pathlib.Path(places["AUTHORITY"]).parent / "steps.txt"
         path.write_text("".join(steps(names, client.offers)))
         done = subprocess.run(

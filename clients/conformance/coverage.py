@@ -12,7 +12,7 @@ import description  # noqa: E402
 STEPS_WITH_REQUEST = (">", "send")
 
 
-def helped(racebeam, subject):
+def help_text(racebeam, subject):
     """The sentence of `help SUBJECT`."""
     done = subprocess.run(
         [racebeam, "serve", "--stdio"], input=f"help {subject}\n", capture_output=True, text=True, check=True
@@ -28,18 +28,18 @@ def names(text):
 
 def expected(racebeam):
     """Everything that the protocol has, by kind."""
-    commands = helped(racebeam, "").removeprefix("commands: ").split(";")[0].split()
-    presets = re.findall(r"(\S+) \([^)]*\) sets", helped(racebeam, "presets"))
-    choices = re.findall(r"\[(\w+)=([^\]]*)\]", helped(racebeam, "open"))
-    fields = names(helped(racebeam, "fields"))
+    commands = help_text(racebeam, "").removeprefix("commands: ").split(";")[0].split()
+    presets = re.findall(r"(\S+) \([^)]*\) sets", help_text(racebeam, "presets"))
+    choices = re.findall(r"\[(\w+)=([^\]]*)\]", help_text(racebeam, "open"))
+    fields = names(help_text(racebeam, "fields"))
     return {
         "command": commands,
-        "setting": names(helped(racebeam, "settings")),
+        "setting": names(help_text(racebeam, "settings")),
         "preset": presets,
         "choice of open": [f"{key}={value}" for key, values in choices for value in values.split("|")],
         "field": fields,
-        "encoding": names(helped(racebeam, "encodings")),
-        "error code": names(helped(racebeam, "errors")),
+        "encoding": names(help_text(racebeam, "encodings")),
+        "error code": names(help_text(racebeam, "errors")),
     }
 
 
@@ -48,8 +48,8 @@ def kind_of_size(field):
     return re.sub(r"^(grey|rgb)\d+x\d+x\d+$", r"\1WxHxN", field)
 
 
-def used(steps, printed):
-    """What the steps ask for, and what the lines that a client printed tell, by kind."""
+def usage(steps, printed):
+    """What the steps ask for, and what the lines that a client printed name, by kind."""
     requests = [line.split()[1:] for line in steps if line.startswith(STEPS_WITH_REQUEST)]
     pairs = [word.partition("=")[::2] for words in requests for word in words if "=" in word]
     fields = list(
@@ -69,13 +69,13 @@ def used(steps, printed):
 
 def missing(racebeam, steps, printed):
     """A word for each thing that is not used, such as `command open`."""
-    have = used(steps, printed)
+    have = usage(steps, printed)
     return [
         f"{kind} {name}" for kind, listed in expected(racebeam).items() for name in listed if name not in have[kind]
     ]
 
 
-def undescribed(printed):
+def keys_without_description(printed):
     """The keys of printed replies that protocol/protocol.toml does not have."""
     protocol = description.read()
     known = {row.name for table in (protocol.fields, protocol.settings) for row in table}

@@ -95,8 +95,8 @@ class Servers:
 
 
 @contextlib.contextmanager
-def started(racebeam, roms=None):
-    """All servers. Gives the variables of the steps: addresses, and what else the conversations name."""
+def run_servers(racebeam, roms=None):
+    """Starts all servers, and stops them at the end. Yields the variables of the steps: addresses, and other values."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         servers = Servers(racebeam, folder)

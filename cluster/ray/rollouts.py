@@ -78,20 +78,19 @@ def rollouts(
     policy: None plays at random. The arrays of a rollout are read-only: they lie in the object store.
     """
     waiting, idle = deque(range(count)), []
-    awaited: dict[
-        ray.ObjectRef, tuple[Any, int | None]
-    ] = {}  # to the actor and the number of its rollout; None: its start
+    # The actor of each call without a result, and the number of its rollout; None if the actor is starting.
+    calls: dict[ray.ObjectRef, tuple[Any, int | None]] = {}
 
     def start() -> None:
         actor = Player.remote(game, num_envs, settings)
-        awaited[actor.__ray_ready__.remote()] = actor, None
+        calls[actor.__ray_ready__.remote()] = actor, None
 
     for _ in range(actors):
         start()
     finished = 0
     while finished < count:
-        (reference,), _ = ray.wait(list(awaited))
-        actor, number = awaited.pop(reference)
+        (reference,), _ = ray.wait(list(calls))
+        actor, number = calls.pop(reference)
         result = result_of(reference)
         if result is not None:
             idle.append(actor)
@@ -101,7 +100,7 @@ def rollouts(
                 waiting.appendleft(number)
         while idle and waiting:
             player, following = idle.pop(), waiting.popleft()
-            awaited[player.play.remote(following * num_envs, steps, policy)] = player, following
+            calls[player.play.remote(following * num_envs, steps, policy)] = player, following
         if result is not None and number is not None:
             finished += 1
             yield result

@@ -69,7 +69,9 @@ class TestCoverage:
         assert "choice of open life_loss=reported" in coverage.missing(BINARY, [], [])
 
     def test_a_key_that_is_not_described_is_named(self):
-        assert coverage.undescribed(["ok reward=1 luck=2 final_grey84x4=3:4 grey40x30x2=5", "error luck=3"]) == ["luck"]
+        assert coverage.keys_without_description(
+            ["ok reward=1 luck=2 final_grey84x4=3:4 grey40x30x2=5", "error luck=3"]
+        ) == ["luck"]
 
     def test_it_reads_the_help_of_the_server(self):
         counts = {kind: len(names) for kind, names in coverage.expected(BINARY).items()}

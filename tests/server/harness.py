@@ -25,9 +25,8 @@ SOCKETS = ("tcp",) if WINDOWS else ("tcp", "unix")
 TRANSPORTS = STREAMS + SOCKETS
 # Where a server of many sessions listens: at a free port, and at a Unix socket in its folder.
 LISTEN = ("--listen", "tcp://127.0.0.1:0") + (() if WINDOWS else ("--listen", "unix:s"))
-PATIENCE = float(
-    os.environ.get("RACEBEAM_PATIENCE", 60)
-)  # seconds until something counts as hanging; more for slow builds
+# Seconds until something counts as hanging; more for slow builds.
+PATIENCE = float(os.environ.get("RACEBEAM_PATIENCE", 60))
 SKIPPED = 77  # exit status that ctest reads as "skipped"
 
 
