@@ -221,7 +221,7 @@ class TestProgram:
 
     def test_a_missing_program_is_reported(self):
         done = python(
-            "import racebeam.program as p\np._installed = lambda: None\n"
+            "import racebeam.program as p\np._find_installed = lambda: None\n"
             "try: racebeam.launch()\nexcept FileNotFoundError as error: print(error)".replace(
                 "racebeam.launch", "p.path"
             ),

@@ -40,7 +40,7 @@ def value_or(value: Any, default: Any) -> Any:
     return default if value is None else value
 
 
-def renamed(old: str, old_value: Any, name: str, value: Any) -> Any:
+def accept_old_name(old: str, old_value: Any, name: str, value: Any) -> Any:
     """Returns the value of an argument that may be given by its old name, and warns of the old name.
 
     Args:

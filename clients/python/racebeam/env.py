@@ -12,6 +12,7 @@ from .arguments import (
     MOST,
     WrongType,
     WrongValue,
+    accept_old_name,
     action_space,
     check_choice,
     check_names,
@@ -24,7 +25,6 @@ from .arguments import (
     optional_integer,
     path_of,
     real,
-    renamed,
     seconds,
     share,
     sound_flag,
@@ -229,7 +229,7 @@ class AtariEnv(EnvWithView):
             "max_num_frames_per_episode", value_or(max_num_frames_per_episode, defaults.max_num_frames_per_episode)
         )
         truncates = flag(
-            "life_loss_ends", value_or(renamed("life_loss_ends", life_loss_ends, "life_loss", None), False)
+            "life_loss_ends", value_or(accept_old_name("life_loss_ends", life_loss_ends, "life_loss", None), False)
         )
         word = value_or(life_loss, "ignored" if life_loss_ends is not None else defaults.life_loss)
         check_choice("life_loss", word, LIFE_LOSSES)

@@ -43,7 +43,7 @@ class VectorPreset(NamedTuple):
     reward_clipping: bool = True
 
 
-def _as_published(preset: Preset) -> VectorPreset:
+def _vector_preset_of(preset: Preset) -> VectorPreset:
     """The preset for `AtariVectorEnv`, with episodes that begin as in the literature.
 
     Where the protocol's preset begins a new game at a lost life, a vector ends the episode and goes on with the game,
@@ -61,7 +61,7 @@ def _as_published(preset: Preset) -> VectorPreset:
 VECTOR_PRESETS = {
     "ale": VectorPreset(),
     "gym-v5": VectorPreset(repeat_action_probability=0.25),
-    **{name: _as_published(PRESETS[name]) for name in ("paper2013", "dqn2015", "machado2018")},
+    **{name: _vector_preset_of(PRESETS[name]) for name in ("paper2013", "dqn2015", "machado2018")},
 }
 
 

@@ -31,14 +31,14 @@ def path() -> str:
     program = os.environ.get("RACEBEAM_PROGRAM")
     if program:
         return program
-    installed = _installed()
+    installed = _find_installed()
     found = str(installed) if installed is not None else shutil.which("racebeam")
     if found is None:
         raise FileNotFoundError(NOT_FOR_WINDOWS if sys.platform == "win32" else NOT_FOUND)
     return found
 
 
-def _installed() -> pathlib.Path | None:
+def _find_installed() -> pathlib.Path | None:
     try:
         files = importlib.metadata.files("racebeam") or []
     except importlib.metadata.PackageNotFoundError:

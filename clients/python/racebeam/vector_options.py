@@ -12,6 +12,7 @@ from .arguments import (
     MOST,
     WrongType,
     WrongValue,
+    accept_old_name,
     action_space,
     check_choice,
     check_names,
@@ -22,7 +23,6 @@ from .arguments import (
     member,
     optional_integer,
     real,
-    renamed,
     share,
     sound_flag,
 )
@@ -135,7 +135,7 @@ def _resolve(arguments: OptionArguments) -> dict[str, Any]:
     lives = fields.pop("lives", None)
     if isinstance(lives, str) and lives == "told":
         lives = "reported"
-    life_loss = renamed("lives", lives, "life_loss", fields.pop("life_loss", None))
+    life_loss = accept_old_name("lives", lives, "life_loss", fields.pop("life_loss", None))
     flags = {name: fields.pop(name, False) for name in ("life_loss_info", "episodic_life")}
     fields["life_loss"] = _merge_life_flags(life_loss, **flags)
     return {name: value for name, value in fields.items() if value is not None or name not in NONE_IS_DEFAULT}

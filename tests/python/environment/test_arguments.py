@@ -48,15 +48,15 @@ class TestWords:
     def test_an_old_name_is_taken_with_a_warning_but_not_with_the_new_one(self):
         with warnings.catch_warnings(record=True) as found:
             warnings.simplefilter("always")
-            assert arguments.renamed("old", None, "new", 0) == 0
-            assert arguments.renamed("old", None, "new", None) is None
+            assert arguments.accept_old_name("old", None, "new", 0) == 0
+            assert arguments.accept_old_name("old", None, "new", None) is None
             assert found == []
-            assert arguments.renamed("old", 0, "new", None) == 0
+            assert arguments.accept_old_name("old", 0, "new", None) == 0
         assert [(str(one.message), one.category, one.filename) for one in found] == [
             ("old is the old name of new", DeprecationWarning, __file__)
         ]
         with pytest.raises(WrongValue, match="old is the old name of new; only one of them may be given"):
-            arguments.renamed("old", 0, "new", 0)
+            arguments.accept_old_name("old", 0, "new", 0)
 
     def test_a_choice_is_a_word_or_is_left_out(self):
         for value in ("a", None):

@@ -14,7 +14,7 @@ from ..errors import InvalidInput
 from ..vector.results import Info, Numbers, Pixels
 from . import xla
 from .envs import ROWS, Envs, parts_of
-from .spec import EnvSpec, InvalidSetting, checked
+from .spec import EnvSpec, InvalidSetting, call_check
 from .types import Results
 
 __all__ = ["EnvPool"]
@@ -60,7 +60,7 @@ class EnvPool:
         self._check_size()
         self._envs = Envs(spec)
         self.num_envs, self.batch_size = self._envs.num_envs, self._envs.batch_size
-        self._render_env_id = checked(integer, "render_env_id", render_env_id, 0, self.num_envs - 1)
+        self._render_env_id = call_check(integer, "render_env_id", render_env_id, 0, self.num_envs - 1)
         self.render_mode = render_mode
         self.action_space = self.single_action_space = spec.action_space
         self.observation_space = self.single_observation_space = spec.observation_space

@@ -6,7 +6,7 @@ from typing import Any, Literal, overload
 
 from ..arguments import flag
 from .pools import DMEnvPool, GymEnvPool, GymnasiumEnvPool
-from .spec import EnvSpec, InvalidSetting, checked, games, without_rendering
+from .spec import EnvSpec, InvalidSetting, call_check, games, without_rendering
 
 __all__ = ["list_all_envs", "make", "make_dm", "make_gym", "make_gymnasium", "make_spec"]
 
@@ -87,7 +87,7 @@ def make_dm(task_id: str, **config: Any) -> DMEnvPool:
 
 
 def _make_old_gym(task_id: str, **config: Any) -> GymEnvPool | GymnasiumEnvPool:
-    if checked(flag, "gym_reset_return_info", config.get("gym_reset_return_info")):
+    if call_check(flag, "gym_reset_return_info", config.get("gym_reset_return_info")):
         return make_gymnasium(task_id, **config)
     return GymEnvPool(*_pool_arguments(task_id, config, False))
 
@@ -106,7 +106,7 @@ def _pool_arguments(task_id: str, config: dict[str, Any], returns_info: bool) ->
 
 def _check_reset_info(env_type: str, config: dict[str, Any]) -> None:
     value = config.get("gym_reset_return_info")
-    if value is not None and not checked(flag, "gym_reset_return_info", value):
+    if value is not None and not call_check(flag, "gym_reset_return_info", value):
         raise InvalidSetting(
             f"gym_reset_return_info is {value!r}; {env_type} environments take True, "
             'and make(env_type="gym") takes both'

@@ -88,7 +88,7 @@ class UnknownTask(UnknownGame, InvalidSetting):
     """Raised for an id that no task has."""
 
 
-def checked(check: Callable[..., Value], *arguments: Any) -> Value:
+def call_check(check: Callable[..., Value], *arguments: Any) -> Value:
     """Calls a check of `racebeam.arguments`.
 
     Args:
@@ -153,15 +153,15 @@ def _checked_config(config: Iterable[Any]) -> Any:
         if not _equals(values[name], value):
             raise InvalidSetting(f"{name} is {values[name]!r}; racebeam has only {value!r}")
     for name, (low, high) in LIMITS.items():
-        values[name] = checked(integer, name, values[name], low, high)
+        values[name] = call_check(integer, name, values[name], low, high)
     for name, value in CONFIG.items():
         if isinstance(value, bool):
-            values[name] = checked(flag, name, values[name])
-    values["repeat_action_probability"] = checked(
+            values[name] = call_check(flag, name, values[name])
+    values["repeat_action_probability"] = call_check(
         share, "repeat_action_probability", values["repeat_action_probability"]
     )
     values["batch_size"] = (
-        checked(integer, "batch_size", values["batch_size"], 0, values["num_envs"]) or values["num_envs"]
+        call_check(integer, "batch_size", values["batch_size"], 0, values["num_envs"]) or values["num_envs"]
     )
     return Config(**values)
 
@@ -181,13 +181,13 @@ def seeds_of(config: Any) -> np.ndarray[Any, np.dtype[np.int64]]:
     name = "env_seed" if np.size(config.env_seed) else "seed"
     seed_setting = getattr(config, name)
     if np.ndim(seed_setting) == 0 and not isinstance(seed_setting, str):
-        seeds = checked(integer, name, seed_setting, INT.min, INT.max) + np.arange(config.num_envs, dtype=np.int64)
+        seeds = call_check(integer, name, seed_setting, INT.min, INT.max) + np.arange(config.num_envs, dtype=np.int64)
         return seeds % 2**32
     if len(seed_setting) != config.num_envs:
         raise InvalidSetting(
             f"{name} has {len(seed_setting)} seeds; accepted: {config.num_envs}, one for each environment"
         )
-    return np.array([checked(integer, name, seed, INT.min, INT.max) for seed in seed_setting], np.int64) % 2**32
+    return np.array([call_check(integer, name, seed, INT.min, INT.max) for seed in seed_setting], np.int64) % 2**32
 
 
 class ArraySpec(NamedTuple):

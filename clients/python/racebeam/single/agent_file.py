@@ -46,12 +46,12 @@ def agent_file(
         "preset": preset,
         "training_frames": integer("training_frames", training_frames, 0, MOST_FRAMES),
         **({} if phrase is None else {"phrase": _phrase(phrase)}),
-        **_checked(about or {}),
+        **_check_about(about or {}),
     }
     return "".join(f"{key} = {_toml(word)}\n" for key, word in words.items())
 
 
-def _checked(about: Any) -> dict[str, str]:
+def _check_about(about: Any) -> dict[str, str]:
     if not isinstance(about, dict) or not about.keys() <= set(KEYS):
         raise WrongType(f"about is {about!r}; it takes a dict with {', '.join(KEYS)}")
     words = {key: _text(key, word) for key, word in about.items()}

@@ -81,7 +81,7 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         about: dict[str, str] | None = None,
     ) -> None:
         super().__init__(env)
-        self._base = _checked(env)
+        self._base = _base_of(env)
         self._template = _template_of(self._base)
         seed = integer("agent_seed", agent_seed, *SEEDS)
         self._origin, self._phrase = Origin(agent, integer("trial", trial, 1, MOST), 1, seed), phrase
@@ -188,7 +188,8 @@ class RecordLog(gymnasium.Wrapper[Any, Any, Any, Any]):
         warnings.warn(f"an episode of {self._template.game} has no log: {why}", stacklevel=4)
 
 
-def _checked(env: gymnasium.Env[Any, Any]) -> AtariEnv:
+def _base_of(env: gymnasium.Env[Any, Any]) -> AtariEnv:
+    """Returns the environment below the wrappers, if logs can have its episodes."""
     base = env.unwrapped
     if not isinstance(base, AtariEnv):
         raise InvalidInput(f"env is of class {type(env).__name__}; RecordLog takes an AtariEnv, or wrappers around one")

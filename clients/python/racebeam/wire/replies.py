@@ -114,7 +114,7 @@ class Replies(Connection):
             count = groups[-1].pop("raw", None)
             return words, groups, parse_count(count, self.longest_reply) if count is not None else 0
         except DAMAGES as error:
-            raise self._damaged(error) from error
+            raise self._fail_decoding(error) from error
 
     def _read_status(self, line: str) -> tuple[list[str], str]:
         """Reads the status of a reply.
@@ -153,7 +153,7 @@ class Replies(Connection):
         try:
             self._observations.split_bytes(words, groups, data)
         except DAMAGES as error:
-            raise self._damaged(error) from error
+            raise self._fail_decoding(error) from error
 
     def _decode(self, words: list[str], groups: list[Texts]) -> list[Values]:
         """Decodes a reply.
@@ -171,7 +171,7 @@ class Replies(Connection):
         try:
             return self._observations.decode(words, groups)
         except DAMAGES as error:
-            raise self._damaged(error) from error
+            raise self._fail_decoding(error) from error
 
     def _end(self, reason: str) -> None:
         self._unanswered.clear()
@@ -181,8 +181,8 @@ class Replies(Connection):
         try:
             return parse_count(text, self.longest_reply)
         except DAMAGES as error:
-            raise self._damaged(error) from error
+            raise self._fail_decoding(error) from error
 
-    def _damaged(self, error: Exception) -> OSError:
-        """Ends the session because a reply is damaged."""
+    def _fail_decoding(self, error: Exception) -> OSError:
+        """Ends the session because a reply is damaged. Returns the error to raise."""
         return self._fail(ConnectionError(f"its reply is damaged: {error}"))
