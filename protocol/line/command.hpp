@@ -33,7 +33,7 @@ struct Command {
 
   // The keys of replies: "KEY:TYPE KEY?:TYPE", where ? marks an optional key.
   std::string_view reply, groups;
-  std::string_view shows;   // where the fields are: first, groups, asked, or nowhere
+  std::string_view shows;   // where the fields are: "first", "groups", "asked" or ""
   std::string_view echoes;  // the table whose names are keys, too
 };
 

@@ -174,7 +174,7 @@ class TestOptions(Case):
         self.check_refusal(2, "OUT.png is required", "png")
 
     def test_an_unknown_option_is_answered_with_similar_names(self, subtests):
-        for meant, given, *words in (
+        for suggestion, given, *words in (
             ("--frames", "--frams", "bench", "--rom", GAME, "--frams"),
             ("--frame-skip", "--frameskip=4", "bench", "--rom", GAME, "--frameskip=4"),
             ("--max-states", "--max-state 3", "serve", "--stdio", "--max-state", "3"),
@@ -182,7 +182,7 @@ class TestOptions(Case):
             ("--actions", "--action=-", "trace", "--rom", GAME, "--action=-"),
         ):
             with subtests.test(words=words):
-                self.check_refusal(2, f"unknown argument: {given}; did you mean {meant}", *words)
+                self.check_refusal(2, f"unknown argument: {given}; did you mean {suggestion}", *words)
         self.check_refusal(2, r"unknown argument: --colour \(see", "bench", "--rom", GAME, "--colour")
 
     def test_an_unknown_subcommand_is_answered_with_similar_names(self):

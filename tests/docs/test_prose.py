@@ -20,6 +20,7 @@ FORBIDDEN = {
     r"\b(?:def|self\.|auto|void) ?_?\w*_(?:told|shown|meant|begun)\b(?!\w)": NAME,
     rf"(?:^\s*|^\s*for .*\b)(?:\w+, )*{PARTICIPLE}(?:, \w+)*(?: = | in )": NAME,
     rf"^\s*(?:const )?[\w:<>]+[&*]? {PARTICIPLE}_?(?: = |;|\{{)": NAME,
+    rf"(?:[\[(,] ?|\{{ )(?:const [\w:]+& )?\*?{PARTICIPLE}(?: ?[\]}})]|, |:)": NAME,
 }
 TESTS = r"(?:TEST_CASE\(\"|\btest\(\"|def test_)"
 FORBIDDEN_IN_TESTS = {
@@ -67,6 +68,8 @@ class TestProse:
             "        told = subprocess.run(command)",
             "    for words, said in cases:",
             "  const std::string meant = did_you_mean(name);",
+            '    const [name, told] = field.split(":");',
+            "    def check(self, script, *said, **variables):",
             "// an image that is no cartridge",
             '    """Of all units."""',
             "  // The same for a watched session.",

@@ -27,9 +27,9 @@ def conversations(path):
     return found
 
 
-def pattern(heard):
+def pattern(replies):
     """Matches this output. ... stands for text, and [N bytes] for bytes that follow a line."""
-    text = re.escape("".join(heard)).replace(re.escape("..."), ".*")
+    text = re.escape("".join(replies)).replace(re.escape("..."), ".*")
     return re.sub(r"\\\[(\d+)\\ bytes\\\]\\\n", r"[\\s\\S]{\1}", text)
 
 

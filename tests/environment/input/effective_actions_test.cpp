@@ -89,11 +89,11 @@ TEST_CASE("Each frame takes two draws, and B's is the second") {
   MersenneTwister random(123), reference(123);
   Presses held;
   for (int i = 0; i < 100; ++i) {
-    const Presses before = held, asked{{i % 18, 0.5F}, {18 + i % 18, 0.25F}};
-    sticky.draw(random, asked, held);
+    const Presses before = held, pressed{{i % 18, 0.5F}, {18 + i % 18, 0.25F}};
+    sticky.draw(random, pressed, held);
     const bool new_a = reference() >= 1u << 30, new_b = reference() >= 1u << 30;
-    CHECK(held.a.action == (new_a ? asked : before).a.action);
-    CHECK(held.b.action == (new_b ? asked : before).b.action);
+    CHECK(held.a.action == (new_a ? pressed : before).a.action);
+    CHECK(held.b.action == (new_b ? pressed : before).b.action);
   }
   CHECK(random == reference);
 }

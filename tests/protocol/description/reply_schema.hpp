@@ -24,14 +24,14 @@ class ReplyCheck {
   ReplyCheck(const std::string& request, const std::string& reply) : request_(request), reply_(reply) {}
 
   void run() const {
-    std::vector<std::string_view> words, asked;
+    std::vector<std::string_view> words, request;
     split(reply_, words);
-    split(request_, asked);
-    if (words.empty() || asked.empty() || reply_.find('\n') != reply_.npos)
+    split(request_, request);
+    if (words.empty() || request.empty() || reply_.find('\n') != reply_.npos)
       return;  // no reply, or bytes behind it
     if (words[0] == "error") return check_error(words);
     if (words[0] != "ok") fail("begins with neither ok nor error");
-    const std::string_view name = asked[0] == "exit" ? "quit" : asked[0] == "?" ? "help" : asked[0];
+    const std::string_view name = request[0] == "exit" ? "quit" : request[0] == "?" ? "help" : request[0];
     const auto row = std::ranges::find(commands(), name, &Command::name);
     if (row == commands().end()) fail("answers a command that is not described");
     if (name != "help") check_groups(*row, Words(words).subspan(1));

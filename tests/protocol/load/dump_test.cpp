@@ -79,11 +79,12 @@ TEST_CASE("Another dump of a user's game has the controllers and the picture of 
   const Scratch folder;
   const Bytes image = *counter_image()->bytes, dump = dump_of(*counter_image());
   LineClient original(paddle_duel_service(folder, image)), other(paddle_duel_service(folder, dump));
-  const std::string load = "load duel seed=7 sticky=0", reply = original.ask(load), said = other.ask(load);
+  const std::string load = "load duel seed=7 sticky=0", reply = original.ask(load),
+                    other_reply = other.ask(load);
   CHECK(value(reply, "height") == "220");
-  CHECK(value(said, "height") == "220");
-  CHECK(value(said, "format") == "pal");
-  CHECK(value(said, "image") == "other");
+  CHECK(value(other_reply, "height") == "220");
+  CHECK(value(other_reply, "format") == "pal");
+  CHECK(value(other_reply, "image") == "other");
   CHECK_THAT(other.ask("settings"), Contains(" image=other "));
   CHECK_THAT(reply, !Contains("image="));
   CHECK(played(original) == played(other));

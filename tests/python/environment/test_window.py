@@ -18,12 +18,12 @@ if "DISPLAY" not in os.environ:
 class TestWindow:
     """Windows of SDL's driver that shows nothing. To see them on a display, set SDL_VIDEODRIVER."""
 
-    def check(self, script, *said, **variables):
+    def check(self, script, *words, **variables):
         """What a script says at last."""
         done = subprocess.run(
             [sys.executable, "-c", script], capture_output=True, text=True, env={**os.environ, **variables}
         )
-        assert (done.returncode, done.stdout.split()[-len(said) :]) == (0, [*said]), done.stderr
+        assert (done.returncode, done.stdout.split()[-len(words) :]) == (0, [*words]), done.stderr
 
     def test_a_person_sees_each_frame(self):
         script = (

@@ -109,14 +109,14 @@ class TestSessions(unittest.IsolatedAsyncioTestCase):
 
 
 class TestEnds(unittest.IsolatedAsyncioTestCase):
-    async def check(self, said, *expected, **settings):
+    async def check(self, reply, *expected, **settings):
         """A server that says this after the greeting, and closes."""
 
         async def answer(reader, writer):
             await reader.readline()
             writer.write(b"ok protocol=1\n")
             await reader.readline()
-            writer.write(said)
+            writer.write(reply)
             await writer.drain()
             writer.close()
 
@@ -137,7 +137,7 @@ class TestEnds(unittest.IsolatedAsyncioTestCase):
             b"ok ram=1 raw=3\nabc",
             b"ok ram=1 raw=99999999999\n",
         ):
-            with self.subTest(said=greeting):
+            with self.subTest(greeting=greeting):
                 await self.check(greeting, ConnectionError, "has ended")
 
     async def test_a_line_that_is_too_long_raises_a_ConnectionError(self):

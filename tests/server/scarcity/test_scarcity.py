@@ -96,12 +96,12 @@ class Scarce:
 
 @pytest.mark.usefixtures("self_subtests")
 class TestMemory(Scarce):
-    def converse(self, port, said):
+    def converse(self, port, requests):
         """Everything that the server answers. A connection may fail at any time."""
         reply = b""
         try:
             with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE) as connection:
-                connection.sendall(said)
+                connection.sendall(requests)
                 connection.shutdown(socket.SHUT_WR)
                 while piece := connection.recv(65536):
                     reply += piece
@@ -122,19 +122,19 @@ class TestMemory(Scarce):
         time.sleep(0.5)  # the subject: it does nothing meanwhile
         assert server.processor_seconds() - seconds < 0.25
 
-    def check_every_allocation(self, port, said, failures, step=1):
+    def check_every_allocation(self, port, requests, failures, step=1):
         server = self.server
         for _ in range(3):
-            expected = self.converse(port, said)
+            expected = self.converse(port, requests)
         alive, number = self.scarcity.get("alive"), 1
         while number < 20000:
             self.scarcity.fail(number, failures)
             with self.subtests.test(allocation=number):
-                self.converse(port, said)
+                self.converse(port, requests)
                 assert server.alive(), server.log()[-3:]
             is_over = self.scarcity.get("failures") < failures
             self.scarcity.set("until_failure", 0)
-            assert self.converse(port, said) == expected, number
+            assert self.converse(port, requests) == expected, number
             if not is_over:
                 break
             number += step

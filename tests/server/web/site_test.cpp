@@ -30,8 +30,8 @@ Site site(bool ready = true) {
 }
 
 struct Reply {
-  Reply(const HttpRequest& asked, const Site& of)
-      : response(answer(asked, of).value()), status(response.result_int()), body(response.body()) {}
+  Reply(const HttpRequest& request, const Site& of)
+      : response(answer(request, of).value()), status(response.result_int()), body(response.body()) {}
 
   std::string field(http::field name) const { return std::string(response[name]); }
 

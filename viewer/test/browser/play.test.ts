@@ -76,8 +76,8 @@ describe("the view Play", () => {
   test("a second has 60 frames", async () => {
     const rate = await measured(() => page.evaluate(() => new Promise<number>((resolve) => {
       const shown = () => Number(document.getElementById("frame")?.textContent);
-      const [start, begun] = [shown(), performance.now()];
-      const look = () => (shown() < start + 120 ? requestAnimationFrame(look) : resolve((1000 * (shown() - start)) / (performance.now() - begun)));
+      const [start, begin] = [shown(), performance.now()];
+      const look = () => (shown() < start + 120 ? requestAnimationFrame(look) : resolve((1000 * (shown() - start)) / (performance.now() - begin)));
       look();
     })), 54, 66);
     console.log(`${rate.toFixed(1)} frames a second`);
