@@ -2,8 +2,10 @@
 // server's address is in RACEBEAM_ADDRESS.
 
 #include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <racebeam/client.hpp>
+#include <vector>
 
 namespace {
 

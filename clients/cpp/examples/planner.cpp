@@ -1,8 +1,11 @@
 // Looks ahead before each act: plays each action for a while from the present state, and takes the best.
 // Usage: planner ACTS. The server's address is in RACEBEAM_ADDRESS.
 
+#include <cstdint>
 #include <iostream>
 #include <racebeam/client.hpp>
+#include <string>
+#include <vector>
 
 int main(int count, char** words) {
   constexpr int kAhead = 20;  // acts

@@ -47,7 +47,7 @@ class AsyncSession : public Commands<AsyncSession> {
   boost::asio::awaitable<Reply> request(std::string_view line) { return ask_for(std::string(line), whole); }
 
   /// Sends a request without waiting for its reply.
-  boost::asio::awaitable<void> send(std::string_view line) { return put_alone(std::string(line)); }
+  boost::asio::awaitable<void> send(std::string_view line) { return send_line(std::string(line)); }
 
   /// Receives the next reply to a request that was sent ahead.
   boost::asio::awaitable<Reply> receive() {
@@ -97,7 +97,7 @@ class AsyncSession : public Commands<AsyncSession> {
 
   static Reply whole(Reply reply) { return reply; }
 
-  boost::asio::awaitable<void> put_alone(std::string line) {
+  boost::asio::awaitable<void> send_line(std::string line) {
     const Turn turn(busy_);
     co_await put(std::move(line));
   }
@@ -132,7 +132,7 @@ class AsyncSession : public Commands<AsyncSession> {
       }
       std::string bytes;  // read before anything is thrown: the next reply begins behind them
       if (const std::size_t count = take_raw(line)) bytes = co_await lines_->read_bytes(count);
-      co_return understood(request, std::move(line), bytes);
+      co_return parse(request, std::move(line), bytes);
     } catch (const Lost&) {
       close();
       throw;
@@ -152,7 +152,8 @@ class AsyncSession : public Commands<AsyncSession> {
     return count;
   }
 
-  Outcome understood(std::string_view request, std::string line, std::string_view bytes) {
+  /// Parses the reply to a request. Throws std::invalid_argument if it is damaged.
+  Outcome parse(std::string_view request, std::string line, std::string_view bytes) {
     constexpr std::string_view kError = "error ";
     if (line.starts_with(kError)) {
       const std::size_t end = line.find(' ', kError.size());
@@ -161,7 +162,7 @@ class AsyncSession : public Commands<AsyncSession> {
     }
     if (line != "ok" && !line.starts_with("ok "))
       throw std::invalid_argument(std::string("'").append(line, 0, 60).append("' is not a reply"));
-    return fields_.follow(request, std::move(line), bytes);
+    return fields_.decode_reply(request, std::move(line), bytes);
   }
 
   static Reply take(Outcome outcome) {
@@ -185,13 +186,8 @@ inline std::string environment_variable(const char* name, const char* otherwise)
   return value != nullptr ? value : otherwise;
 }
 
-inline asio::awaitable<AsyncSession> opened(std::shared_ptr<Lines> lines) {
-  co_await lines->open();
-  co_return AsyncSession(std::move(lines));
-}
-
-/// Opens a session as opened() does. Lost names the place where no server is.
-inline asio::awaitable<AsyncSession> opened_at(std::shared_ptr<Lines> lines, std::string place) {
+/// Opens a session. Lost names the place where no server is.
+inline asio::awaitable<AsyncSession> open_session_at(std::shared_ptr<Lines> lines, std::string place) {
   try {
     co_await lines->open();
   } catch (const TimedOut&) {
@@ -202,12 +198,12 @@ inline asio::awaitable<AsyncSession> opened_at(std::shared_ptr<Lines> lines, std
   co_return AsyncSession(std::move(lines));
 }
 
-inline asio::awaitable<AsyncSession> connected_once(std::string text, Options options) {
+inline asio::awaitable<AsyncSession> connect_once(std::string text, Options options) {
   const asio::any_io_executor executor = co_await asio::this_coro::executor;
   const Address address = parse_address(text);
   if (options.token.empty()) options.token = address.token;
   const auto lines = std::make_shared<Lines>(make_connection(executor, address, options), executor, options);
-  AsyncSession session = co_await opened_at(lines, address.source.empty() ? text : address.source);
+  AsyncSession session = co_await open_session_at(lines, address.source.empty() ? text : address.source);
   std::string greeting = "hello";
   if (!options.token.empty()) greeting += " token=" + options.token;
   const Reply hello = co_await session.request(greeting);
@@ -217,15 +213,15 @@ inline asio::awaitable<AsyncSession> connected_once(std::string text, Options op
   co_return session;
 }
 
-/// Tries again while the time of `?wait=SECONDS` lasts.
-inline asio::awaitable<AsyncSession> connected(std::string text, Options options) {
+/// Connects to an address, and tries again while the time of `?wait=SECONDS` lasts.
+inline asio::awaitable<AsyncSession> connect_within(std::string text, Options options) {
   const auto [address, seconds] = without_wait(text);
   const std::string name(address);
   asio::steady_timer pause(co_await asio::this_coro::executor);
   const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   while (true) {
     try {
-      auto session = connected_once(name, options);
+      auto session = connect_once(name, options);
       co_return co_await std::move(session);
     } catch (const Lost&) {
       if (std::chrono::steady_clock::now() >= until) throw;
@@ -240,11 +236,12 @@ inline asio::awaitable<AsyncSession> connected(std::string text, Options options
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 #endif
-inline asio::awaitable<AsyncSession> launched(std::vector<std::string> command, Options options) {
+inline asio::awaitable<AsyncSession> launch_process(std::vector<std::string> command, Options options) {
   const asio::any_io_executor executor = co_await asio::this_coro::executor;
   auto connection = std::make_unique<ProcessConnection>(executor, std::move(command));
-  const auto lines = std::make_shared<Lines>(std::move(connection), executor, options);
-  co_return co_await opened(lines);
+  auto lines = std::make_shared<Lines>(std::move(connection), executor, options);
+  co_await lines->open();
+  co_return AsyncSession(std::move(lines));
 }
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic pop
@@ -263,7 +260,7 @@ inline asio::awaitable<AsyncSession> launched(std::vector<std::string> command, 
 /// and Refused if the server refuses the session.
 inline boost::asio::awaitable<AsyncSession> async_connect(std::string_view address = {},
                                                           const Options& options = Options::usual()) {
-  return detail::connected(
+  return detail::connect_within(
       address.empty() ? detail::environment_variable("RACEBEAM_ADDRESS", "") : std::string(address), options);
 }
 
@@ -279,7 +276,7 @@ inline boost::asio::awaitable<AsyncSession> async_launch(std::string_view progra
       program.empty() ? detail::environment_variable("RACEBEAM_PROGRAM", "racebeam") : std::string(program),
       "serve", "--stdio", "--log-level", "warning"};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  return detail::launched(std::move(command), options);
+  return detail::launch_process(std::move(command), options);
 }
 
 }  // namespace RACEBEAM_CLIENT_NAMESPACE

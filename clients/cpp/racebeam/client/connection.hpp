@@ -28,12 +28,13 @@
 #include <boost/asio/ssl/stream.hpp>
 #endif
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <future>
 #include <memory>
+#include <stdexcept>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 

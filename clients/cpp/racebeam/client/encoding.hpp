@@ -71,7 +71,7 @@ class HexReader {
     const int high = digit(at_), low = digit(at_ + 1);
     if ((high | low) < 0)
       throw std::invalid_argument(
-          std::string("no byte in hexadecimal: '").append(text_.substr(at_, 2)).append("'"));
+          std::string("not a byte in hexadecimal: '").append(text_.substr(at_, 2)).append("'"));
     at_ += 2;
     return static_cast<std::uint8_t>(high << 4 | low);
   }
@@ -145,7 +145,7 @@ inline Bytes from_base64(std::string_view text) {
   for (std::size_t at = 0; at < text.size(); ++at) {
     const int value = at < digits ? detail::kBase64Digits[static_cast<unsigned char>(text[at])] : 0;
     if (value < 0)
-      throw std::invalid_argument(std::string("no digit of base64: '").append(1, text[at]).append("'"));
+      throw std::invalid_argument(std::string("not a digit of base64: '").append(1, text[at]).append("'"));
     bits = bits << 6 | static_cast<std::uint32_t>(value);
     if (at % 4 == 3)
       for (const int shift : {16, 8, 0}) bytes.push_back(static_cast<std::uint8_t>(bits >> shift));

@@ -20,9 +20,9 @@ namespace RACEBEAM_CLIENT_NAMESPACE::detail {
 /// Decodes the fields of replies. It follows what requests that were granted change about later replies.
 class Fields {
  public:
-  /// The reply to `request`; `raw` has the bytes that followed its line. Throws std::invalid_argument if a
-  /// value cannot be decoded.
-  Reply follow(std::string_view request, std::string line, std::string_view raw) {
+  /// Decodes the reply to `request`; `raw` has the bytes that followed its line. Throws std::invalid_argument
+  /// if a value cannot be decoded.
+  Reply decode_reply(std::string_view request, std::string line, std::string_view raw) {
     std::vector<std::string_view> words;
     for (const std::string_view word : split(request, ' '))
       if (!word.empty()) words.push_back(word);
@@ -53,6 +53,7 @@ class Fields {
 
   static constexpr std::size_t kWidth = 160;
 
+  /// Remembers what a request that was granted changes: the encodings of fields, and the height of screens.
   void prepare(std::string_view command, const std::vector<std::string_view>& words, std::string_view line) {
     if (command == "observe" && !words.empty()) {
       chosen_ = encodings(words);
@@ -115,7 +116,7 @@ class Fields {
     if (found->second == Encoding::kRaw) {
       value.bytes = take_raw(to_number<std::size_t>(value.text));
     } else if (found->second == Encoding::kDelta) {
-      value.bytes = changed(source, field, value.text);
+      value.bytes = change_array(source, field, value.text);
     } else {
       value.bytes = decode(found->second, value.text);
     }
@@ -128,7 +129,8 @@ class Fields {
     return {bytes.begin(), bytes.end()};
   }
 
-  static const Bytes& changed(Source& source, std::string_view field, std::string_view delta) {
+  /// Applies a delta to the array of a field, and returns the array.
+  static const Bytes& change_array(Source& source, std::string_view field, std::string_view delta) {
     auto found = source.arrays.find(field);
     if (found == source.arrays.end())
       found = source.arrays.try_emplace(std::string(field), size(field, source.height)).first;

@@ -25,7 +25,7 @@ Number to_number(std::string_view text) {
   Number number{};
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (failure != std::errc{} || end != text.data() + text.size())
-    throw std::invalid_argument(std::string("no number: '").append(text.substr(0, 60)).append("'"));
+    throw std::invalid_argument(std::string("not a number: '").append(text.substr(0, 60)).append("'"));
   return number;
 }
 
