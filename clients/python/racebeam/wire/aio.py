@@ -326,9 +326,8 @@ class _Replies:
     def _answer(self, how: Callable[[asyncio.Future[Any]], None]) -> None:
         """Answers the oldest request, if it still waits."""
         self.last_reply = asyncio.get_running_loop().time()
-        if (
-            self.awaited and len(self.awaited) != len(self._session._unanswered) + 1
-        ):  # Ctrl-C came between send() and append()
+        # The numbers differ if Ctrl-C came between send() and append().
+        if self.awaited and len(self.awaited) != len(self._session._unanswered) + 1:
             raise self._session._fail(ConnectionError("it was interrupted between a request and the end of its reply"))
         if self.awaited and not (oldest := self.awaited.popleft()[0]).done():
             how(oldest)
