@@ -19,7 +19,7 @@ from stable_baselines3.common.env_util import make_atari_env
 from stable_baselines3.common.evaluation import evaluate_policy
 from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env import VecEnv as Base
-from stable_baselines3.common.vec_env import VecMonitor
+from stable_baselines3.common.vec_env import VecMonitor, VecVideoRecorder
 
 
 class AsVector:
@@ -164,6 +164,10 @@ class TestInterface:
         self.envs.close()
 
     @pytest.mark.needs_modules("pygame")
+    def test_films_have_the_speed_of_the_game(self, tmp_path):
+        film = VecVideoRecorder(self.envs, str(tmp_path), lambda step: False)
+        assert film.frames_per_sec == AtariVectorEnv.metadata["render_fps"] == 15  # of 60, with a frameskip of 4
+
     def test_a_person_sees_the_environments(self):
         os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
         envs = VecEnv("beamfall", 2, render_mode="human", frameskip=1)

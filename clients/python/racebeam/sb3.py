@@ -102,6 +102,7 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
         count = self._envs.num_envs
         self._returns = np.zeros(count, np.int64)
         super().__init__(count, self._envs.single_observation_space, self._envs.single_action_space)
+        self.metadata = self._envs.metadata
 
     def __repr__(self) -> str:
         return repr(self._envs).replace(type(self._envs).__name__, type(self).__name__, 1)
