@@ -98,6 +98,7 @@ class RegisterEffects {
   void strobe_ball(std::int32_t clock);
   void strobe_hmove(std::int32_t cycle);
   void clear_collisions(std::int32_t clock);
+  void end_cosmic_lines(std::int32_t clock);
   void show_cosmic_normally();
 
   TiaState& tia_;
@@ -192,6 +193,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::write_nusiz(unsigned which, std::u
   value &= 0x37;
   if (policy_.is_active() && player.nusiz == value && !reselects) return policy_.reach(clock);
   policy_.draw_to(clock, object(kP0, which) | object(kM0, which));
+  if (which == 0) end_cosmic_lines(clock);
   player.nusiz = value;
   player.skip = 0;
   if (which == 0) tia_.cosmic_shape = CosmicShape::kNormal;
@@ -288,6 +290,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::write_resmp(unsigned which, std::u
   const bool changed = assign(missile.locked, value, clock, object(kM0, which));
   control(object(kM0, which));
   if (!changed || !unlocks) return;
+  if (which == 0) end_cosmic_lines(clock);
   const PlayerState& player = tia_.player[which];
   missile.position = wrapped(player.position + 4 * static_cast<int>(kCopies[player.nusiz & 7].scale));
   if (which == 0) show_cosmic_normally();
@@ -307,6 +310,12 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::write_hmm0(std::uint8_t motion, st
   }
   policy_.reach(clock);
   missile.motion = motion;
+}
+
+// In Cosmic Ark mode, the ends of lines move missile 0. Those before `clock` come before its other changes.
+template <ChangePolicy Policy>
+RACEBEAM_INLINE void RegisterEffects<Policy>::end_cosmic_lines(std::int32_t clock) {
+  if (tia_.cosmic) policy_.advance_to(clock);
 }
 
 template <ChangePolicy Policy>
@@ -360,7 +369,9 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::strobe_player(unsigned which, std:
 
 template <ChangePolicy Policy>
 RACEBEAM_INLINE void RegisterEffects<Policy>::strobe_missile(unsigned which, std::int32_t clock) {
-  policy_.draw_to(clock + kRegisters[RESM0].delay, object(kM0, which));
+  const std::int32_t drawn = clock + kRegisters[RESM0].delay;
+  policy_.draw_to(drawn, object(kM0, which));
+  if (which == 0) end_cosmic_lines(drawn);
   tia_.missile[which].position = strobe_position(which == 0 ? RESM0 : RESM1, clock);
   if (which == 0) show_cosmic_normally();
   policy_.changed(object(kM0, which));
@@ -382,6 +393,7 @@ RACEBEAM_INLINE void RegisterEffects<Policy>::strobe_hmove(std::int32_t cycle) {
     policy_.draw_to(clock, kAllObjects);
   else
     policy_.advance_to(clock);
+  end_cosmic_lines(clock);
   const auto& movement = kMovement[static_cast<std::size_t>(x)];
   const auto move = [&](std::uint8_t& position, std::uint8_t motion, std::uint8_t objects) {
     if (movement[motion] == 0) return;

@@ -44,6 +44,7 @@ class Program {
   void put(std::initializer_list<std::uint8_t> bytes) { code_.insert(code_.end(), bytes); }
 
   int add_group() {
+    if (random_.percent(cosmic_)) add_cosmic();
     for (int writes = random_.below(8); writes > 0; --writes) add_write();
     const int lines = 1 + random_.below(20);
     put({0xA2, static_cast<std::uint8_t>(lines), 0x85, WSYNC});
@@ -52,6 +53,12 @@ class Program {
     if (on_each) add_write();
     put({0xCA, 0xD0, static_cast<std::uint8_t>(start - (code_.size() + 3))});
     return lines;
+  }
+
+  // HMM0 changes from 7 to 6 exactly 21 cycles after an HMOVE: the ends of lines move missile 0.
+  void add_cosmic() {
+    put({0xA2, 0x60, 0xA9, 0x70, 0x85, HMM0, 0x85, HMOVE});
+    put({0xEA, 0xEA, 0xEA, 0xEA, 0xEA, 0xEA, 0xEA, 0xEA, 0xEA, 0x86, HMM0});
   }
 
   void add_write() {
@@ -69,8 +76,9 @@ class Program {
 
   Random random_;
   const int reads_ = 1 + random_.below(8);  // how many collision registers are read in each frame
-  // How many percent of the writes clear the collision registers before.
-  const int clears_ = random_.percent(50) ? 0 : random_.below(10);
+  // How many percent of the writes clear the collision registers before, and of the groups begin with
+  // add_cosmic().
+  const int clears_ = random_.percent(50) ? 0 : random_.below(10), cosmic_ = random_.percent(70) ? 0 : 30;
   std::vector<std::uint8_t> code_;
 };
 
