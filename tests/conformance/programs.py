@@ -32,6 +32,11 @@ VECTORS_EVERY = 1024  # any slice of a bank may hold the vectors
 
 TIM1T, INTIM = 0x0294, 0x0284
 LDA_ABSOLUTE, STA_ABSOLUTE, JMP, BNE, NOP = 0xAD, 0x8D, 0x4C, 0xD0, 0xEA
+STA, STX = 0x85, 0x86
+WSYNC, HMP0, HMM0, HMOVE = 0x02, 0x20, 0x22, 0x2A
+SCENE = bytes.fromhex("06070809041B1C1D1E1F")  # colours, NUSIZ0, graphics, and what enables missiles and the ball
+STROBES = bytes.fromhex("040A1011121314222528292A2B1B")  # and other registers that move an object or change its shape
+SLIDE_AT = 0x40
 FREQUENT = bytes.fromhex("A9A2A0A5B5BDB9B185868495999D918D69C9E6C6CA882060")
 IDIOMS = [
     bytes.fromhex(text)
@@ -152,12 +157,52 @@ def row_program(rng, size):
     return bytearray(bank).ljust(size - 6, bytes([NOP])) + bytes([0x00, 0xF0] * 3)
 
 
-KINDS = {maker.__name__: maker for maker in (random_program, tame_program, ram_program, row_program)}
+def delay(cycles):
+    """Code that takes this many cycles, two or more."""
+    return [0xC5, 0x80] * (cycles % 2) + [NOP] * ((cycles - 3 * (cycles % 2)) // 2)
+
+
+def moving_lines(rng, page):
+    """256 bytes of code that shows some lines. On each, an HMOVE follows at a cycle that depends on $80, the
+    number of the frame, and then strobes follow. In half of them, missile 0 gets into its Cosmic Ark mode."""
+    cosmic, mask = rng.random() < 0.5, rng.choice([0, 7, 15, 31, 63])
+    entry = SLIDE_AT | rng.randrange(64) & ~mask
+    motions = [(HMM0, 0x70)] if cosmic else [(HMP0 + rng.randrange(5), rng.randrange(256)) for _ in range(3)]
+    code = [0xA9, rng.randrange(1, 12), STA, 0x84, 0xA2, 0x60]
+    again = len(code)
+    code += [byte for register, value in motions for byte in (0xA9, value, STA, register)]
+    code += [0xA5, 0x80, 0x29, mask, 0x09, entry, STA, 0x82, 0xA9, page, STA, 0x83, STA, WSYNC, 0x6C, 0x82, 0x00]
+    code += [NOP] * (SLIDE_AT - len(code)) + [0xC9] * 62 + [0xC5, NOP]  # a cycle less from each later entry on
+    code += [STA, HMOVE] + (delay(18) + [STX, HMM0]) * cosmic
+    for _ in range(rng.randrange(5)):
+        value = [0xA9, rng.choice([0, 2, 0x10, 0x60, 0x70, 0xFF])] * (rng.random() < 0.5)
+        code += delay(rng.randrange(2, 20)) + value + [STA, rng.choice(STROBES)]
+    code += [0xC6, 0x84, 0xF0, 0x03, JMP, again, page]  # the next line
+    code += [0xA2, rng.randrange(1, 9), STA, WSYNC, 0xCA, BNE, 0xFB, STA, rng.choice(STROBES)]
+    return code + [NOP] * (256 - len(code))
+
+
+def moving_program(rng, size):
+    """Frames whose lines move objects. See moving_lines()."""
+    code = [0xE6, 0x80, 0xA9, 0x02, STA, 0x00, STA, WSYNC, STA, WSYNC, STA, WSYNC, 0xA9, 0x00, STA, 0x00, STA, 0x01]
+    for register in (*SCENE, *rng.sample(STROBES, 4)):
+        code += [0xA9, rng.choice([0x02, 0x13, 0x35, 0xFF, rng.randrange(256)]), STA, register]
+    code += [0xA2, rng.choice([10, 36]), STA, WSYNC, 0xCA, BNE, 0xFB]
+    bank = bytearray(code).ljust(256, bytes([NOP]))
+    pages = rng.randrange(3, 12)
+    for page in range(0xF1, 0xF1 + pages):
+        bank += bytes(moving_lines(rng, page))
+    bank += bytes([0xA2, rng.choice([1, 30, 100]), STA, WSYNC, 0xCA, BNE, 0xFB, JMP, 0x00, 0xF0])
+    return bank.ljust(size - 6, bytes([NOP])) + bytes([0x00, 0xF0] * 3)
+
+
+KINDS = {maker.__name__: maker for maker in (random_program, tame_program, ram_program, row_program, moving_program)}
+OF_4K = ("row_program", "ram_program", "moving_program")
 
 
 def image_of(kind, seed):
     rng = random.Random(f"{kind} {seed}")
-    if kind in ("row_program", "ram_program"):
+    if kind in OF_4K:
         return bytes(KINDS[kind](rng, 4096))
     size, ports, signature = rng.choice(SCHEMES)
     image = KINDS[kind](rng, size)
