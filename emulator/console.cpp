@@ -179,6 +179,16 @@ void Console::release_caches() {
   impl_->board.tia.forget_lines();
 }
 
+std::size_t Console::footprint() const {
+  const Board& board = impl_->board;
+  std::size_t bytes = board.cartridge_ram.capacity() + board.tia.footprint_of_lines();
+  for (const FrameBuffers* const both : {&impl_->pictures, &impl_->spare}) {
+    for (const auto& picture : {both->current.get(), both->previous.get()})
+      bytes += picture != nullptr ? sizeof *picture + picture->footprint() : 0;
+  }
+  return bytes;
+}
+
 std::span<const std::uint8_t, 128> Console::ram() const { return impl_->board.state.riot.ram; }
 
 std::int64_t Console::interpreted_cycles() const {

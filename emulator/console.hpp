@@ -75,6 +75,10 @@ class Console {
   // run for a while; the next frames allocate them again.
   void release_caches();
 
+  // Bytes of memory for pictures, records of lines and the cartridge's RAM. The rest is the same for all
+  // consoles. A picture that a saved state holds too counts in full.
+  std::size_t footprint() const;
+
   // A picture of a saved state with its pixels: the same buffer, or a drawn copy.
   std::shared_ptr<const FrameBuffer> with_pixels(std::shared_ptr<FrameBuffer> picture) const;
 

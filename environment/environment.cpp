@@ -116,6 +116,13 @@ Drawing Environment::drawing() const { return impl_->drawing; }
 
 void Environment::release_caches() { impl_->console.release_caches(); }
 
+std::size_t Environment::footprint() const {
+  return impl_->console.footprint() + impl_->open_picture.capacity() + impl_->blended.capacity() +
+         impl_->all_audio.capacity();
+}
+
+std::size_t Environment::cartridge_ram_size() const { return impl_->console.cartridge_ram().size(); }
+
 void Environment::reset_game() { impl_->reset(); }
 
 Environment Environment::reload(std::uint32_t random_seed) {

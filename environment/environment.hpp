@@ -89,6 +89,11 @@ class Environment {
   // act for a while. The next frames allocate them again.
   void release_caches();
 
+  // Bytes of memory for pictures, samples, records of lines and RAM on the cartridge. The rest is the same
+  // for all machines.
+  std::size_t footprint() const;
+  std::size_t cartridge_ram_size() const;  // bytes of it that each saved state has
+
   // Sets the function that is called after each frame of an act, but not of a reset, for example to record
   // it. An empty function stops the calls.
   void watch(std::function<void()> each_frame);

@@ -111,6 +111,7 @@ class Beam {
   LineRecord& record() { return lines_.row(row()); }
   LineRecord& open_record() { return lines_.open(row(), tia_.registers()); }
   void forget_lines() { lines_.drop(); }
+  std::size_t footprint_of_lines() const { return lines_.footprint(); }
 
   // The lines that the cursor's row and those after it show.
   const LineNumber* row_lines() const { return &picture_->shows(row()); }

@@ -49,6 +49,12 @@ class FrameBuffer {
     is_undrawn = false;
   }
 
+  // Bytes of memory.
+  std::size_t footprint() const {
+    return sizeof(Row) * rows_.capacity() + sizeof(LineNumber) * shows_.capacity() +
+           sizeof(undrawn.writes[0]) * undrawn.writes.capacity();
+  }
+
   LineNumber& shows(std::size_t row) { return shows_[row]; }
   std::span<const LineNumber> lines() const { return shows_; }
 

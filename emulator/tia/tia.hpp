@@ -37,6 +37,7 @@ class Tia {
   bool stopped_inside(std::int32_t cycle) const;
   void rebuild();  // called after the registers were replaced: recomputes what is derived from them
   void forget_lines() { beam_.forget_lines(); }
+  std::size_t footprint_of_lines() const { return beam_.footprint_of_lines(); }  // bytes of memory
   // Greys the rows that were not drawn when a step ended open.
   void grey(FrameBuffer& picture, std::int32_t cycle) const;
 

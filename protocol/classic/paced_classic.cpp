@@ -6,7 +6,7 @@ namespace racebeam {
 
 PacedClassic::PacedClassic(const ClassicService& service, const std::shared_ptr<MemoryBudget>& memory)
     : service_(service), memory_(memory ? memory : service.memory) {
-  memory_.set(MachineMemory::kMax);
+  memory_.set(kMaxMachineMemory);
 }
 
 PacedClassic::~PacedClassic() { pacer_.cancel(); }
@@ -46,8 +46,9 @@ void PacedClassic::account() {
 std::size_t PacedClassic::footprint() const {
   constexpr std::size_t kSession = std::size_t{64} << 10, kState = std::size_t{96} << 10;
   constexpr std::size_t kResting = std::size_t{100} << 10;
-  const std::size_t machine = caches_released_ ? kResting : MachineMemory::kMax;
-  return kSession + machine + session_->saved_states() * kState;
+  const std::size_t ram = machine_->cartridge_ram_size();
+  const std::size_t machine = caches_released_ ? kResting : kMaxMachineMemory;
+  return kSession + machine + ram + session_->saved_states() * (kState + ram);
 }
 
 void PacedClassic::release_caches() {

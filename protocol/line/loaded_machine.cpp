@@ -30,7 +30,7 @@ void observe(Slot& slot, const std::vector<Field>& fields) {
 
 LoadedMachine::LoadedMachine(const Cartridge& cartridge, const PlaySettings& settings,
                              std::vector<Field> fields, Pacer& pacer)
-    : pacer_(pacer), slot_(cartridge, slot_settings(settings), &pacer), view_({}), memory_(slot_) {
+    : pacer_(pacer), slot_(cartridge, slot_settings(settings), &pacer), view_({}) {
   allow_actions();
   observe(std::move(fields));
 }
@@ -49,11 +49,11 @@ void LoadedMachine::allow_actions() {
 }
 
 std::size_t LoadedMachine::max_footprint(const std::vector<Field>& fields) {
-  return MachineMemory::kMax + View::max_footprint(fields);
+  return kMaxMachineMemory + View::max_footprint(fields);
 }
 
 void LoadedMachine::release_caches() {
-  memory_.release_caches(slot_);
+  slot_.environment().release_caches();
   view_.release_caches();
 }
 

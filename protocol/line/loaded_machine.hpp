@@ -31,11 +31,11 @@ class LoadedMachine {
   const Environment& machine() const { return slot_.environment(); }
   AllowedActions allowed() const { return {machine().game().name, allowed_, allowed_b_}; }
 
-  // Bytes of memory that a machine with these fields may come to hold.
+  // Bytes of memory that a machine with these fields may come to hold, without RAM on the cartridge.
   static std::size_t max_footprint(const std::vector<Field>& fields);
   // Bytes that this machine holds. Its view counts with at least `least_of_view` of them.
   std::size_t footprint(std::size_t least_of_view = 0) const {
-    return memory_.held(slot_) + std::max(view_.footprint(), least_of_view);
+    return machine_memory(slot_) + std::max(view_.footprint(), least_of_view);
   }
   void release_caches();
 
@@ -50,7 +50,6 @@ class LoadedMachine {
   Slot slot_;
   std::bitset<kActionNumbers> allowed_, allowed_b_;  // bit n: action n
   View view_;
-  MachineMemory memory_;
 };
 
 // The settings of a slot for these settings of `load`. Its steps are acts.

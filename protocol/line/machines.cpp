@@ -19,7 +19,6 @@ namespace {
 struct Seat {
   Pacer pacer;
   std::optional<View> view;
-  std::optional<MachineMemory> memory;
   bool done = false;            // has finished the request
   std::exception_ptr no_fiber;  // why its fiber could not start; else null
   std::string text, raw;        // the machine's part of the reply; members to reuse their memory
@@ -46,7 +45,6 @@ class Machines::Host final : public VectorHost {
   void opened(std::size_t number, Slot& slot) override {
     racebeam::observe(slot, context_.fields);
     observe(number, context_.fields);
-    seats_[number]->memory.emplace(slot);
   }
   void ended(std::size_t number, const Slot& slot) override {
     seats_[number]->view->append_final(seats_[number]->text, seats_[number]->raw, slot);
@@ -114,7 +112,7 @@ void Machines::release_caches() {
   const std::size_t bytes = opened_->host.held();
   for (std::size_t number = 0; number < size(); ++number) {
     Seat& seat = opened_->host.seat(number);
-    seat.memory->release_caches(slot(number));
+    slot(number).environment().release_caches();
     seat.view->release_caches();
   }
   auto texts = opened_->host.take_texts();
@@ -124,11 +122,12 @@ void Machines::release_caches() {
 // Checks whether `count` machines with these fields are possible. Throws RequestError if their replies would
 // exceed the limit, or if memory does not suffice. Returns the estimated length of a reply in bytes.
 std::size_t Machines::check(const std::vector<Field>& fields, std::size_t count, Autoreset autoreset) {
-  const std::size_t once = text_size(fields, context_.game.loaded->machine());
+  const Environment& machine = context_.game.loaded->machine();
+  const std::size_t once = text_size(fields, machine);
   const std::size_t reply = count * (autoreset == Autoreset::kSameStep ? 2 * once : once);
   context_.check_reply(reply, std::to_string(count) + " machines with these fields");
-  context_.memory.check(count * (sizeof(Seat) + LoadedMachine::max_footprint(fields)) + 2 * reply,
-                        std::to_string(count) + " machines with these fields");
+  const std::size_t each = sizeof(Seat) + LoadedMachine::max_footprint(fields) + machine.cartridge_ram_size();
+  context_.memory.check(count * each + 2 * reply, std::to_string(count) + " machines with these fields");
   return reply;
 }
 
@@ -137,7 +136,7 @@ std::size_t Machines::footprint() const {
   std::size_t bytes = opened_->host.held();
   for (std::size_t number = 0; number < size(); ++number) {
     const Seat& seat = opened_->host.seat(number);
-    bytes += sizeof seat + seat.memory->held(opened_->vector.slot(number)) + seat.view->footprint();
+    bytes += sizeof seat + machine_memory(opened_->vector.slot(number)) + seat.view->footprint();
   }
   return bytes;
 }

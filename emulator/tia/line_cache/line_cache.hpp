@@ -18,6 +18,9 @@ class LineCache {
   void begin_frame() { is_new_ = true; }
   void aim(std::size_t rows);  // before each part of a frame that is drawn
   void drop();
+  std::size_t footprint() const {  // bytes of memory
+    return sizeof(LineRecord) * (sets_[0].capacity() + sets_[1].capacity());
+  }
 
   std::size_t rows() const { return set_->size(); }
   LineRecord& row(std::size_t row) { return (*set_)[row]; }

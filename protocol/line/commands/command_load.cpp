@@ -187,6 +187,7 @@ void run_load(Context& context, Words arguments, Reply& reply) {
     throw RequestError(sent ? ErrorCode::kBadImage : ErrorCode::kBadValue,
                        with_wished_mode(error.what(), settings, cartridge));
   }
+  context.memory.check(loaded->machine().cartridge_ram_size(), "the RAM of the cartridge");
   context.media.recording.reset();
   context.media.log.reset();
   context.machines.close();

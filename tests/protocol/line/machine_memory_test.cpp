@@ -1,4 +1,4 @@
-// What a machine counts for: its pictures, its records of lines and its stack, by what it has done.
+// What a machine counts for: its pictures, its records of lines, its stack and the RAM of its cartridge.
 #include "protocol/line/machine_memory.hpp"
 
 #include <catch2/catch.hpp>
@@ -15,54 +15,68 @@ constexpr std::size_t kHeight = 210, kPixels = kHeight * kScreenWidth;
 constexpr std::size_t kPicture = kPixels + kHeight * sizeof(LineNumber);
 constexpr std::size_t kRecords = kHeight * sizeof(LineRecord);
 
-struct Machine {
-  explicit Machine(Drawing drawing) { slot.set_drawing(drawing); }
+Cartridge beamfall(const std::string& scheme) {
+  const auto image = load_image("builtin:beamfall");
+  PlaySettings settings;
+  settings.console.set("scheme", scheme);
+  return {image, with_overrides(find_game("beamfall"), *image, settings.console)};
+}
 
-  std::size_t held() const { return memory.held(slot); }
-  std::size_t played() {
-    slot.act({});
+struct Machine {
+  explicit Machine(Drawing drawing, const std::string& scheme = "4K")
+      : slot(beamfall(scheme), slot_settings({})) {
+    slot.set_drawing(drawing);
+  }
+
+  std::size_t held() const { return machine_memory(slot); }
+  std::size_t played(int acts = 4) {
+    for (int n = 0; n < acts; ++n) slot.act({});
     return held();
   }
   std::size_t rested() {
-    memory.release_caches(slot);
+    slot.environment().release_caches();
     return held();
   }
 
-  Slot slot{{load_image("builtin:beamfall"), find_game("beamfall")}, slot_settings({})};
-  MachineMemory memory{slot};
+  Slot slot;
 };
 
 }  // namespace
 
-TEST_CASE("A machine that has not played holds a spare picture and records of lines until it rests") {
-  Machine machine(Drawing::kLast);
-  const std::size_t fresh = machine.held();
-  CHECK(fresh - machine.rested() == kPicture + kRecords);
-  CHECK(machine.held() > 1024);  // the rest of the machine
-}
-
-TEST_CASE("A machine that plays holds two pictures, or one if its screens are not observed") {
-  Machine seen(Drawing::kLast), both(Drawing::kLastTwo), unseen(Drawing::kNone);
-  const std::size_t fresh = seen.held();
-  CHECK(seen.played() == fresh + kPicture);
-  CHECK(both.played() == fresh + kPicture);
-  CHECK(unseen.played() == fresh);
-  CHECK(seen.held() <= MachineMemory::kMax);
-}
-
-TEST_CASE("The records of lines are held from a frame until the next rest") {
-  for (const Drawing drawing : {Drawing::kLast, Drawing::kNone}) {
+TEST_CASE("A machine that plays holds two pictures and records of lines, and gives the records back") {
+  for (const Drawing drawing : {Drawing::kLast, Drawing::kLastTwo, Drawing::kEvery}) {
     Machine machine(drawing);
     const std::size_t played = machine.played(), rested = machine.rested();
-    CHECK(played - rested == kRecords);
+    CHECK(played >= 2 * kPicture + kRecords);
+    CHECK(played <= kMaxMachineMemory);
+    CHECK(played - rested >= kRecords);
+    CHECK(rested >= 2 * kPicture);
     CHECK(machine.rested() == rested);
     CHECK(machine.played() == played);
   }
 }
 
+TEST_CASE("A machine whose screens are not observed holds less, until one is looked at") {
+  Machine seen(Drawing::kLast), unseen(Drawing::kNone);
+  const std::size_t most = seen.played(), before = unseen.played();
+  CHECK(before + kPicture <= most);
+  CHECK(unseen.slot.environment().screen().size() == kPixels);
+  CHECK(unseen.held() >= before + kPicture);
+}
+
+TEST_CASE("RAM on the cartridge counts, in a machine and in a state") {
+  constexpr std::size_t kRam = 262144;
+  Machine plain(Drawing::kLast), large(Drawing::kLast, "3EX");
+  CHECK(plain.slot.environment().cartridge_ram_size() == 0);
+  CHECK(large.slot.environment().cartridge_ram_size() == kRam);
+  CHECK(large.held() >= kRam + 14 * 1024);
+  CHECK(large.slot.save(false).footprint() == plain.slot.save(false).footprint() + kRam);
+}
+
 TEST_CASE("A stack counts with its screens, and with the picture that it takes in, of each channel") {
   for (const bool rgb : {false, true}) {
     Machine machine(Drawing::kLastTwo);
+    machine.played();
     const std::size_t without = machine.held(), channels = rgb ? 3 : 1;
     machine.slot.set_stack(StackSettings{.depth = 4, .width = 84, .height = 84, .rgb = rgb});
     const std::size_t screen = 84 * 84 * channels;

@@ -171,6 +171,44 @@ TEST_CASE("A request beyond the memory budget is refused, and the session contin
   service.memory->give_back(remaining);
 }
 
+TEST_CASE("Machines are charged with the RAM of their cartridges") {
+  const LineService service = service_with(64 * kMiB);
+  LineClient client(service);
+  CHECK(code(client.ask("load beamfall scheme=3EX")) == "");
+  CHECK(service.memory->taken() >= kMiB / 4);
+  CHECK(code(client.ask("open 256")) == "limit");
+  CHECK(code(client.ask("open 40")) == "");
+  CHECK(service.memory->taken() >= 41 * kMiB / 4);
+  service.memory->take_anyway(63 * kMiB);
+  CHECK(code(client.ask("load beamfall scheme=3EX")) == "limit");
+  CHECK(client.ask("close") == "ok");  // the machines are still there
+  service.memory->give_back(63 * kMiB);
+}
+
+TEST_CASE("Machines are charged with what blended screens take") {
+  const LineService service = service_with(64 * kMiB);
+  LineClient client(service), plain(service);
+  const auto taken_by = [&](LineClient& one, const std::string& load) {
+    const std::uint64_t before = service.memory->taken();
+    for (const std::string request : {load.c_str(), "observe screen", "open 16", "step NOOP", "step NOOP"})
+      CHECK(code(one.ask(request)) == "");
+    return service.memory->taken() - before;
+  };
+  const std::uint64_t without = taken_by(plain, "load beamfall seed=1");
+  CHECK(taken_by(client, "load beamfall seed=1 color_averaging=1") >= without + 16 * 160 * 210);
+}
+
+TEST_CASE("Machines are charged with the samples of all frames") {
+  const LineService service = service_with(64 * kMiB);
+  LineClient client(service);
+  client.ask("load beamfall sound=1 frame_skip=100");
+  client.ask("observe audio_all:raw");
+  client.ask("open 16");
+  const std::uint64_t before = service.memory->taken();
+  CHECK(client.ask("step NOOP").starts_with("ok "));
+  CHECK(service.memory->taken() >= before + 2 * 16 * 51'200);  // in the machines, and in the reply
+}
+
 TEST_CASE("An image that a client sends is charged with the code that it is translated to") {
   const LineService service = service_with(64 * kMiB);
   LineClient client(service);
@@ -284,7 +322,7 @@ TEST_CASE("A share counts with two copies of a screen, and a watcher with what i
   constexpr std::int64_t kScreen = 210 * 160;
   const LineService service = service_with(64 * kMiB);
   LineClient player(service), watcher(service);
-  player.ask("load beamfall");
+  player.say("load beamfall\nlook screen\n");  // the machine draws its picture
   const auto more_after = [&](LineClient& client, const std::string& request) {
     const std::uint64_t before = service.memory->taken();
     CHECK(code(client.ask(request)) == "");
