@@ -139,6 +139,12 @@ std::size_t bytes_of(const StackSettings& stack) {
          static_cast<std::size_t>(pictures);
 }
 
+// The samples of an act.
+std::size_t bytes_of_all_audio(const Environment& machine) {
+  const Settings& settings = machine.settings();
+  return kAudioSize * static_cast<std::size_t>(std::max(settings.frame_skip, settings.frame_skip_max));
+}
+
 constexpr std::size_t kTallScreen = std::size_t{kMaxHeight} * kScreenWidth, kRgbScreen = 3 * kTallScreen;
 
 // The most bytes of a field of bytes, on any machine.
@@ -234,9 +240,10 @@ std::size_t text_size(const std::vector<Field>& fields, const Environment& machi
   std::size_t size = 0;
   ByteBuffer scratch;
   for (const Field& field : fields) {
-    const std::size_t bytes = field.stack        ? bytes_of(*field.stack)
-                              : field.row->bytes ? field.row->bytes(machine, scratch).size()
-                                                 : 0;
+    const std::size_t bytes = field.stack                    ? bytes_of(*field.stack)
+                              : field.row->name == kAllAudio ? bytes_of_all_audio(machine)
+                              : field.row->bytes             ? field.row->bytes(machine, scratch).size()
+                                                             : 0;
     size += field.name.size() + 2 + (field.row->number ? kNumber : text_size(field.encoding, bytes));
   }
   return size;

@@ -46,7 +46,8 @@ Drawing drawing_of(const std::vector<Field>& fields, bool averaging);
 bool shows_audio(const std::vector<Field>& fields);      // or all of it
 bool shows_all_audio(const std::vector<Field>& fields);  // each frame's
 
-// The greatest length of the fields in a reply about `machine`. Numbers count with a typical length.
+// The greatest length of the fields in a reply about an act of `machine`. Numbers count with a typical
+// length.
 std::size_t text_size(const std::vector<Field>& fields, const Environment& machine);
 
 // Writes the selected fields of one machine into its replies. It has state: the delta encoding needs the last

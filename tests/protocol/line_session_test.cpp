@@ -247,6 +247,22 @@ TEST_CASE("A reply that would be too long is refused before anything is done") {
   CHECK(code(client.ask("branch a NOOP*140000")) == "limit");
 }
 
+TEST_CASE("The samples of all frames of a step count against the longest reply") {
+  LineLimits limits;
+  limits.reply = 1 << 20;
+  LineClient client(line_service(limits));
+  for (const std::string frames : {"100", "2-100"}) {
+    client.ask(kLoad + " sound=1 frame_skip=" + frames);
+    client.ask("observe audio_all:raw");  // 51,200 bytes for each machine
+    CHECK(code(client.ask("open 21")) == "limit");
+    CHECK(code(client.ask("open 20")) == "");
+    CHECK(client.ask("step NOOP").size() < limits.reply);
+    CHECK(code(client.ask("observe audio_all:hex")) == "limit");
+    CHECK(client.ask("observe") == "ok fields=audio_all");
+    client.ask("observe none");
+  }
+}
+
 TEST_CASE("A reply of exactly the longest length is given") {
   LineLimits limits;
   limits.reply = 1'075'328;
