@@ -205,14 +205,20 @@ void Session::read_words(std::string_view line) {
 
 // Replaces the old words of a request. Fields stay as they are, since the reply has their names.
 void Session::renew_words(const Command& command) {
-  if (!new_words_.empty()) new_words_.clear();
   if (!command.has_old) return;
   for (std::string_view& word : std::span(words_).subspan(1)) {
+    context_.pacer.yield_if_due();
     const OldWord* const row = command.takes_fields ? old_field(word) : old_word(command.name, word);
     if (row == nullptr) continue;
     report_old(*row);
-    if (row->is_same && !command.takes_fields) word = new_words_.emplace_back(new_word(*row, word));
+    if (row->is_same && !command.takes_fields) word = keep_word(new_word(*row, word));
   }
+}
+
+// Until the end of the request.
+std::string_view Session::keep_word(std::string word) {
+  context_.memory.check(sizeof word + word.capacity(), "a line of so many old words");
+  return new_words_.emplace_back(std::move(word));
 }
 
 void Session::report_old(const OldWord& row) {
@@ -223,6 +229,7 @@ void Session::report_old(const OldWord& row) {
 void Session::finish_reply() {
   context_.statistics.bytes_out += static_cast<std::int64_t>(reply_.finish());
   done_ = context_.peer.quitting || refused();
+  if (!new_words_.empty()) new_words_.clear();
   input_.set_longest(longest_line(context_.service, context_.peer.admitted));
   context_.memory.set(footprint());
   // The client has its reply already, or gets it at the same time as without watchers.

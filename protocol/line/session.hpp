@@ -55,6 +55,7 @@ class Session {
   void execute(std::string_view line);
   void read_words(std::string_view line);
   void renew_words(const Command& command);
+  std::string_view keep_word(std::string word);
   void report_old(const OldWord& row);
   void refuse(ErrorCode code, std::string_view sentence);
   void refuse_fault(const std::string& what);

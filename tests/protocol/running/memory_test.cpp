@@ -209,6 +209,21 @@ TEST_CASE("Machines are charged with the samples of all frames") {
   CHECK(service.memory->taken() >= before + 2 * 16 * 51'200);  // in the machines, and in the reply
 }
 
+TEST_CASE("Old words of a request are charged, and are forgotten after it") {
+  const LineService service = service_with(64 * kMiB);
+  LineClient client(service);
+  std::string line = "load beamfall";
+  for (int n = 0; n < 50'000; ++n) line += " autoreset=0";
+  CHECK(code(client.ask(line)) == "bad-arguments");
+  client.ask("help act");  // the reader of lines has shrunk when it has read the next one
+  client.session.release_caches();
+  CHECK(service.memory->taken() < kMiB / 4);
+  service.memory->take_anyway(51 * kMiB);
+  CHECK(client.ask(line).starts_with("error limit a line of so many old words would take"));
+  service.memory->give_back(51 * kMiB);
+  CHECK(code(client.ask("load beamfall autoreset=0")) == "");
+}
+
 TEST_CASE("An image that a client sends is charged with the code that it is translated to") {
   const LineService service = service_with(64 * kMiB);
   LineClient client(service);
