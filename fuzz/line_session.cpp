@@ -1,6 +1,7 @@
 // A session of the line protocol: the input is the client's.
 #include "protocol/line_session.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <thread>
@@ -147,7 +148,8 @@ bool is_comment(std::string_view line) {
 }
 
 bool ends_session(std::string_view line) {
-  return line.find("quit") != std::string_view::npos || line.find("exit") != std::string_view::npos;
+  constexpr std::string_view kEnds[] = {"quit", "exit", "HTTP/"};
+  return std::ranges::any_of(kEnds, [&](auto end) { return line.find(end) != std::string_view::npos; });
 }
 
 bool is_reply(std::string_view reply) {

@@ -183,6 +183,7 @@ void Session::execute(std::string_view line) {
   check_bytes(line);
   read_words(line);
   if (words_.empty()) throw RequestError(ErrorCode::kBadLine, "the line is empty; help lists the commands");
+  if (context_.statistics.requests == 1) refuse_http();
   if (!context_.peer.admitted && !table_.look_up(words_[0])) refuse_without_token(words_[0]);
   const Command& command = table_.find(words_[0]);
   command_ = table_.row(command);
@@ -201,6 +202,15 @@ void Session::read_words(std::string_view line) {
     words_.push_back(word);
     if (words_.size() % kWordsBetweenLooks == 0) context_.pacer.yield_if_due();
   }
+}
+
+// Ends a session that begins with a request of HTTP. A page in a browser can make the browser send one, from
+// any site, and the lines that would follow are the page's.
+void Session::refuse_http() {
+  if (words_.size() != 3 || !words_[2].starts_with("HTTP/")) return;
+  context_.peer.quitting = true;
+  throw RequestError(ErrorCode::kUnknownCommand,
+                     "this address takes the line protocol, not HTTP; the server closes the session");
 }
 
 // Replaces the old words of a request. Fields stay as they are, since the reply has their names.

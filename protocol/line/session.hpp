@@ -54,6 +54,7 @@ class Session {
   void take(const LineReader::Line& line);
   void execute(std::string_view line);
   void read_words(std::string_view line);
+  void refuse_http();
   void renew_words(const Command& command);
   std::string_view keep_word(std::string word);
   void report_old(const OldWord& row);

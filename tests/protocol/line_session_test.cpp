@@ -95,6 +95,22 @@ TEST_CASE("quit is the last request that is answered") {
   CHECK(client.session.finished());
 }
 
+TEST_CASE("A session that begins with a request of HTTP is closed before the lines that a page has sent") {
+  const std::string page = "Host: 127.0.0.1:7800\r\nContent-Length: 16\r\n\r\nload beamfall\n";
+  for (const std::string first : {"POST / HTTP/1.1\r\n", "# a comment\nGET /load?beamfall HTTP/1.0\n"}) {
+    LineClient client;
+    const std::string answers = client.say(first + page);
+    CHECK(code(answers) == "unknown-command");
+    CHECK_THAT(answers, Contains("takes the line protocol, not HTTP"));
+    CHECK(std::ranges::count(answers, '\n') == 1);
+    CHECK(client.session.finished());
+  }
+  LineClient client;
+  client.ask(kLoad);
+  CHECK(code(client.ask("POST / HTTP/1.1")) == "unknown-command");
+  CHECK_FALSE(client.session.finished());
+}
+
 TEST_CASE("Commands say what they need") {
   LineClient client;
   CHECK(code(client.ask("act NOOP")) == "no-game");
