@@ -21,6 +21,10 @@ bool Claims::empty() const {
 
 void Claims::add(const std::vector<std::string>& names) {
   const std::lock_guard lock(mutex_);
+  if (names_.size() + names.size() > most_)
+    throw std::runtime_error("the server would record into " + std::to_string(names_.size() + names.size()) +
+                             " files at the same time; the limit is " + std::to_string(most_) +
+                             "; try again later");
   for (const std::string& name : names) {
     const auto is_same_place = [&](const std::string& taken) {
       return is_above(taken, name) || is_above(name, taken);

@@ -2,6 +2,8 @@
 // the second could not be committed at its end. So it is refused at its start.
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -13,11 +15,16 @@ namespace racebeam {
 // Thread-safe.
 class Claims {
  public:
+  static constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
+
+  explicit Claims(std::size_t most = kNoLimit) : most_(most) {}
   bool empty() const;
-  void add(const std::vector<std::string>& names);  // all or none; throws std::runtime_error if one is taken
+  // Adds all or none. Throws std::runtime_error if one is taken, or if there would be too many.
+  void add(const std::vector<std::string>& names);
   void drop(const std::vector<std::string>& names);
 
  private:
+  const std::size_t most_;
   mutable std::mutex mutex_;
   std::set<std::string> names_;
 };

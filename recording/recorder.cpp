@@ -30,7 +30,10 @@ class Recorder::Threads : public net::thread_pool {
   }
 };
 
-Recorder::Recorder(std::string folder) : folder_(std::move(folder)), threads_(std::make_unique<Threads>()) {}
+Recorder::Recorder(std::string folder, std::size_t most_files)
+    : folder_(std::move(folder)),
+      claims_(std::make_shared<Claims>(most_files)),
+      threads_(std::make_unique<Threads>()) {}
 
 // A thread that hangs in a system call can neither be ended nor joined: it remains until the process ends.
 Recorder::~Recorder() {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,7 +15,9 @@ namespace racebeam {
 
 class Recorder {
  public:
-  explicit Recorder(std::string folder);  // the folder must exist
+  // The folder must exist. most_files: of recordings and units of logs that are not finished. A unit counts
+  // as a file, and so does a folder of pictures.
+  explicit Recorder(std::string folder, std::size_t most_files = Claims::kNoLimit);
   ~Recorder();  // finishes all recordings, however long it takes, unless end() aborted them
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -23,7 +26,7 @@ class Recorder {
   // waits while the recording's is_behind() is true. If the recording has finished() then, the system refused
   // to write. To release the recording is the same as finish(); the Recorder must outlive it. `charge`, if
   // not null, is charged for the recording's memory until all is written. Throws std::runtime_error if a
-  // recording of that name runs already. Thread-safe.
+  // recording of that name runs already, or if there would be too many files. Thread-safe.
   std::shared_ptr<Recording> begin(std::vector<MediaKind> kinds, const std::string& name,
                                    std::size_t most_bytes, const Environment& machine,
                                    const Charge& charge = {});
@@ -44,7 +47,7 @@ class Recorder {
   bool wait(std::chrono::milliseconds patience) const;  // waits until it is idle; false: the time is over
 
   const std::string folder_;
-  const std::shared_ptr<Claims> claims_ = std::make_shared<Claims>();
+  const std::shared_ptr<Claims> claims_;
   const std::shared_ptr<std::atomic<bool>> given_up_ = std::make_shared<std::atomic<bool>>(false);
   std::unique_ptr<Threads> threads_;
 };

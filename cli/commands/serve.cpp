@@ -85,6 +85,26 @@ void check_folder(const std::string& option, const std::string& path) {
     throw FolderError(option + " " + path + " is not a folder");
 }
 
+// The files that the process may open. Some are not for sessions, but for the server itself, for --http, for
+// recordings, and for connections that are being closed.
+struct Files {
+  std::uint64_t all, others;
+  std::uint64_t for_sessions() const { return all - 2 * others; }
+};
+
+Files files_of_process() {
+  constexpr std::uint64_t kMaxFiles = 1 << 20, kMaxOthers = 128;
+  const std::uint64_t all = std::min(usable_files(), kMaxFiles);
+  return {all, std::min(kMaxOthers, all / 4)};
+}
+
+// Recordings may have the files that no session can take, and half of those for others.
+std::size_t files_for_recordings(int max_sessions) {
+  const Files files = files_of_process();
+  const auto sessions = std::min(files.for_sessions(), static_cast<std::uint64_t>(max_sessions));
+  return files.for_sessions() - sessions + files.others / 2;
+}
+
 ClassicService classic_service(const ServeOptions& options, const std::shared_ptr<Disposal>& disposal) {
   const auto tell = [](const std::string& sentence) { log_warning(sentence); };
   const auto power_on_one = [options, cartridge = open_cartridge(options.machine, tell)](Pace* pace) {
@@ -105,7 +125,9 @@ LineService line_service(const ServeOptions& options, ThreadPool& pool,
   service.images = std::make_shared<Images>(offered_images(options));
   for (const std::string& warning : service.images->warnings()) log_warning(warning);
   service.limits = options.limits;
-  if (!options.record_folder.empty()) service.recorder = std::make_shared<Recorder>(options.record_folder);
+  if (!options.record_folder.empty())
+    service.recorder =
+        std::make_shared<Recorder>(options.record_folder, files_for_recordings(options.server.max_sessions));
   service.threads = static_cast<std::size_t>(options.server.threads);
   service.cpu = options.machine.settings.cpu;
   service.strict = options.strict;
@@ -145,13 +167,11 @@ void limit_memory(Services& services, std::uint64_t most, const SharedCaches& ca
   if (services.line) std::get<LineService>(*services.line).memory = budget;
 }
 
-// A session on a socket takes a file, and so does a connection that is being closed. Others are for the
-// server itself, for --http and for recordings.
+// A session on a socket takes a file, and so does a connection that is being closed.
 void limit_connections(ServerSettings& server) {
-  constexpr std::uint64_t kMaxFiles = 1 << 20, kMaxOthers = 128;
-  const std::uint64_t files = std::min(usable_files(), kMaxFiles), others = std::min(kMaxOthers, files / 4);
-  server.max_connections = static_cast<int>(files - others);
-  const auto sessions = static_cast<int>(files - 2 * others);
+  const Files files = files_of_process();
+  server.max_connections = static_cast<int>(files.all - files.others);
+  const auto sessions = static_cast<int>(files.for_sessions());
   if (server.max_sessions <= sessions) return;
   server.max_sessions = sessions;
   server.sessions_limited_by = "the open files (ulimit -n)";

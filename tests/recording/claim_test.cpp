@@ -35,6 +35,18 @@ TEST_CASE("A folder is taken with all that is in it, and with the folders above 
   }
 }
 
+TEST_CASE("There are at most as many names as the claims allow") {
+  const auto claims = std::make_shared<Claims>(2);
+  const Claim claim(claims, {"first"});
+  CHECK_THROWS_WITH(claims->add({"second", "third"}),
+                    "the server would record into 3 files at the same time; the limit is 2; try again later");
+  {
+    const Claim second(claims, {"second"});
+    CHECK_THROWS_AS(claims->add({"third"}), std::runtime_error);
+  }
+  CHECK_NOTHROW(claims->add({"third"}));
+}
+
 TEST_CASE("Several names are claimed together, or not at all") {
   const auto claims = std::make_shared<Claims>();
   const Claim claim(claims, {"taken"});
