@@ -61,9 +61,10 @@ Task<> Http::accept_clients() {
   for (;;) {
     error_code error;
     tcp::socket socket = co_await acceptor_.async_accept(net::redirect_error(use_task, error));
-    if (error == net::error::no_descriptors && make_file_room()) continue;
+    if (error == net::error::no_descriptors) socket = co_await accept_without_files(error);
     if (error) {
       co_await pause(loop_, 100ms);
+      if (spare_ < 0) spare_ = open_spare_file();
       continue;
     }
     make_room();
@@ -77,6 +78,16 @@ Task<> Http::accept_clients() {
       throw;
     }
   }
+}
+
+// A system that has no file for a connection says so even if no client is there. Makes room only for one that
+// is.
+Task<tcp::socket> Http::accept_without_files(error_code& error) {
+  tcp::socket socket(loop_);
+  co_await acceptor_.async_wait(net::socket_base::wait_read, net::redirect_error(use_task, error));
+  if (!error && !make_file_room()) error = net::error::no_descriptors;
+  if (!error) socket = co_await acceptor_.async_accept(net::redirect_error(use_task, error));
+  co_return socket;
 }
 
 // Closes the oldest connection, so that idle ones do not keep out others.

@@ -47,6 +47,7 @@ class Http {
   using Connection = std::shared_ptr<OpenConnection>;
 
   Task<> accept_clients();
+  Task<boost::asio::ip::tcp::socket> accept_without_files(boost::system::error_code& error);
   void make_room();       // for one more connection
   bool make_file_room();  // for the file of one more connection; returns false if that is impossible
   void close_oldest();

@@ -51,7 +51,8 @@ class TestFiles:
     FILES = 80
 
     @pytest.fixture(autouse=True)
-    def set_up(self, cleanup):
+    def set_up(self, cleanup, tmp_path):
+        folder = str(tmp_path)
         self.server = Server(
             "serve",
             "--listen",
@@ -60,6 +61,8 @@ class TestFiles:
             "127.0.0.1:0",
             "--grace",
             "0",
+            "--record-dir",
+            folder,
             before=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (self.FILES, self.FILES)),
         )
         cleanup(self.server.__exit__)
@@ -85,6 +88,32 @@ class TestFiles:
         assert self.connect(self.port).rest().startswith(b"error busy there are 40 sessions")
         self.check_health()
         assert ask(wires[0], b"load beamfall").startswith(b"ok ")
+
+    def test_recordings_leave_files_for_sessions_and_for_health(self):
+        recorders = [self.connect(self.port) for _ in range(20)]
+        for wire in recorders:
+            assert ask(wire, b"load beamfall").startswith(b"ok ")
+        replies = [ask(wire, b"record gif,y4m,wav film-%d" % n) for n, wire in enumerate(recorders)]
+        assert [reply.startswith(b"ok ") for reply in replies] == [True] * 3 + [False] * 17
+        for reply in replies[3:]:
+            assert reply.startswith(
+                b"error recording the server would record into 12 files at the same time; the limit is 10;"
+            )
+        newcomers = [self.connect(self.port) for _ in range(20)]
+        for wire in newcomers:
+            assert ask(wire, b"hello").startswith(b"ok ")
+        self.check_health()
+        assert ask(recorders[0], b"record stop").startswith(b"ok recorded=film-0.gif,")
+        assert ask(recorders[3], b"record gif,y4m,wav film-3").startswith(b"ok ")
+
+    def test_health_is_reported_where_something_else_has_taken_all_files(self):
+        wires = [self.connect(self.port) for _ in range(self.FILES // 2)]
+        for wire in wires:
+            assert ask(wire, b"hello").startswith(b"ok ")
+        held = len(os.listdir(f"/proc/{self.server.process.pid}/fd"))
+        resource.prlimit(self.server.process.pid, resource.RLIMIT_NOFILE, (held, held))
+        for _ in range(3):
+            self.check_health()
 
     def test_health_is_reported_where_no_file_is_left(self):
         for _ in range(2 * self.FILES):
