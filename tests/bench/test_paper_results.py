@@ -1,12 +1,15 @@
 """scripts/measure/plan_figures.py and paper_results.py: docs/results.md follows from the folders of results."""
 
+import hashlib
 import json
 import pathlib
 import sys
+import tarfile
 
 import paper_results
 import plan_figures
 import pytest
+import tomllib
 from paper.parts import PLANS, bounds
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
@@ -48,6 +51,19 @@ def results(folder, agents, scores, seconds="2.0", frames="1000"):
         folder / "times.csv",
         ["unit,training_seconds,training_frames,evaluation_seconds,evaluation_frames,searched_frames", *times],
     )
+
+
+class TestPicture:
+    def test_the_learning_curves_are_those_of_the_results_that_are_kept(self):
+        root = plan_figures.ROOT
+        table = hashlib.sha256(b"unit,game,agent,trial,episode,score,frames,decisions\n")
+        with tarfile.open(root / "docs/results/kept/hour.tar.xz") as kept:
+            plan = tomllib.loads(kept.extractfile("hour/plan.toml").read().decode())
+            for game in plan["games"]:
+                for agent in plan["agents"]:
+                    for trial in range(1, plan["agent"][agent]["trials"] + 1):
+                        table.update(kept.extractfile(f"hour/units/{game}-{agent}-{trial}.curves.csv").read())
+        assert f"sha256:{table.hexdigest()}" in (root / "docs/pictures/learning-curves.svg").read_text()
 
 
 class TestBounds:

@@ -58,6 +58,7 @@ class Learners(Part):
         self.speeds_of_learners(found, agents)
         if (ROOT / "docs/pictures/learning-curves.svg").exists():
             self.add("![Scores of training episodes by frames, a panel for each game](pictures/learning-curves.svg)")
+            self.say("The bands in the picture are standard errors over the trials.")
 
     def speeds_of_learners(self, found, agents):
         """In how many games each learner is above Random, and its decisions a second."""
