@@ -36,8 +36,14 @@ bool Environment::Impl::may_copy_reset() const {
 
 ResetStart Environment::Impl::reset_start() {
   if (!boot_facts) boot_facts = analyze_boot(console, scheme_of(*image->bytes, properties.scheme).name);
-  ResetStart start{image, game,           controller_input.limits(), play.mode, play.switches.difficulty,
-                   {},    console.state()};
+  ResetStart start{image,
+                   game,
+                   controller_input.limits(),
+                   play.mode,
+                   play.switches.difficulty,
+                   {},
+                   console.state(),
+                   console.format()};
   start.machine.drawn = 0;  // only a count of draws, and no more draws follow
   if (boot_facts->clears_ram) start.machine.riot.ram = {};
   if (boot_facts->sets_timer) start.machine.riot.timer = 0;

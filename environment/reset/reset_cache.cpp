@@ -13,14 +13,15 @@ std::uint64_t ResetStart::hash() const {
   hash.add(sound);
   hash.add(std::array{image.get()});
   hash.add(std::array{game.get()});
-  hash.add(std::array{limits.min, limits.max, mode, difficulty});
+  hash.add(std::array{limits.min, limits.max, mode, difficulty, static_cast<std::int32_t>(format)});
   return hash.value();
 }
 
 bool ResetStart::operator==(const ResetStart& other) const {
   return image == other.image && game == other.game && limits.min == other.limits.min &&
          limits.max == other.limits.max && mode == other.mode && difficulty == other.difficulty &&
-         sound == other.sound && std::memcmp(&machine, &other.machine, sizeof machine) == 0;
+         format == other.format && sound == other.sound &&
+         std::memcmp(&machine, &other.machine, sizeof machine) == 0;
 }
 
 void ResetCache::set_capacity(std::size_t entries) {

@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "emulator/state/properties.hpp"
 #include "emulator/state/state.hpp"
 #include "emulator/tia/frame_buffer.hpp"
 #include "environment/input/paddles.hpp"
@@ -32,6 +33,7 @@ struct ResetStart {
   std::int32_t mode = 0, difficulty = 0;
   std::array<std::uint8_t, 6> sound{};  // registers
   State machine;                        // after the system reset
+  Format format = Format::kNtsc;        // random contents at power-on may have decided what was detected
 
   std::uint64_t hash() const;
   bool operator==(const ResetStart& other) const;

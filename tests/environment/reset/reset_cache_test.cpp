@@ -2,6 +2,7 @@
 #include "environment/reset/reset_cache.hpp"
 
 #include <catch2/catch.hpp>
+#include <map>
 #include <random>
 
 #include "environment/saved_state.hpp"
@@ -63,6 +64,40 @@ void check_resets(const std::shared_ptr<const Image>& image, const std::shared_p
 
 TEST_CASE("A copied reset of our own image is what a run one is") {
   check_resets(test::counter_image(), test::game(), 30);
+}
+
+// At power-on, its frames have 253 lines or 287, which a random bit of RAM decides. At the end, RAM is the
+// same in both cases. From the next reset on, it counts lines in frames that only the limit of lines closes.
+std::shared_ptr<const Image> image_of_random_format() {
+  std::vector<std::uint8_t> rom = {
+      0xA9, 0x01, 0x8D, 0x96, 0x02, 0xA5, 0x90, 0xC9, 0x5A, 0xF0, 0x55,  // TIM64T; later resets: to $F060
+      0xA5, 0x80, 0x29, 0x01, 0xA8, 0xA2, 0x32,                          // the random bit; 50 frames
+      0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0x85, 0x02,        // VSYNC
+      0xA9, 0x00, 0x85, 0x00, 0xA9, 0xC8, 0x85, 0x81, 0x85, 0x02,        // 200 lines
+      0xC6, 0x81, 0xD0, 0xFA, 0xA9, 0x32, 0xC0, 0x00, 0xF0, 0x02,        // 50 lines
+      0xA9, 0x54, 0x85, 0x81, 0x85, 0x02, 0xC6, 0x81, 0xD0, 0xFA,        // or 84
+      0xCA, 0xD0, 0xD5, 0xA2, 0x7F, 0xA9, 0x00, 0x95, 0x80, 0xCA,        // RAM is cleared
+      0x10, 0xFB, 0xA9, 0x5A, 0x85, 0x90,                                // but for the mark of a later reset
+      0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0xA9, 0x00,        // frames that leave RAM as it is
+      0x85, 0x00, 0xA2, 0xFA, 0x85, 0x02, 0xCA, 0xD0, 0xFB, 0x4C, 0x4A, 0xF0,  // from $F04A on
+      0x85, 0x02, 0xE6, 0x82, 0xD0, 0xFA, 0xE6, 0x83, 0x4C, 0x60, 0xF0};       // lines are counted
+  rom.resize(4096);
+  rom[0xFFD] = 0xF0;
+  return make_image(std::move(rom), "random_format");
+}
+
+TEST_CASE("A reset is not copied from a machine in which another format was detected") {
+  const auto image = image_of_random_format();
+  std::map<Format, int> formats;
+  for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+    INFO("system seed " << seed);
+    Settings copies = with_copies(true), runs = with_copies(false);
+    copies.system_seed = runs.system_seed = seed;
+    const Environment copied(image, test::game(), copies), run(image, test::game(), runs);
+    require_same(copied, run);
+    ++formats[run.format()];
+  }
+  CHECK(formats.size() == 2);
 }
 
 TEST_CASE("A copied reset of every game is what a run one is") {
@@ -132,6 +167,7 @@ TEST_CASE("A reset is shared only by those that agree in all that decides it") {
       with([](auto& other) { other.difficulty = 3; }),
       with([](auto& other) { other.sound[5] = 1; }),
       with([](auto& other) { other.machine.riot.ram[127] = 1; }),
+      with([](auto& other) { other.format = Format::kPal; }),
   };
   ResetCache cache;
   cache.keep(start, {});
