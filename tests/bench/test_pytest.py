@@ -41,7 +41,7 @@ class TestMissingProgram:
         assert "1 failed" in failed
         assert hint in failed
 
-    def test_nothing_is_said_if_it_is_there(self, tmp_path):
+    def test_a_program_that_is_there_is_not_mentioned(self, tmp_path):
         program = tmp_path / "racebeam"
         program.write_text("#!/bin/sh\nexit 1\n")
         program.chmod(0o755)
