@@ -177,7 +177,7 @@ class TestSubmissions:
                 env.step(2)
         assert (env.logged, env.unlogged, self.rows()) == (0, 2, [])
 
-    def test_an_episode_with_more_actions_than_a_log_has_gets_none(self):
+    def test_an_episode_with_too_many_actions_for_a_log_is_forgotten(self):
         with unittest.mock.patch.object(played, "MOST_ACTS", 10), unittest.mock.patch.object(played, "MOST_TURNS", 9):
             env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=44), self.folder)
             env.reset()

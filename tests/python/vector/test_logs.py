@@ -132,7 +132,7 @@ class TestLogs:
         assert {row["episode"] for row in self.rows()} == {"1"}
         assert self.verify()[0] == 0
 
-    def test_a_game_with_more_actions_than_a_log_has_gets_none(self):
+    def test_a_game_with_too_many_actions_for_a_log_is_forgotten(self):
         envs = self.make("beamfall", 2, max_num_frames_per_episode=48)
         envs.reset()
         with unittest.mock.patch.object(played, "MOST_ACTS", 10):
