@@ -20,6 +20,7 @@ from __future__ import annotations
 import base64
 import collections
 import contextlib
+import enum
 import json
 import math
 import os
@@ -126,9 +127,10 @@ def format_word(value: object) -> str:
     """Formats a word of a request.
 
     Args:
-        value: Value of the word. A bool becomes 0 or 1.
+        value: Value of the word. A bool becomes 0 or 1, and a member of an enumeration, such as Action.FIRE, its value.
     """
-    return str(int(value) if isinstance(value, bool) else value)
+    plain = value.value if isinstance(value, enum.Enum) else value
+    return str(int(plain) if isinstance(plain, bool) else plain)
 
 
 def optional_words(value: object) -> list[object]:
@@ -1362,7 +1364,7 @@ class Commands(Exchange):
         Returns:
             The values of each list. `rewards`, and `rewards_b` with two players, are lists of a reward for each act.
         """
-        words = [*key_values(keep=keep), *(",".join(map(str, actions)) for actions in sequences)]
+        words = [*key_values(keep=keep), *(",".join(map(format_word, actions)) for actions in sequences)]
         return [
             {
                 key: decode_rewards(text) if key.startswith("rewards") else parse_number(text)

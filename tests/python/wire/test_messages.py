@@ -1,5 +1,6 @@
 """Words of requests and replies, streams that end or are slow, and replies that are read in two ways."""
 
+import enum
 import io
 import pickle
 import socket
@@ -68,6 +69,9 @@ class TestWords:
 
     def test_a_request_is_one_line(self):
         assert [format_word(value) for value in (True, False, 2, "x", 0.5)] == ["1", "0", "2", "x", "0.5"]
+
+    def test_a_member_of_an_enumeration_is_sent_as_its_value(self):
+        assert [format_word(member) for member in enum.Enum("Buttons", {"A": 4, "B": "FIRE"})] == ["4", "FIRE"]
         assert (optional_words(None), optional_words(0)) == ([], [0])
         assert key_values(a=True, b=None, c=0) == ["a=1", "c=0"]
         assert format_request(["load", "pong"], {"seed": 5, "sticky": None}) == "load pong seed=5"

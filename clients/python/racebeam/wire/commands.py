@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 from .encodings import decode_rewards
 from .exchange import Exchange
-from .messages import Values, key_values, optional_words, parse_number
+from .messages import Values, format_word, key_values, optional_words, parse_number
 
 
 class Commands(Exchange):
@@ -152,7 +152,7 @@ class Commands(Exchange):
         Returns:
             The values of each list. `rewards`, and `rewards_b` with two players, are lists of a reward for each act.
         """
-        words = [*key_values(keep=keep), *(",".join(map(str, actions)) for actions in sequences)]
+        words = [*key_values(keep=keep), *(",".join(map(format_word, actions)) for actions in sequences)]
         return [
             {
                 key: decode_rewards(text) if key.startswith("rewards") else parse_number(text)

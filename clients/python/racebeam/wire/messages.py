@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import enum
 import re
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
@@ -96,9 +97,10 @@ def format_word(value: object) -> str:
     """Formats a word of a request.
 
     Args:
-        value: Value of the word. A bool becomes 0 or 1.
+        value: Value of the word. A bool becomes 0 or 1, and a member of an enumeration, such as Action.FIRE, its value.
     """
-    return str(int(value) if isinstance(value, bool) else value)
+    plain = value.value if isinstance(value, enum.Enum) else value
+    return str(int(plain) if isinstance(plain, bool) else plain)
 
 
 def optional_words(value: object) -> list[object]:
