@@ -224,7 +224,8 @@ local function quote(word)
 end
 
 -- A server that this client starts. Its input is a named pipe, whose name is removed once both have opened it. Its
--- output is read with io.popen.
+-- output is read with io.popen. The first line is the shell's, and is empty: if this client closed the pipe before the
+-- shell has opened it, the shell would wait forever.
 function transport.launch(program, options)
   local fifo = os.tmpname()
   os.remove(fifo)
@@ -232,13 +233,15 @@ function transport.launch(program, options)
   if made ~= 0 and made ~= true then
     fault("lost", "no pipe can be made at " .. fifo)
   end
-  local words = { ("exec <%s && rm -f %s && exec"):format(quote(fifo), quote(fifo)), quote(program),
+  local words = { ("exec <%s && rm -f %s && echo && exec"):format(quote(fifo), quote(fifo)), quote(program),
     "serve --stdio --log-level warning" }
   for _, option in ipairs(options) do
     words[#words + 1] = quote(option)
   end
   local input = io.popen(table.concat(words, " "), "r")
-  return setmetatable({ input = input, output = open_file(fifo, "r+b") }, Streams)
+  local output = open_file(fifo, "r+b")
+  input:read()
+  return setmetatable({ input = input, output = output }, Streams)
 end
 
 local FILES = "; file:PATH takes the --ready-file or --announce file of a server"
