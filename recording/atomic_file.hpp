@@ -18,6 +18,10 @@ class BudgetSpent : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// How many bytes a file of many is charged for in addition to its own: a block of the disk, and its place in
+// the folder. So a budget also limits the number of files.
+constexpr std::size_t kBytesBesideFile = 4096;
+
 // Limits the bytes that may be written in total.
 class DiskBudget {
  public:

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace racebeam {
 namespace {
@@ -28,19 +29,28 @@ void put_chunk(Bytes& out, std::string_view type, std::span<const std::uint8_t> 
 class Pngs final : public Media {
  public:
   Pngs(const std::string& path, const Footage& footage, DiskBudget& budget)
-      : folder_(path, budget), writer_(footage) {}
+      : budget_(budget), folder_(path, budget), writer_(footage) {}
 
   void frame(std::span<const std::uint8_t> pixels) override {
     const auto file = writer_.file(pixels);
     char name[24];
-    std::snprintf(name, sizeof name, "%06d.png", number_++);
+    std::snprintf(name, sizeof name, "%06d.png", number_);
+    budget_.take(kBytesBesideFile);
+    beside_ += kBytesBesideFile;
     folder_.add(name, file);
+    ++number_;
   }
 
   void sound(std::span<const std::uint8_t>) override {}
-  void commit() override { folder_.commit(); }
+
+  void commit() override {
+    folder_.commit();
+    budget_.give_back(std::exchange(beside_, 0));  // the result says how long the files are
+  }
 
  private:
+  DiskBudget& budget_;
+  std::size_t beside_ = 0;  // bytes that were charged in addition to those of the files
   AtomicFolder folder_;
   PngWriter writer_;
   int number_ = 0;

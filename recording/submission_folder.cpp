@@ -26,9 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-// How many bytes a log is charged for in addition to its own, so that the budget also limits the number of
-// files.
-constexpr std::size_t kBytesBesideLog = 4096;
 constexpr std::size_t kMaxAgentBytes = std::size_t{1} << 16, kMaxLineBytes = std::size_t{1} << 16;
 
 [[noreturn]] void fail(const std::string& what, const std::string& path) {
@@ -213,7 +210,7 @@ void SubmissionFolder::check_settings() const {
 void SubmissionFolder::add(const EpisodeLog& log) {
   const std::string bytes = bytes_of(log);
   const std::string path = unit_path() + '/' + std::to_string(log.origin.episode) + ".episode";
-  budget_.take(kBytesBesideLog);
+  budget_.take(kBytesBesideFile);
   write_file(path, bytes, budget_);
   try {
     SharedTable(table_path(), budget_).append(line_of(row_of(log, sha256_of(bytes))));

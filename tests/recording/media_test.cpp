@@ -88,14 +88,19 @@ TEST_CASE("A GIF that reaches its limit ends as one must, whatever the limit") {
   }
 }
 
-TEST_CASE("A folder of PNGs that reaches its limit has whole pictures") {
-  const Film film(MediaKind::kPng, 20000);
+TEST_CASE("A folder of PNGs that reaches its limit has whole pictures, and 4 KiB were left for each") {
+  constexpr std::size_t kLimit = 60000;
+  const Film film(MediaKind::kPng, kLimit);
   CHECK(film.frames > 4);
   CHECK(test::files_in(film.folder.path("a")) == static_cast<std::size_t>(film.frames));
+  std::size_t bytes = 0;
   for (const auto& file : std::filesystem::directory_iterator(film.folder.path("a"))) {
     const std::string png = test::read(file.path());
     CHECK(png.substr(png.size() - 8, 4) == "IEND");
+    bytes += png.size();
   }
+  CHECK(film.budget.taken() == bytes);
+  CHECK(bytes + static_cast<std::size_t>(film.frames) * kBytesBesideFile <= kLimit);
 }
 
 TEST_CASE("What has no room for its beginning is refused, and leaves nothing") {
