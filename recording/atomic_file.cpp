@@ -109,6 +109,7 @@ AtomicFile::AtomicFile(std::string path, DiskBudget& budget, std::string tail)
   descriptor_ = make_temporary_file(temporary_);
   if (descriptor_ < 0) fail("make", path_);
   set_readers(descriptor_, Readers::kEveryone);
+  number_ = mark_of(temporary_).number;
 }
 
 AtomicFile::~AtomicFile() {
@@ -144,12 +145,21 @@ void AtomicFile::count_growth() {
   size_ = size;
 }
 
+// A file that is gone has the number 0; to create the new one then fails with the system's reason.
+void AtomicFile::check_place() const {
+  const std::uint64_t found = mark_of(temporary_).number;
+  if (found == 0 || found == number_) return;
+  throw std::runtime_error("cannot create " + fs::path(path_).filename().string() +
+                           ": another program has replaced its temporary file");
+}
+
 // Cuts off data of which only a part was written. The tail already has its space on the disk, so it always
 // fits.
 void AtomicFile::commit() {
   write_all(descriptor_, size_, tail_, path_);
   if (!cut_file(descriptor_, size_ + tail_.size())) fail("write", path_);
   if (!sync_file(descriptor_)) fail("sync", path_);
+  check_place();
   create(temporary_, path_);
   close_file(descriptor_);
   descriptor_ = -1;

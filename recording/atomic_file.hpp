@@ -54,7 +54,8 @@ class AtomicFile {
   void write(std::span<const std::uint8_t> bytes);
   void write(std::string_view text);
   void overwrite(std::size_t place, std::span<const std::uint8_t> bytes);  // bytes that were written before
-  void commit();  // refuses to replace an existing file
+  // Refuses to replace an existing file, and to keep what another program has put in place of this one.
+  void commit();
 
   // For another program that writes the file instead: the file's name until commit(), and a call that charges
   // the budget for the bytes that the file has gained.
@@ -62,11 +63,14 @@ class AtomicFile {
   void count_growth();
 
  private:
+  void check_place() const;  // whether the temporary name is still that of this file
+
   std::string path_, temporary_;
   DiskBudget& budget_;
   const std::string tail_;
   int descriptor_ = -1;
-  std::size_t size_ = 0;  // without the tail
+  std::uint64_t number_ = 0;  // of the file in its file system
+  std::size_t size_ = 0;      // without the tail
 };
 
 // Whether replace_file() waits for the disk.

@@ -238,6 +238,28 @@ TEST_CASE("A file that was not committed leaves nothing, and a file that exists 
   CHECK_THROWS_WITH(AtomicFile(folder.path("link.avi"), budget), "link.avi exists; choose another name");
 }
 
+TEST_CASE("What another program has put in the place of a file is not kept as that file") {
+  const Scratch folder;
+  DiskBudget budget(100);
+  const std::string error = "cannot create film.avi: another program has replaced its temporary file";
+  for (const bool is_link : {false, true}) {
+    AtomicFile file(folder.path("film.avi"), budget);
+    file.write("all");
+    std::filesystem::remove(file.temporary());
+    if (is_link) {
+      std::filesystem::create_symlink("nothing", file.temporary());
+    } else {
+      REQUIRE(::mkfifo(file.temporary().c_str(), 0600) == 0);
+    }
+    CHECK_THROWS_WITH(file.commit(), error);
+    CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(folder.path("film.avi"))));
+  }
+  CHECK(files_in(folder) == 0);
+  AtomicFile file(folder.path("film.avi"), budget);
+  std::filesystem::remove(file.temporary());
+  CHECK_THROWS_WITH(file.commit(), "cannot create film.avi: No such file or directory");
+}
+
 TEST_CASE("A limit of the disk holds to the byte, and a write beyond it writes nothing") {
   const Scratch folder;
   DiskBudget budget(10);
