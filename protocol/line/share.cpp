@@ -41,9 +41,12 @@ void Share::publish(Snapshot snapshot, std::int64_t frames) {
   newest_.swap(newest);
 }
 
-bool Shares::add(const std::shared_ptr<Share>& share) {
+bool Shares::add(const std::shared_ptr<Share>& share, const Share* replaced) {
   const std::lock_guard lock(mutex_);
-  return by_name_.try_emplace(share->name(), share).second;
+  const auto [place, is_new] = by_name_.try_emplace(share->name(), share);
+  if (!is_new && place->second.get() != replaced) return false;
+  place->second = share;
+  return true;
 }
 
 void Shares::remove(const Share& share) {
@@ -72,9 +75,10 @@ std::vector<std::shared_ptr<Share>> Shares::all() const {
 
 // Everything is allocated before the name is taken, so that a failure leaves it free.
 std::unique_ptr<Sharing> Sharing::open(const std::shared_ptr<Shares>& all, const std::string& name,
-                                       int most_watchers) {
+                                       int most_watchers, const Sharing* replaced) {
   auto sharing = std::make_unique<Sharing>(all, std::make_shared<Share>(name, most_watchers));
-  return all->add(sharing->share_) ? std::move(sharing) : nullptr;
+  return all->add(sharing->share_, replaced ? replaced->share_.get() : nullptr) ? std::move(sharing)
+                                                                                : nullptr;
 }
 
 std::unique_ptr<Sharing> Sharing::open_next(const std::shared_ptr<Shares>& all, int most_watchers) {

@@ -93,9 +93,10 @@ class Share {
 // The shared sessions of a server, by name. Thread-safe.
 class Shares {
  public:
-  bool add(const std::shared_ptr<Share>& share);  // false: its name is taken
-  void remove(const Share& share);                // if it is there
-  std::string next_name();                        // session-1, session-2 and so on
+  // False: its name is taken by another share than `replaced`.
+  bool add(const std::shared_ptr<Share>& share, const Share* replaced = nullptr);
+  void remove(const Share& share);  // if it is there
+  std::string next_name();          // session-1, session-2 and so on
 
   std::shared_ptr<Share> find(std::string_view name) const;  // null: unknown
   std::vector<std::shared_ptr<Share>> all() const;
@@ -109,9 +110,9 @@ class Shares {
 // A session's share, which ends with it.
 class Sharing {
  public:
-  // Null if the name is taken.
+  // Null if the name is taken. It may be that of the session's own share, `replaced`, which then has no name.
   static std::unique_ptr<Sharing> open(const std::shared_ptr<Shares>& all, const std::string& name,
-                                       int most_watchers);
+                                       int most_watchers, const Sharing* replaced = nullptr);
   // Under the next name that is free.
   static std::unique_ptr<Sharing> open_next(const std::shared_ptr<Shares>& all, int most_watchers);
   Sharing(std::shared_ptr<Shares> all, std::shared_ptr<Share> share)

@@ -95,8 +95,7 @@ void run_share(Context& context, Words arguments, Reply& reply) {
     most = static_cast<int>(
         number_within(value_of(arguments[1], "watchers", "share"), "watchers", 1, kMaxWatchers));
   }
-  if (context.sharing && context.sharing->share().name() == name) context.sharing.reset();
-  auto sharing = Sharing::open(context.service.shares, name, most);
+  auto sharing = Sharing::open(context.service.shares, name, most, context.sharing.get());
   if (!sharing)
     throw RequestError(ErrorCode::kBadValue,
                        "another session is shared as " + quote(name) + "; choose another name");

@@ -108,6 +108,21 @@ TEST_CASE("A session can replace its own share under the same name") {
   CHECK(code(server.watcher.ask("share room")) == "bad-value");
 }
 
+TEST_CASE("A session that replaces its own share keeps its name, whoever else asks for it") {
+  Server server;
+  server.share();
+  server.watcher.ask(kLoad);
+  std::atomic<bool> stop = false, taken = false;
+  std::thread other([&] {
+    while (!stop && !taken) taken = server.watcher.ask("share room") == "ok share=room watchers=1000";
+  });
+  for (int times = 0; times < 20'000 && !taken; ++times) server.player.say("share room watchers=4\n");
+  stop = true;
+  other.join();
+  CHECK_FALSE(taken);
+  CHECK(code(server.watcher.ask("share room")) == "bad-value");
+}
+
 TEST_CASE("A share that is not the one of its name leaves that one alone") {
   const auto shares = std::make_shared<Shares>();
   const auto first = Sharing::open(shares, "one", 1);
