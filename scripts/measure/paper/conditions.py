@@ -151,8 +151,10 @@ class Conditions(Part):
                     They score more with a fifth of the step size
                     ([paper-notes.md](paper-notes.md#the-end-of-training)).""",
                     """DISCO and LSH score more than in the paper in all five games. The differences are significant in
-                    Beam Rider and Freeway (DISCO) and in Freeway (LSH). Their causes are not known;
-                    [paper-notes.md](paper-notes.md#disco-and-lsh-above-the-paper) has what could be one.""",
+                    Beam Rider and Freeway (DISCO) and in Freeway (LSH). With averaged colours, as in the
+                    ALE of 2012, one trial of LSH in Freeway scores 14.8 instead of 20.5 (paper: 15.4), and one of DISCO
+                    8.3 instead of 15.0 (12.8). The cause in Beam Rider is not known
+                    ([paper-notes.md](paper-notes.md#disco-and-lsh-above-the-paper)).""",
                     """Exploration: in Ms. Pac-Man, UCT with the printed constant scores far less than in the paper. It
                     scores more with a larger constant, and with new simulations for each decision
                     ([paper-notes.md](paper-notes.md#ucts-kept-visits)).""",
