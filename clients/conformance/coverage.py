@@ -49,7 +49,7 @@ def kind_of_size(field):
 
 
 def usage(steps, printed):
-    """What the steps ask for, and what the lines that a client printed name, by kind."""
+    """Lists, by kind, what the steps request, and what the printed lines of a client name."""
     requests = [line.split()[1:] for line in steps if line.startswith(STEPS_WITH_REQUEST)]
     pairs = [word.partition("=")[::2] for words in requests for word in words if "=" in word]
     fields = list(

@@ -113,7 +113,7 @@ class Slot {
   // and what the pace throws; the slot is then unchanged.
   void reset(std::optional<std::uint32_t> seed = std::nullopt);
 
-  // Ends the episode; the next one is a new game. The next reset without a seed of its own uses `seed`.
+  // Ends the episode, so that the next one is a new game. The next reset without a seed uses `seed`.
   // Requires Steps::kFrames.
   void end_episode(std::optional<std::uint32_t> seed);
 

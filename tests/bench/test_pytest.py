@@ -1,4 +1,4 @@
-"""What conftest.py tells a person who runs tests without the program."""
+"""The messages of conftest.py if the program is missing."""
 
 import os
 import pathlib

@@ -111,7 +111,7 @@ class Executor:
 
 
 class TestJobs:
-    """What the scheduler is asked for."""
+    """The resources that the package requests from the scheduler."""
 
     @pytest.mark.parametrize("image, roms", (("roms/game.bin", "roms"), ("roms", "roms"), (None, None)))
     def test_each_server_has_the_options_and_an_announce_file(self, tmp_path, image, roms):
