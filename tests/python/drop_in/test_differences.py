@@ -288,3 +288,23 @@ class TestDifferences:
             envs.reset(seed=1)
             for _ in range(5):
                 assert envs.step(np.zeros(2, np.int64))[3].tolist() == [ends] * 2
+
+    @pytest.mark.parametrize(
+        ("settings", "sentence"),
+        (
+            ({"reward_min": 5, "reward_max": 1}, r"reward_min \(5\) is above reward_max \(1\)"),
+            ({"paddle_min": 5000, "paddle_max": 100}, r"paddle_min \(5000\) must be between 0 and paddle_max \(100\)"),
+            ({"frame_skip": -3}, "frame_skip is -3; it must be 1 or more"),
+        ),
+    )
+    def test_20_settings_that_contradict_each_other(self, settings, sentence):
+        ours, theirs = pong()
+        for key, value in settings.items():
+            ours.setInt(key, value)
+            theirs.setInt(key, value)
+        with pytest.raises(racebeam.InvalidInput, match=sentence):
+            ours.loadROM(PONG)
+        if "frame_skip" not in settings:  # with which ale_py hangs
+            theirs.loadROM(PONG)
+            theirs.act(0)
+            assert theirs.getFrameNumber() == 1

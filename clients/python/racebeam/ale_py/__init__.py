@@ -36,6 +36,8 @@ and infos are equal to the byte for the same seeds and actions. These are the di
 18. AtariVectorEnv has screens of 1 to 320 columns, and of 9 rows to twice those of the game's screen. stack_num ends
     at 16, noop_max and frameskip at 1000. ale_py takes more.
 19. AtariVectorEnv with max_num_frames_per_episode=0 has no limit; ale_py truncates each step.
+20. loadROM() refuses a reward_min above reward_max, a paddle_min above paddle_max, and a negative frame_skip. ale_py
+    takes the first two, and hangs with the third.
 """
 
 from __future__ import annotations
