@@ -47,7 +47,7 @@ class Searches(Part):
             agreement([score], published, "episode"),
             number(SEARCH_GOALS.get((agent, game)), 0),
             f"{episode['decisions']:,}",
-            number(seconds_a_decision(episode), 2),
+            f"{seconds_a_decision(episode):.2g}",
             number(speed, 0),
             number(speed / bench, 2) if bench else "-",
         ]
