@@ -120,13 +120,15 @@ void Server::log_limits() const {
 // If it may open many, the settings have already limited the number of sessions.
 int Server::files_for_clients() const {
   constexpr std::uint64_t kMany = 1024, kOthers = 4;
+  const auto needed = [](std::uint64_t most) { return open_files(most) + kOthers; };
   const std::uint64_t files = usable_files();
   if (files >= kMany) return std::numeric_limits<int>::max();
-  const std::uint64_t needed = open_files(files) + kOthers;
-  if (files > needed) return static_cast<int>(files - needed);
+  if (files > needed(files)) return static_cast<int>(files - needed(files));
+  std::uint64_t enough = files + 1;
+  while (enough <= needed(enough)) ++enough;  // a parent may have left files open beyond this limit
   throw std::runtime_error("the server may open " + std::to_string(files) +
                            " files (ulimit -n), but with these settings it needs at least " +
-                           std::to_string(needed + 1));
+                           std::to_string(enough));
 }
 
 std::string Server::announcement() const {

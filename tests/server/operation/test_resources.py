@@ -153,6 +153,19 @@ class TestFewFiles:
             for each in (wire, other):
                 each.close()
 
+    def test_the_error_counts_files_that_a_parent_left_open_beyond_the_limit(self, tmp_path):
+        def enough(redirection):
+            done = subprocess.run(
+                ["bash", "-c", f'exec {redirection} && ulimit -n 12 && exec "$@"', "bash", BINARY]
+                + ["serve", "--listen", "unix:s", "--threads", "1"],
+                cwd=tmp_path,
+                capture_output=True,
+                timeout=PATIENCE,
+            )
+            return int(done.stderr.decode().splitlines()[-1].split(" needs at least ")[1])
+
+        assert enough("12</dev/null") == enough("12<&-") + 1
+
 
 class TestThreads:
     def test_the_log_says_how_many_and_what_limits_them(self):
