@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -44,11 +44,11 @@ class Environment::Saved {
 
   Identity identity;
   Values values;
-  std::vector<std::uint8_t> cartridge_ram;  // Console::cartridge_ram()
-  Properties properties;                    // the console's
-  FrameBuffers pictures;                    // shared with the console until it draws on them
-  int height = 0;                           // visible rows of the pictures
-  std::optional<MersenneTwister> random;
+  std::vector<std::uint8_t> cartridge_ram;        // Console::cartridge_ram()
+  Properties properties;                          // the console's
+  FrameBuffers pictures;                          // shared with the console until it draws on them
+  int height = 0;                                 // visible rows of the pictures
+  std::shared_ptr<const MersenneTwister> random;  // null: a state without its generator
 
   // See Environment::state_hash() and same_state(). States of different images are never the same.
   std::uint64_t state_hash() const { return racebeam::state_hash(parts()); }

@@ -59,15 +59,16 @@ bool MachineModel::equal(const State& a, const State& b) const {
 }
 
 void MachineModel::write(StateWriter& out) const {
-  if (sticky_) out.put(machine_.save(true)->random.value());
+  if (sticky_) out.put(*machine_.save(true)->random);
 }
 
 void MachineModel::read(StateReader& in) {
   if (!sticky_) return;
-  Environment::Saved state(*machine_.save());
-  MersenneTwister& random = state.random.emplace();
+  MersenneTwister random;
   in.get(random);
   check_generator(random.words(), random.position());
+  Environment::Saved state(*machine_.save());
+  state.random = std::make_shared<const MersenneTwister>(random);
   machine_.restore(state);
 }
 

@@ -54,7 +54,7 @@ std::shared_ptr<Environment::Saved> Environment::Impl::save_without_pictures() c
 std::shared_ptr<const Environment::Saved> Environment::Impl::save(bool with_random) const {
   auto saved = save_without_pictures();
   saved->pictures = console.pictures();
-  if (with_random) saved->random = random;
+  if (with_random) saved->random = std::make_shared<const MersenneTwister>(random);
   return saved;
 }
 

@@ -84,7 +84,7 @@ std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved, const Enviro
   Prefix prefix{};
   prefix.identity = saved.identity;
   prefix.height = saved.height;
-  prefix.has_random = saved.random.has_value();
+  prefix.has_random = saved.random != nullptr;
   prefix.cartridge_ram = static_cast<std::uint32_t>(saved.cartridge_ram.size());
 
   std::vector<std::uint8_t> bytes(sizeof(Header));
@@ -126,7 +126,8 @@ std::shared_ptr<const Environment::Saved> from_bytes(std::span<const std::uint8_
   bytes = bytes.subspan(prefix.cartridge_ram);
   saved->pictures.current = take_picture(bytes, prefix.picture_size());
   saved->pictures.previous = take_picture(bytes, prefix.picture_size());
-  if (prefix.has_random != 0) saved->random = generator_of(take<GeneratorWords>(bytes));
+  if (prefix.has_random != 0)
+    saved->random = std::make_shared<const MersenneTwister>(generator_of(take<GeneratorWords>(bytes)));
   environment.check(*saved);
   return saved;
 }

@@ -145,7 +145,7 @@ Slot::Saved saved_slot(std::span<const std::uint8_t> bytes, const Environment& e
   if (values.has_noops != 0)
     saved.noops = std::make_shared<const MersenneTwister>(generator_of(take<GeneratorWords>(bytes)));
   saved.machine = from_bytes(bytes, environment);
-  saved.with_random = saved.machine->random.has_value();
+  saved.with_random = saved.machine->random != nullptr;
   return saved;
 }
 

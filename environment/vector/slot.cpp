@@ -250,8 +250,9 @@ void Slot::check_stack(const Saved& saved) const {
 std::size_t Slot::Saved::footprint() const {
   constexpr std::size_t kName = 256;
   const std::size_t picture = static_cast<std::size_t>(machine->height) * kScreenWidth;
-  const std::size_t generator = noops ? sizeof *noops : 0;
-  return kName + sizeof *machine + machine->cartridge_ram.size() + 2 * picture + stack.size() + generator;
+  const std::size_t generators =
+      (noops ? sizeof *noops : 0) + (machine->random ? sizeof *machine->random : 0);
+  return kName + sizeof *machine + machine->cartridge_ram.size() + 2 * picture + stack.size() + generators;
 }
 
 }  // namespace racebeam

@@ -133,7 +133,7 @@ Slot::Saved imported(std::span<const std::uint8_t> bytes, const Environment& mac
     if (is_saved_slot(bytes)) return saved_slot(bytes, machine);
     Slot::Saved place;
     place.machine = from_bytes(bytes, machine);
-    place.with_random = place.machine->random.has_value();
+    place.with_random = place.machine->random != nullptr;
     return place;
   } catch (const InvalidInput& error) {
     throw RequestError(ErrorCode::kBadState, error.what());

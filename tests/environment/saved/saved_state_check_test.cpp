@@ -85,10 +85,11 @@ TEST_CASE("Cartridge RAM of another size is refused") {
 TEST_CASE("An impossible generator is refused") {
   Environment environment = test::steered();
   auto saved = *environment.save(true);
-  saved.random = MersenneTwister(std::array<std::uint32_t, MersenneTwister::kWords>{}, 7);
+  saved.random =
+      std::make_shared<const MersenneTwister>(std::array<std::uint32_t, MersenneTwister::kWords>{}, 7);
   CHECK_THROWS_WITH(from_bytes(to_bytes(saved, environment), environment),
                     Catch::Contains("generator are all 0"));
-  saved.random = MersenneTwister(MersenneTwister().words(), 625);
+  saved.random = std::make_shared<const MersenneTwister>(MersenneTwister().words(), 625);
   CHECK_THROWS_WITH(from_bytes(to_bytes(saved, environment), environment),
                     Catch::Contains("position of the generator is 625; it must be from 0 to 624"));
 }

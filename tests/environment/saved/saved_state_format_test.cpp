@@ -34,7 +34,7 @@ TEST_CASE("Bytes of a state give the same bytes again") {
     const Bytes bytes = some_state(with_random);
     const auto saved = from_bytes(bytes, environment);
     CHECK(to_bytes(*saved, environment) == bytes);
-    CHECK(saved->random.has_value() == with_random);
+    CHECK((saved->random != nullptr) == with_random);
     environment.restore(*saved);
     CHECK(to_bytes(*environment.save(with_random), environment) == bytes);
   }

@@ -61,7 +61,7 @@ TEST_CASE("Branches lead where the same acts lead by themselves, and disturb not
   CHECK(ends[2].acts == 8);
   CHECK(ends[2].truncated);
   CHECK(observe(environment) == before);
-  CHECK(environment.save(true)->random == start->random);
+  CHECK(*environment.save(true)->random == *start->random);
   CHECK(environment.same_state(environment));
 }
 
