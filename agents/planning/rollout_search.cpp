@@ -19,7 +19,8 @@ int RolloutSearch::choose(const Model::State& root) {
   depths_.assign(root_->features.size() * kByteValues, std::numeric_limits<int>::max());
   is_novel(*root_, 0);
   root_->solved = root_->over;
-  while (!root_->solved && model_.frames() < end_) roll_out();
+  count_ = nodes();
+  while (!root_->solved && may_expand()) roll_out();
   frames_ = model_.frames() - before;
   return best_action();
 }
@@ -44,8 +45,7 @@ std::unique_ptr<RolloutSearch::Node> RolloutSearch::make_node() const {
   return node;
 }
 
-// Descends from the root by actions that are not solved, until a node is not novel, or the frames are used
-// up.
+// Descends from the root by actions that are not solved, until a node is not novel, or no node may be added.
 void RolloutSearch::roll_out() {
   Node* node = root_.get();
   for (int depth = 1;; ++depth) {
@@ -53,7 +53,7 @@ void RolloutSearch::roll_out() {
     if (node->children.empty()) node->children.resize(static_cast<std::size_t>(model_.actions()));
     Node* child = node->children[action].get();
     if (!child) {
-      if (model_.frames() >= end_) return back_up(node);
+      if (!may_expand()) return back_up(node);
       child = expand(*node, action);
     }
     if (!is_novel(*child, depth)) {
@@ -68,6 +68,7 @@ RolloutSearch::Node* RolloutSearch::expand(Node& node, std::size_t action) {
   model_.enter(node.state);
   const double reward = scaled_(model_.act(static_cast<int>(action)));
   node.children[action] = make_node();
+  ++count_;
   Node* const child = node.children[action].get();
   child->parent = &node;
   child->reward = reward;

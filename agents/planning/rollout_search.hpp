@@ -18,6 +18,7 @@ struct RolloutSettings {
   double discount = 0.995;
   bool reuse_tree = true;  // the next tree begins with the chosen child's, which costs nothing
   RewardScale reward_scale = RewardScale::kFirst;  // paper-notes
+  std::size_t most_nodes = 2'000'000;              // that a tree may have, as in TreeSettings
 };
 
 class RolloutSearch {
@@ -58,6 +59,7 @@ class RolloutSearch {
   };
 
   std::unique_ptr<Node> make_node() const;
+  bool may_expand() const { return model_.frames() < end_ && count_ < settings_.most_nodes; }
   void roll_out();
   Node* expand(Node& node, std::size_t action);
   std::size_t open_action(const Node& node);
@@ -74,6 +76,7 @@ class RolloutSearch {
   std::unique_ptr<Node> root_;
   std::vector<int> depths_;  // the novelty table: per feature and value, the least depth at which it was seen
   std::int64_t search_ = 0, end_ = 0, frames_ = 0;
+  std::size_t count_ = 0;  // nodes of the tree, while it is searched
 };
 
 }  // namespace racebeam

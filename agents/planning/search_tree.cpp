@@ -23,7 +23,9 @@ int TreeSearch::choose(const Model::State& root) {
   if (!settings_.needs_novelty)
     for (const Node& node : nodes_) spent += node.frames;
   frames_ = -model_.frames();
-  while (!(open_.empty() && aside_.empty()) && model_.frames() + spent < settings_.frames) visit(next_open());
+  while (!(open_.empty() && aside_.empty()) && model_.frames() + spent < settings_.frames &&
+         nodes_.size() <= settings_.most_nodes)
+    visit(next_open());
   frames_ += model_.frames();
   back_up();
   return best_action();
@@ -112,15 +114,20 @@ void TreeSearch::add_child(Number parent, int action, Number first_sibling) {
   child.over = model_.over();
   child.opened = !child.over && (!settings_.needs_novelty || is_novel());
   if (child.opened || (settings_.reuse_tree && !child.over)) child.state = model_.save();
-  if (child.state && settings_.merge_duplicates) {
-    child.hash = model_.hash(child.state);
-    child.twin = twin_of(child, first_sibling);
-    if (child.twin != 0) {
-      child.state = nullptr;
-      child.opened = false;
-    }
-  }
+  if (child.state) find_twin(child, first_sibling);
   nodes_.push_back(std::move(child));
+}
+
+// Siblings in equal states share one, so that it takes memory only once. If duplicates are merged, only the
+// first of these siblings is expanded.
+void TreeSearch::find_twin(Node& child, Number first_sibling) const {
+  child.hash = model_.hash(child.state);
+  const Number twin = twin_of(child, first_sibling);
+  if (twin == 0) return;
+  child.state = settings_.merge_duplicates ? nullptr : nodes_[twin].state;
+  if (!settings_.merge_duplicates) return;
+  child.twin = twin;
+  child.opened = false;
 }
 
 TreeSearch::Number TreeSearch::twin_of(const Node& child, Number first_sibling) const {

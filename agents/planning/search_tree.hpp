@@ -22,6 +22,9 @@ struct TreeSettings {
   bool reuse_tree = false;        // paper-notes: the next tree begins with the chosen child's
   bool reward_aside = false;      // paper-notes: new nodes with a reward are opened when no others are left
   RewardScale reward_scale = RewardScale::kFirst;  // paper-notes
+  // No node is expanded while the tree has more, so that its memory has a limit: kept subtrees can grow with
+  // each decision. Trees of Asterix and Beam Rider had about a million with the published budget.
+  std::size_t most_nodes = 4'000'000;
 };
 
 class TreeSearch {
@@ -68,6 +71,7 @@ class TreeSearch {
   void visit(Number number);
   void expand(Number parent);
   void add_child(Number parent, int action, Number first_sibling);
+  void find_twin(Node& child, Number first_sibling) const;
   Number twin_of(const Node& child, Number first_sibling) const;
   void look_again(Node& node);
   bool is_novel();  // whether the model's state has a byte that this search has not seen

@@ -42,6 +42,22 @@ TEST_CASE("Rollout-IW(1) ends with its frames") {
   CHECK(search.nodes() == 21);
 }
 
+TEST_CASE("Rollout-IW(1) ends with the nodes that a tree may have, whatever it has kept") {
+  ToyModel model(2, line);
+  RolloutSettings few = settings();
+  few.most_nodes = 30;
+  RolloutSearch search(model, few, 1);
+  search.choose(ToyModel::place(0));
+  CHECK(search.nodes() == 30);
+  CHECK(search.frames() == 5 * 29);
+  search.keep(1, ToyModel::place(1));
+  const std::size_t kept = search.nodes();
+  REQUIRE(kept < 30);
+  search.choose(ToyModel::place(1));
+  CHECK(search.nodes() == 30);
+  CHECK(search.frames() == 5 * static_cast<std::int64_t>(30 - kept));
+}
+
 TEST_CASE("A place is open on the shortest way to it only") {
   // Both ways lead to 10, action 1 by way of 1: what a detour found first is given up for the direct way.
   const auto world = [](int place, int action) -> Arrow {

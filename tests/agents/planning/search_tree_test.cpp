@@ -166,6 +166,31 @@ TEST_CASE("A kept tree is that of the chosen child, and costs IW(1) no frames") 
   CHECK(search.nodes() == 39);
 }
 
+TEST_CASE("A tree expands no node while it has more nodes than it may, whatever it has kept") {
+  ToyModel model(2, along);
+  TreeSettings settings = iw1(1000);
+  settings.most_nodes = 30;
+  TreeSearch search(model, settings, 1);
+  search.choose(ToyModel::place(0));
+  CHECK(search.nodes() == 31);
+  CHECK(search.frames() == 150);
+  search.keep(1, ToyModel::place(1));
+  REQUIRE(search.nodes() == 29);
+  search.choose(ToyModel::place(1));
+  CHECK(search.nodes() == 31);
+  CHECK(search.frames() == 10);
+}
+
+TEST_CASE("Siblings in equal states share one") {
+  // 6 actions with 3 effects
+  ToyModel model(6, [](int place, int action) -> Arrow { return {3 * place + action % 3 + 1, 0}; });
+  const bool merges = GENERATE(false, true);
+  TreeSearch search(model, {.frames = 4 * 6 * 5, .merge_duplicates = merges, .reuse_tree = true}, 1);
+  search.choose(ToyModel::place(0));
+  CHECK(search.nodes() == 1 + 4 * 6);
+  CHECK(model.states() == 4 * 3);
+}
+
 TEST_CASE("Breadth-first search counts the frames of the tree that it keeps") {
   ToyModel model(2, along);
   TreeSettings settings =

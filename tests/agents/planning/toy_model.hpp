@@ -1,9 +1,12 @@
 // A world of places with arrows between them, for planners with known answers.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
+#include <memory>
 #include <set>
+#include <vector>
 
 #include "agents/planning/model.hpp"
 
@@ -39,7 +42,15 @@ class ToyModel final : public Model {
     return here_.reward;
   }
   bool over() const override { return here_.over; }
-  State save() const override { return place(here_.place, here_.over); }
+  State save() const override {
+    State state = place(here_.place, here_.over);
+    saved_.push_back(state);
+    return state;
+  }
+  // How many of the states that it has saved still exist.
+  std::ptrdiff_t states() const {
+    return std::ranges::count_if(saved_, [](const auto& state) { return !state.expired(); });
+  }
   std::uint64_t hash(const State& state) const override {
     return static_cast<std::uint64_t>(arrow(state).place) % 2;  // collisions do no harm
   }
@@ -57,6 +68,7 @@ class ToyModel final : public Model {
   Arrow here_;
   std::array<std::uint8_t, 2> features_{};
   std::int64_t frames_ = 0;
+  mutable std::vector<std::weak_ptr<const void>> saved_;
 };
 
 // A trap: action 0 gives 1 now and 0 ever after; action 1 gives nothing now, and 10 after another 1.
