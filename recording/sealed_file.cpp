@@ -127,7 +127,7 @@ std::string unseal(const SealedKind& kind, const std::string& name, std::string_
                std::to_string(kind.most));
   if (checksum(bytes.substr(0, kHeadSize), deflated) != get<std::uint32_t>(bytes, kChecksumAt))
     refuse(kind, name, "its checksum is wrong; it was cut or altered");
-  return inflated(kind, name, deflated, size);
+  return inflated(kind, name, deflated, static_cast<std::size_t>(size));
 }
 
 std::string read_sealed(const SealedKind& kind, const std::string& path) {

@@ -22,7 +22,7 @@ class CodeOwner {
 
  private:
   const std::shared_ptr<const std::vector<std::uint8_t>> image_;
-  const std::size_t hash_;
+  [[maybe_unused]] const std::size_t hash_;  // translator_stub.cpp does without it
 };
 
 // Limits the code of all images without an owner, with the data that belong to it. Beyond the limit,

@@ -25,7 +25,7 @@ void refuse_unless(bool good, const Sentence& sentence) {
   if (!good) throw InvalidInput(sentence());
 }
 
-std::string count_of(std::size_t count, const std::string& what) {
+std::string count_of(std::uint64_t count, const std::string& what) {
   return std::to_string(count) + ' ' + what;
 }
 
@@ -48,7 +48,7 @@ void check_act(const Act& act, const Slot& slot) {
 }
 
 // Bytes of a machine that has played, without its stack and results; measured (docs/performance.md).
-constexpr std::size_t kMachine = std::size_t{240} << 10;
+constexpr std::uint64_t kMachine = 240U << 10U;
 
 // More threads than machines would have nothing to do.
 unsigned useful_threads(unsigned requested, std::size_t machines) {

@@ -88,7 +88,7 @@ std::vector<std::uint8_t> to_bytes(const Slot::Saved& saved, const Environment& 
                           saved.noops != nullptr,
                           0};
   std::vector<std::uint8_t> bytes(sizeof(SlotHeader));
-  bytes.reserve(sizeof(SlotHeader) + sizeof values + values.size_of_rest());
+  bytes.reserve(sizeof(SlotHeader) + sizeof values + static_cast<std::size_t>(values.size_of_rest()));
   append(bytes, values);
   bytes.insert(bytes.end(), saved.stack.begin(), saved.stack.end());
   if (saved.noops) append(bytes, words_of(*saved.noops));
@@ -139,7 +139,7 @@ Slot::Saved saved_slot(std::span<const std::uint8_t> bytes, const Environment& e
                     .truncated = values.truncated != 0,
                     .blends = values.blends != 0};
   saved.stack_settings = values.stack();
-  const auto stack = bytes.first(values.stack_size());
+  const auto stack = bytes.first(static_cast<std::size_t>(values.stack_size()));
   saved.stack.assign(stack.begin(), stack.end());
   bytes = bytes.subspan(stack.size());
   if (values.has_noops != 0)
