@@ -277,6 +277,41 @@ class TestPlatforms:
         for name in functions:
             assert any(re.search(rf"(?<![\w/.-]){name}( [\w$\";]|$)", text, re.MULTILINE) for text in texts), name
 
+    def expanded(self, words):
+        command = ["bash", "-c", "printf '%s\\n' " + " ".join(" ".join(words).split())]
+        return set(subprocess.run(command, capture_output=True, text=True, check=True).stdout.split())
+
+    def test_its_scripts_name_tests_that_exist(self):
+        for script in ("tests", "program", "wheel"):
+            words = re.findall(r"(?<![\w/$.-])tests/[\w/{},.-]*[\w}]", read(f"platforms/{script}"))
+            paths = self.expanded(words)
+            assert len(paths) >= 8, script
+            assert {path for path in paths if not (ROOT / path).exists()} == set(), script
+
+    def test_its_programs_of_tests_exist(self):
+        lists = re.findall(r"\bprograms\+?=\(([^)]*)\)", read("platforms/tests"))
+        programs = {word.split(":")[0] for word in self.expanded(lists)}
+        assert len(programs) > 10
+        for program in programs:
+            folder, name = program.split("/")
+            assert re.search(rf"\b{name}\b", read(f"tests/{folder}/CMakeLists.txt")), program
+
+    def test_the_cases_that_are_left_out_exist(self):
+        """What a name of nothing leaves out is run there. It fails, or takes hours."""
+        script = read("platforms/tests")
+        sources = {path.stem: path.read_text() for path in (ROOT / "tests").rglob("*_test.cpp")}
+        files = re.search(r"'~\[#%s_test\]' (.*?)\)", script.replace("\\\n", " "))[1].split()
+        assert len(files) > 5
+        assert {name for name in files if f"{name}_test" not in sources} == set()
+        names = re.findall(r'~"\*?([^"]+)"', script)
+        assert len(names) > 2
+        for name in names:
+            assert any(name in re.sub(r'"\s*"', "", text) for text in sources.values()), name
+        deselected = re.findall(r"--deselect (\S+\.py)::\w+::(\w+)", script + read("platforms/wheel"))
+        assert len(deselected) > 2
+        for file, case in deselected:
+            assert f"def {case}(" in read(file)
+
     def test_setup_refuses_an_unknown_platform_before_it_installs(self):
         done = subprocess.run([ROOT / "platforms/setup", "musl", "commodore"], capture_output=True, text=True)
         assert (done.returncode, done.stdout) == (2, "")
