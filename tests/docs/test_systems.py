@@ -41,9 +41,9 @@ def faults(folder=ROOT / "system", lacking=LACKING):
         for path in sorted((folder / system).glob("*.cpp")):
             linux = folder / "linux" / path.name
             words = declared(folder, path.stem)
-            wanted = {name for name in defined(linux) if name.split("::")[-1] in words} if linux.exists() else set()
-            if wanted - defined(path):
-                missing[f"{system}/{path.name}"] = wanted - defined(path)
+            required = {name for name in defined(linux) if name.split("::")[-1] in words} if linux.exists() else set()
+            if required - defined(path):
+                missing[f"{system}/{path.name}"] = required - defined(path)
     return [
         f"{source}: {name}"
         for source in sorted({*missing, *lacking})
@@ -103,7 +103,7 @@ class TestTheCheck:
     def test_a_lack_that_there_is_not_is_named(self):
         assert self.faults({"wasm/clock.cpp": {"seconds"}}) == ["wasm/clock.cpp: seconds"]
 
-    def test_a_function_that_only_linux_has_is_not_asked_for(self):
+    def test_a_function_that_only_linux_has_is_not_required(self):
         self.write("linux/clock.cpp", "int ticks() { return 1; }\n")
         self.write("windows/clock.cpp", "int frequency() { return 1; }\n")
         assert self.faults() == []

@@ -316,5 +316,5 @@ class TestPlatforms:
         done = subprocess.run([ROOT / "platforms/setup", "musl", "commodore"], capture_output=True, text=True)
         assert (done.returncode, done.stdout) == (2, "")
         assert done.stderr == (
-            "platforms/setup: unknown platform 'commodore'; accepted: aarch64, windows, macos, musl, wasm\n"
+            "platforms/setup: unknown platform 'commodore'; accepted: aarch64, windows, macos, musl, wasm, compilers\n"
         )
