@@ -25,7 +25,7 @@ class TestDifferences:
 
     def test_each_number_has_a_test(self):
         numbers = [int(number) for number in re.findall(r"(?m)^(\d+)\. ", drop_in.__doc__)]
-        tests = sorted(int(name.split("_")[1]) for name in dir(self) if re.match(r"test_\d", name))
+        tests = sorted({int(name.split("_")[1]) for name in dir(self) if re.match(r"test_\d", name)})
         assert numbers == tests
 
     def test_01_a_bad_image_is_an_exception(self, subtests):
@@ -97,6 +97,30 @@ class TestDifferences:
             [ale.act(step % 6) for step in range(100)]
             ale.restoreState(state)
             exact.append(np.array_equal(ale.getScreenRGB(), screen) and np.array_equal(ale.getAudio(), sound))
+        assert exact == [True, False]
+
+    def test_05_states_compare_their_sticky_action(self):
+        equal = []
+        for ale in pong():
+            ale.setInt("max_num_frames_per_episode", 1)
+            ale.loadROM(PONG)
+            ale.act(0)
+            state = ale.cloneState()
+            ale.act(3)  # is refused, and held
+            equal.append(state == ale.cloneState())
+        assert equal == [False, True]
+
+    @pytest.mark.needs_roms("tetris", "qbert")
+    @pytest.mark.parametrize("game", ("tetris", "qbert"))
+    def test_05_a_frame_that_is_open_goes_on(self, game):
+        exact = []
+        for ale in pong():
+            ale.setFloat("repeat_action_probability", 0.0)
+            ale.loadROM(racebeam.find_image(game))
+            state = ale.cloneState()
+            rams = [(ale.act(step), ale.getRAM().tobytes()) for step in range(8)]
+            ale.restoreState(state)
+            exact.append(rams == [(ale.act(step), ale.getRAM().tobytes()) for step in range(8)])
         assert exact == [True, False]
 
     def test_06_states_hash_as_they_compare(self):

@@ -12,8 +12,10 @@ and infos are equal to the byte for the same seeds and actions. These are the di
 2.  A method that needs a game raises a RuntimeError before loadROM(); in ale_py most of them end the process.
 3.  act() raises ValueError for a number without an action; ale_py plays NOOP. AtariEnv.step() refuses negative indices.
 4.  The message about an invalid mode or difficulty lists the choices.
-5.  A state has the picture, the sound and the sticky action of the moment of cloning. In ale_py the first picture after
-    restoring has old pixels. serialize() gives other bytes, and only racebeam reads them.
+5.  A state has the picture, the sound and the sticky action of the moment of cloning; == compares them, too. In ale_py
+    the first picture after restoring has old pixels. A frame that is open when a state is cloned, as in Tetris and
+    Qbert after a reset, goes on after restoring; in ale_py it does not. serialize() gives other bytes, and only
+    racebeam reads them.
 6.  Equal ALEStates have equal hashes, and comparing one with another type gives False.
 7.  A pickled or copied AtariEnv or ALEInterface continues the game; ale_py's copy begins anew.
 8.  loadROM() also takes bytes, and builtin:beamfall or builtin:updraft, our own games. roms.get_rom_path() also
