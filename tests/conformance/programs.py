@@ -38,6 +38,16 @@ SCENE = bytes.fromhex("06070809041B1C1D1E1F")  # colours, NUSIZ0, graphics, and 
 STROBES = bytes.fromhex("040A1011121314222528292A2B1B")  # and other registers that move an object or change its shape
 SLIDE_AT = 0x40
 FREQUENT = bytes.fromhex("A9A2A0A5B5BDB9B185868495999D918D69C9E6C6CA882060")
+BOOT, POINTER = 0xFE00, 0xC0  # of spot_program(); each slice has the code that begins at BOOT
+SPOT_LOOP = bytes.fromhex(
+    "A2FF9AD8E6F0"  # the stack; $F0 counts the turns
+    "A5F02903D00CA902854085428542A9008540"  # each fourth one ends a frame
+    "AD8002C9FFF0E1"  # nothing else until the joystick is moved
+    "A5F10A693565F085F185F2"  # $F1 is random, and the lower half of the address
+    "A5F04A45F1292F09D085F3"  # the upper half
+    "24F1100AA9FF85F3A5F209C085F2"  # or from $FFC0 on
+    "6CF200"
+)
 IDIOMS = [
     bytes.fromhex(text)
     for text in (
@@ -106,9 +116,22 @@ def plant(image, at, data):
     image[at : at + len(data)] = data[: len(room)]
 
 
+def halts(opcode):
+    return opcode & 31 in (2, 18) and opcode not in (0x82, 0xA2, 0xC2, 0xE2)
+
+
+def plant_vectors(image, rng):
+    for end in range(VECTORS_EVERY, len(image) + 1, VECTORS_EVERY):
+        for at in range(end - 6, end, 2):
+            start = 0x1000 | rng.randrange(0x1000) | rng.randrange(8) << 13
+            plant(image, at, [start & 255, start >> 8])
+
+
 def random_program(rng, size):
     """All bytes are random: it soon runs in RAM and in the TIA."""
-    return bytearray(rng.randbytes(size))
+    image = bytearray(rng.randbytes(size))
+    plant_vectors(image, rng)
+    return image
 
 
 def tame_program(rng, size):
@@ -119,6 +142,7 @@ def tame_program(rng, size):
     del image[size:]
     for _ in range(rng.randrange(60)):
         plant(image, rng.randrange(size), rng.choice(IDIOMS))
+    plant_vectors(image, rng)
     return image
 
 
@@ -126,8 +150,8 @@ def ram_program(rng, size):
     """Copies random bytes to RAM and runs them, on into the TIA's addresses and back. Most frames end there."""
     code = bytearray(rng.randbytes(128))
     for at, opcode in enumerate(code):
-        if opcode & 31 in (2, 18) and opcode not in (0x82, 0xA2, 0xC2, 0xE2):
-            code[at] = NOP  # it would halt the CPU
+        if halts(opcode):
+            code[at] = NOP
     boot = bytes.fromhex("A27FBD00F29580CA10F8A900A2FFA0009A4C8000")  # copies from $F200, jumps to $0080
     bank = bytearray([NOP] * 4096)
     plant(bank, 0, boot)
@@ -135,6 +159,56 @@ def ram_program(rng, size):
     after_brk = rng.choice([0xF000, 0x0080, 0x0080 | rng.randrange(128), rng.randrange(128)])
     plant(bank, 0xFFC, [0x00, 0xF0, after_brk & 255, after_brk >> 8])
     return bank
+
+
+def spot(rng):
+    """Addresses that do something in a scheme."""
+    if rng.random() < 0.3:
+        return rng.choice([0x0220, 0x0240, 0x003E, 0x003F, 0x1400 | rng.randrange(0x400), 0x1FF4 | rng.randrange(8)])
+    return address(rng)
+
+
+def reached(rng, place):
+    """Code that accesses an address with any instruction that can, indexed or through the pointer at $C0."""
+    index, column = rng.randrange(256), rng.choice([1, 3, 12, 13, 14, 15, 17, 19, 25, 27, 28, 29, 30, 31])
+    opcode = rng.randrange(8) << 5 | column
+    base = place if column < 16 else place - index & 0xFFFF
+    low, high = base & 255, base >> 8
+    registers = [0xA2, index, 0xA0, index]
+    if column in (1, 3, 17, 19):
+        operand = POINTER - index & 255 if column < 16 else POINTER
+        return [0xA9, low, STA, POINTER, 0xA9, high, STA, POINTER + 1, *registers, opcode, operand]
+    return [] if opcode in (JMP, 0x6C) else [*registers, opcode, low, high]
+
+
+def spot_operation(rng):
+    kind = rng.random()
+    if kind < 0.6:
+        return reached(rng, spot(rng)) + [0x86, 0xC4, 0x45, 0xC5, STA, 0xC5]
+    if kind < 0.7:
+        return [rng.choice([0xF8, 0xD8]), rng.choice([0x69, 0xE9, 0x6B]), rng.randrange(256), 0x08, 0x68, STA, 0xC6]
+    if kind < 0.8:
+        return [0xA2, rng.randrange(256), 0x9A, *rng.choices([0x48, 0x08, 0x68, 0x28, 0xBA], k=3), 0x86, 0xC7]
+    return [rng.choice([0x10, 0x30, 0x50, 0x70, 0x90, 0xB0, BNE, 0xF0]), rng.randrange(7)]
+
+
+def spot_program(rng, size):
+    """A loop that is copied to RAM jumps into the cartridge, half of the times near its end. The code there reaches
+    hot spots in all ways, also by running across them, and goes back to where the loop is copied."""
+    image = bytearray()
+    while len(image) < size:
+        for _ in range(rng.randrange(1, 6)):
+            image += bytes(spot_operation(rng))
+        image += bytes([NOP, NOP, JMP, BOOT & 255, BOOT >> 8])
+    del image[size:]
+    for at, opcode in enumerate(image):
+        if halts(opcode):
+            image[at] = NOP
+    copies = bytes([0xA2, len(SPOT_LOOP) - 1, 0xBD, BOOT + 13 & 255, BOOT + 13 >> 8, 0x95, 0x80, 0xCA, 0x10, 0xF8])
+    for slice_at in range(0, size, VECTORS_EVERY):
+        plant(image, slice_at + BOOT % VECTORS_EVERY, copies + bytes([JMP, 0x80, 0x00]) + SPOT_LOOP)
+        plant(image, slice_at + VECTORS_EVERY - 4, [BOOT & 255, BOOT >> 8] * 2)
+    return image
 
 
 def row_program(rng, size):
@@ -196,7 +270,10 @@ def moving_program(rng, size):
     return bank.ljust(size - 6, bytes([NOP])) + bytes([0x00, 0xF0] * 3)
 
 
-KINDS = {maker.__name__: maker for maker in (random_program, tame_program, ram_program, row_program, moving_program)}
+KINDS = {
+    maker.__name__: maker
+    for maker in (random_program, tame_program, ram_program, spot_program, row_program, moving_program)
+}
 OF_4K = ("row_program", "ram_program", "moving_program")
 
 
@@ -206,10 +283,6 @@ def image_of(kind, seed):
         return bytes(KINDS[kind](rng, 4096))
     size, ports, signature = rng.choice(SCHEMES)
     image = KINDS[kind](rng, size)
-    for end in range(VECTORS_EVERY, size + 1, VECTORS_EVERY):
-        for at in range(end - 6, end, 2):
-            start = 0x1000 | rng.randrange(0x1000) | rng.randrange(8) << 13
-            plant(image, at, [start & 255, start >> 8])
     if ports:
         for bank in range(0, size, 4096):
             image[bank : bank + ports] = bytes([image[bank]]) * ports

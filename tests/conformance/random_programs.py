@@ -1,6 +1,7 @@
 """Plays random programs on both sides until the time is over."""
 
 import itertools
+import random
 import shlex
 import time
 
@@ -15,12 +16,26 @@ PATIENCE = 300  # seconds for one program
 TOLD_EVERY = 30  # seconds
 
 
+def run_of(kind, seed):
+    """The seed also determines the settings, and whether bytes of RAM are written."""
+    chance = random.Random(f"settings {seed}")
+    return Run(
+        kind,
+        skip=chance.choice([1, 1, 4]),
+        sticky=chance.choice([0, 0, 0.25]),
+        averaging=chance.randrange(2),
+        writes=chance.randrange(2),
+        seed=seed,
+        frames=FRAMES,
+    )
+
+
 def runs_until(end, first_seed):
-    """All kinds in turn. Every other program also finds bytes of RAM changed."""
+    """All kinds in turn."""
     for seed, kind in zip(itertools.count(first_seed), itertools.cycle(programs.KINDS)):
         if time.monotonic() >= end:
             return
-        yield Run(kind, writes=seed % 2, seed=seed, frames=FRAMES)
+        yield run_of(kind, seed)
 
 
 def compare_programs(options, first_seed):
