@@ -196,7 +196,7 @@ class TestPlaying:
 
     def test_presets_are_the_settings_of_the_literature(self):
         def settings(**arguments):
-            env = racebeam.AtariEnv("beamfall", **arguments)
+            env = racebeam.AtariEnv("updraft", **arguments)  # 6 of its 18 actions have an effect
             ale = env.ale
             return (
                 env._frameskip,
@@ -208,9 +208,10 @@ class TestPlaying:
                 env._reward_range,
             )
 
-        assert settings() == (4, 0.25, 18, 0, False, 0, None)
+        assert settings() == (4, 0.25, 6, 0, False, 0, None)
         assert settings(preset="paper2013") == (5, 0.0, 18, 18000, False, 0, None)
-        assert settings(preset="dqn2015") == (4, 0.0, 18, 18000, True, 30, (-1, 1))
+        assert settings(preset="dqn2015") == (4, 0.0, 6, 18000, True, 30, (-1, 1))
+        assert settings(preset="gym-v5") == (4, 0.25, 6, 108000, False, 0, None)
         assert settings(preset="machado2018", frameskip=3) == (3, 0.25, 18, 18000, False, 0, None)
 
     @pytest.mark.needs_program

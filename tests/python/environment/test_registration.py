@@ -110,6 +110,25 @@ class TestRegistration:
             env = gym.make("racebeam/Beamfall-v5", obs_type=obs_type, render_mode="rgb_array")
             check_env(env.unwrapped, skip_render_check=importlib.util.find_spec("pygame") is None)
 
+    def test_the_ids_of_ale_have_the_settings_of_its_documents(self):
+        script = (
+            "import gymnasium as gym, racebeam\n"
+            "racebeam.register_ale_ids()\n"
+            "for name in ('Pong-v0', 'Pong-v4', 'PongNoFrameskip-v0', 'PongNoFrameskip-v4', 'ALE/Pong-v5'):\n"
+            "    spec = gym.spec(name)\n"
+            "    print(name, spec.kwargs.pop('repeat_action_probability'), spec.kwargs.pop('frameskip'), spec.kwargs,\n"
+            "          spec.vector_entry_point, sep='|')"
+        )
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+        others = "{'game': 'pong', 'full_action_space': False, 'max_num_frames_per_episode': 108000}"
+        assert done.stdout.splitlines() == [
+            f"Pong-v0|0.25|(2, 5)|{others}|None",
+            f"Pong-v4|0.0|(2, 5)|{others}|None",
+            f"PongNoFrameskip-v0|0.25|1|{others}|None",
+            f"PongNoFrameskip-v4|0.0|1|{others}|None",
+            f"ALE/Pong-v5|0.25|4|{others}|racebeam.ale_py.vector_env:AtariVectorEnv",
+        ]
+
     def test_the_ids_of_ale_come_when_they_are_asked_for(self):
         script = (
             "import gymnasium as gym, racebeam\n"

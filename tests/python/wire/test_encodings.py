@@ -13,11 +13,13 @@ import pytest
 package.require("numpy", "gymnasium")
 
 import numpy as np
+import racebeam
 from racebeam.wire import addresses
 from racebeam.wire.action_words import joystick_actions, joystick_words
 from racebeam.wire.encodings import DECODERS, apply_delta, decode_rewards, decode_runs
 from racebeam.wire.fields import SHAPES, field_encodings, field_shape
 from racebeam.wire.observations import Observations
+from racebeam.wire.stack import Stack
 
 
 class TestFields:
@@ -55,6 +57,36 @@ class TestFields:
             "audio": "raw",
             "rgb": "zlib",
         }
+
+
+class TestStack:
+    def test_a_stack_is_that_of_the_last_screens(self):
+        stack = Stack(3)
+        assert [stack.push(screen) for screen in (b"ab", b"cd", b"ef", b"gh")] == [
+            b"\0\0\0\0ab",
+            b"\0\0abcd",
+            b"abcdef",
+            b"cdefgh",
+        ]
+
+    def test_a_cleared_stack_is_a_new_one(self):
+        stack = Stack(2)
+        stack.push(b"ab")
+        stack.clear()
+        assert stack.push(b"cd") == b"\0\0cd"
+
+    @pytest.mark.needs_program
+    def test_a_stack_of_the_client_is_that_of_the_server(self):
+        with racebeam.launch() as one, racebeam.launch() as other:
+            for session, field in ((one, "grey84x84x1:delta"), (other, "grey84x84x4")):
+                session.load("beamfall", seed=1, frame_skip=4)
+                session.observe(field)
+            stack = Stack(4)
+            for _ in range(2):
+                stack.clear()
+                for play in (lambda session: session.reset(), *[lambda session: session.act("FIRE")] * 6):
+                    screen, screens = play(one)["grey84x84x1"], play(other)["grey84x84x4"]
+                    assert stack.push(bytes(screen)) == bytes(screens)
 
 
 class TestEncodings:
