@@ -108,6 +108,53 @@ class TestSpec:
             assert "Beamfall-v5" in str(envs)  # Gymnasium takes it from the spec
             assert envs.spec.config._replace(num_envs=1, batch_size=1) == spec.config._replace(num_envs=1, batch_size=1)
 
+    def test_defaults_are_those_that_EnvPool_documents(self):
+        config = envpool.make_spec("Beamfall-v5").config
+        assert {name: value for name, value in config._asdict().items() if value not in (-1, "", [], "beamfall")} == {
+            "num_envs": 1,
+            "batch_size": 1,
+            "num_threads": 0,
+            "max_num_players": 1,
+            "seed": 42,
+            "gym_reset_return_info": True,
+            "max_episode_steps": 27000,
+            "stack_num": 4,
+            "frame_skip": 4,
+            "noop_max": 30,
+            "zero_discount_on_life_loss": False,
+            "episodic_life": False,
+            "reward_clip": False,
+            "use_fire_reset": True,
+            "img_height": 84,
+            "img_width": 84,
+            "full_action_space": False,
+            "repeat_action_probability": 0.0,
+            "use_inter_area_resize": True,
+            "gray_scale": True,
+        }
+
+    @pytest.mark.parametrize(
+        ("name", "least", "most"),
+        (
+            ("num_envs", 1, 10_000_000),
+            ("num_threads", 0, 2**31 - 1),
+            ("thread_affinity_offset", -1, 2**31 - 1),
+            ("max_episode_steps", 1, 2**31 - 1),
+            ("stack_num", 1, 16),
+            ("frame_skip", 1, 1000),
+            ("noop_max", 0, 1000),
+            ("img_height", 1, 1000),
+            ("img_width", 1, 1000),
+            ("mode", -1, 2**31 - 1),
+            ("difficulty", -1, 2**31 - 1),
+        ),
+    )
+    def test_whole_numbers_have_limits(self, name, least, most):
+        envpool.make_spec("Beamfall-v5", **{name: least})
+        for value in (least - 1, most + 1):
+            with pytest.raises(InvalidInput, match=f"{name} is {value}; it takes {least} to {most}"):
+                envpool.make_spec("Beamfall-v5", **{name: value})
+
     def test_arrays(self):
         spec = envpool.make_spec("Beamfall-v5")
         assert {
