@@ -23,6 +23,7 @@ from gymnasium.wrappers import ClipReward, FrameStackObservation
 from racebeam import AtariEnv, AtariVectorEnv
 from racebeam.testing import EnvironmentTests, VectorEnvironmentTests, equal
 
+LIVES = {"life_loss": "end", "frameskip": 60}  # an end at a time of its own in each environment
 SHORT = {"max_num_frames_per_episode": 60, "noop_max": 4}
 
 
@@ -323,6 +324,38 @@ class Broken(unittest.TestCase):
         tests = EnvironmentTests, "make_env"
         found = self.failures(*tests, lambda: Strict(AtariEnv("beamfall", obs_type="ram")), has_states=False, steps=48)
         self.assertEqual(found, set())
+
+    def test_a_vector_that_takes_no_step_after_an_end_keeps_the_rules(self):
+        class Strict(AtariVectorEnv):
+            over = False
+
+            def reset(self, *, options=None, **arguments):
+                mask = True if options is None else options["reset_mask"]
+                assert options is None or np.array_equal(mask, self.over)
+                self.over = self.over & ~np.asarray(mask)
+                return super().reset(options=options, **arguments)
+
+            def step(self, actions):
+                assert not np.any(self.over)
+                result = super().step(actions)
+                self.over = result[2] | result[3]
+                return result
+
+        def make(count):
+            return Strict("beamfall", count, obs_type="ram", autoreset_mode="Disabled", **LIVES)
+
+        self.assertEqual(self.failures(VectorEnvironmentTests, "make_envs", make, steps=30), set())
+
+    def test_a_vector_that_resets_its_environments_itself_is_not_reset_at_their_ends(self):
+        class Strict(AtariVectorEnv):
+            def reset(self, *, options=None, **arguments):
+                assert options is None
+                return super().reset(**arguments)
+
+        def make(count):
+            return Strict("beamfall", count, obs_type="ram", **LIVES)
+
+        self.assertEqual(self.failures(VectorEnvironmentTests, "make_envs", make, steps=30), set())
 
     def test_each_environment_is_closed(self):
         for kind, tests in (
