@@ -23,9 +23,9 @@ constexpr std::string_view kBuiltIn = "builtin:";
   throw InvalidInput("image " + where + ": " + why);
 }
 
-// The stem of pong.bin, PONG.a26 and pong.bin.gz is "pong".
+// The stem of pong.bin, PONG.a26 and Pong.BIN.GZ is "pong".
 std::string stem_of(std::filesystem::path path) {
-  if (path.extension() == ".gz") path = path.stem();
+  if (lower_case(path.extension().string()) == ".gz") path = path.stem();
   return lower_case(path.stem().string());
 }
 

@@ -51,6 +51,7 @@ TEST_CASE("a gzip file is inflated before anything is made of it") {
   CHECK(*packed->bytes == *plain->bytes);
   CHECK(packed->md5 == plain->md5);
   CHECK(packed->stem == "game");
+  CHECK(load_image(gzipped(scratch, "GAME.BIN.GZ", numbers(4096)))->stem == "game");
 }
 
 TEST_CASE("an image may have 524288 bytes and no more") {
@@ -334,7 +335,8 @@ TEST_CASE("a link to an image is one, and a broken link is found") {
 }
 
 TEST_CASE("built-in images are loaded by name") {
-  CHECK_THROWS_WITH(load_image("builtin:nobody"), Contains("unknown built-in image"));
+  CHECK_THROWS_WITH(load_image("builtin:nobody"),
+                    Contains("unknown built-in image; accepted: builtin:beamfall, builtin:updraft"));
   for (const BuiltInImage& built_in : builtin_images()) {
     INFO(built_in.name);
     const auto image = load_image("builtin:" + std::string(built_in.name));
