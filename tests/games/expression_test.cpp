@@ -189,6 +189,11 @@ TEST_CASE("lines may be broken inside parentheses, and comments are skipped") {
   CHECK(folded("(1 + # one\n  2)\n# nothing here") == 3);
 }
 
+TEST_CASE("tabs and the line ends of other systems are blanks") {
+  CHECK(folded("\t1\t+\t2\t\r") == 3);
+  CHECK(folded("(1 +\r\n\t2)") == 3);
+}
+
 TEST_CASE("what cannot be an expression is refused with the word that is wrong") {
   CHECK_THAT(error_of("1 +"), Contains("expected a value") && Contains("end of the line"));
   CHECK_THAT(error_of("(1"), Contains("expected ')'"));

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/games/scratch.hpp"
+#include "tests/support/needed_rom.hpp"
 
 using namespace racebeam;
 using Catch::Contains;
@@ -58,6 +59,16 @@ TEST_CASE("of two images with one name, the first stays, unless the other is mor
   CHECK(images.find("beamfall")->image->md5 == load_image("builtin:beamfall")->md5);
   images.add_file(scratch.write("beamfall.bin", bytes_of('e')));  // is less certain than an MD5
   CHECK(images.find("beamfall")->image->md5 == load_image("builtin:beamfall")->md5);
+}
+
+TEST_CASE("an image whose MD5 is known replaces one that is only named like the game") {
+  const auto pong = test::needed_rom_of("pong");
+  if (!pong) return;
+  const Scratch scratch;
+  Images images;
+  images.add_file(scratch.write("pong.bin", bytes_of('a')));
+  images.add_file(scratch.write("other.bin", std::string(pong->bytes->begin(), pong->bytes->end())));
+  CHECK(images.find("pong")->image->md5 == pong->md5);
 }
 
 TEST_CASE("an image that is put has its MD5 only, and replaces one with it") {
