@@ -6,15 +6,14 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "server/operation/log.hpp"
+#include "server/scheduling/line_pace.hpp"
 
 namespace racebeam {
 namespace {
 
 using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;
 
 constexpr auto kAfterFailure = 100ms, kShortSleep = 10ms;
-constexpr auto kBetweenLines = 10s;  // of the log
 
 void log_failure(const std::string& what, const std::exception& failure) noexcept {
   try {
@@ -26,14 +25,14 @@ void log_failure(const std::string& what, const std::exception& failure) noexcep
 
 // If there is no memory for a pause of the task, the whole thread sleeps.
 Task<> repeat(boost::asio::io_context& loop, std::string what, std::function<Task<>()> body) {
-  Clock::time_point last_line{};
+  LinePace pace;
   for (bool failed = false;; failed = true) {
     try {
       if (failed) co_await pause(loop, kAfterFailure);
       co_await body();
       co_return;
     } catch (const std::exception& failure) {
-      if (Clock::now() - std::exchange(last_line, Clock::now()) > kBetweenLines) log_failure(what, failure);
+      if (pace.is_due(LinePace::Clock::now())) log_failure(what, failure);
     }
     if (failed) std::this_thread::sleep_for(kShortSleep);
   }

@@ -11,6 +11,7 @@
 #include <boost/asio.hpp>
 
 #include "server/scheduling/keep_running.hpp"
+#include "server/scheduling/line_pace.hpp"
 
 using namespace racebeam;
 using namespace std::chrono_literals;
@@ -124,4 +125,13 @@ TEST_CASE("what keeps running begins again after an exception") {
   keep_running(context, "counting", [&counter] { return count_to(counter, 3); });
   context.run_for(10s);
   CHECK(counter == 3);
+}
+
+TEST_CASE("a failure that repeats has a line of the log at first, and one every ten seconds") {
+  LinePace pace;
+  const LinePace::Clock::time_point start{};
+  std::vector<int> lines;
+  for (int tenth = 0; tenth <= 250; ++tenth)
+    if (pace.is_due(start + tenth * 100ms)) lines.push_back(tenth);
+  CHECK(lines == std::vector<int>{0, 100, 200});
 }
