@@ -35,10 +35,12 @@ std::string machines_of(std::size_t count, std::string_view noun) {
 
 void check_act(const Act& act, const Slot& slot) {
   refuse_unless(slot.environment().accepts({.a = act.a}), [&] {
-    return "action " + std::to_string(act.a) + " of player A is out of range; accepted: 0 to 25";
+    return "action " + std::to_string(act.a) +
+           " of player A is out of range; accepted: 0 to 25, and those of its controller";
   });
   refuse_unless(slot.environment().accepts({.b = act.b}), [&] {
-    return "action " + std::to_string(act.b) + " of player B is out of range; accepted: 18 to 35";
+    return "action " + std::to_string(act.b) +
+           " of player B is out of range; accepted: 18 to 35, and those of its controller";
   });
   for (const float strength : {act.strength_a, act.strength_b}) {
     refuse_unless(std::isfinite(strength), [&] {

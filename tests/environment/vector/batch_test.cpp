@@ -300,9 +300,9 @@ TEST_CASE("A batch says what it can't do, and goes on") {
   CHECK_THROWS_WITH(step({0, 18}), "machine 1 has no action 18; it takes 0 to 17");
   CHECK_THROWS_WITH(step({-1, 0}), "machine 0 has no action -1; it takes 0 to 17");
   CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.a = 40}}, results.arrays()),
-                    "action 40 of player A is out of range; accepted: 0 to 25");
+                    "action 40 of player A is out of range; accepted: 0 to 25, and those of its controller");
   CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.b = 3}}, results.arrays()),
-                    "action 3 of player B is out of range; accepted: 18 to 35");
+                    "action 3 of player B is out of range; accepted: 18 to 35, and those of its controller");
   for (const float strength : {NAN, INFINITY})
     CHECK_THROWS_WITH(
         batch.step(std::vector<Act>{{}, {.strength_a = strength}}, results.arrays()),
