@@ -129,7 +129,9 @@ bool sync_file(int file) { return did(FlushFileBuffers(handle_of(file))); }
 
 // Only an administrator may sync a whole disk.
 bool sync_disk_of(int file) { return sync_file(file); }
-bool sync_disk_of(const std::string&) { return true; }
+bool sync_disk_of(const std::string& path) {
+  return did(GetFileAttributesW(name_of(path).c_str()) != INVALID_FILE_ATTRIBUTES);
+}
 
 bool make_folder(const std::string& path) { return did(CreateDirectoryW(name_of(path).c_str(), nullptr)); }
 bool make_temporary_folder(std::string& name) { return make_of_random_name(name, make_folder); }
