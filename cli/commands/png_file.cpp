@@ -47,8 +47,8 @@ void write_png(const std::string& path, std::span<const std::uint8_t> rgb, std::
 }
 
 void write_screen(const std::string& path, std::span<const std::uint8_t> rgb) {
-  constexpr std::size_t kWidth = 160;
-  write_png(path, doubled(rgb), 2 * kWidth);
+  constexpr std::size_t kDoubledWidth = 2 * 160;
+  write_png(path, doubled(rgb), kDoubledWidth);
 }
 
 // A device or a pipe is written to; another file could not replace it.
