@@ -1,7 +1,7 @@
 """racebeam's AtariVectorEnv is equal to ale_py's in all games: observations, rewards and infos, step by step.
 
-The settings take turns: the defaults, and those that change the most. The test plays a run of a quarter of the games,
-with others, and other settings and seeds, each day. scripts/check/python-exactness plays all.
+The settings take turns: the defaults, those that change the most, and drawn ones. The test plays a run of a quarter of
+the games, with others, and other settings and seeds, each day. scripts/check/python-exactness plays all.
 
 The reference's queue loses a machine now and then, and its recv() then waits for ever. Each run is therefore a process,
 which has --patience seconds.
@@ -13,6 +13,7 @@ import datetime
 import itertools
 import mmap
 import os
+import random
 import signal
 import sys
 import threading
@@ -66,7 +67,25 @@ SETTINGS = (
     {"img_height": 42, "img_width": 40, "stack_num": 1, "grayscale": False, **SHORT},
     {"img_height": 224, "img_width": 224, "stack_num": 1, "grayscale": False},
     {"img_height": 100, "img_width": 320, "stack_num": 2},
+    None,  # drawn
 )
+DRAWN = {
+    "num_threads": range(1, 5),
+    "repeat_action_probability": (0.1, 0.25, 1.0),
+    "frameskip": (1, 2, 3, 5, 8, 30),
+    "grayscale": (False,),
+    "img_height": range(9, 420),
+    "img_width": range(1, 321),
+    "stack_num": range(1, 9),
+    "maxpool": (False,),
+    "noop_max": (0, 1, 2, 31, 60),
+    "use_fire_reset": (False,),
+    "episodic_life": (True,),
+    "reward_clipping": (False,),
+    "full_action_space": (True,),
+    "max_num_frames_per_episode": range(1, 600),
+    "autoreset_mode": (AutoresetMode.SAME_STEP,),
+}
 
 
 class Different(Exception):
@@ -159,6 +178,14 @@ def play_apart(game, seed, settings):
     return int(outcome)
 
 
+def settings_of(turn, seed):
+    settings = SETTINGS[0 if options.defaults else turn % len(SETTINGS)]
+    if settings is not None:
+        return settings
+    chance = random.Random(seed)
+    return {name: chance.choice(values) for name, values in DRAWN.items() if chance.random() < 0.5}
+
+
 def runs():
     """The runs of a part: game, seed and settings."""
     games = (
@@ -166,8 +193,9 @@ def runs():
     )
     indices = range(len(games)) if options.games else range(options.first % options.parts, len(games), options.parts)
     for number, run in itertools.product(indices, range(options.first, options.first + options.runs)):
-        settings = SETTINGS[0 if options.defaults else (number + run) % len(SETTINGS)]
-        yield games[number], 1000 * run + number, SETTINGS[0] if NEVER_BACK.get(games[number]) in settings else settings
+        seed = 1000 * run + number
+        settings = settings_of(number + run, seed)
+        yield games[number], seed, SETTINGS[0] if NEVER_BACK.get(games[number]) in settings else settings
 
 
 def differences():
