@@ -49,8 +49,8 @@ Properties properties_of(const Section& section) {
   properties.format = choice_of_section(section, "format", kFileFormats).value_or(properties.format);
   if (const auto scheme = section.text("scheme"))
     section.guard(*section.node("scheme"), "scheme", [&] { properties.scheme = scheme_named(*scheme).name; });
-  properties.ystart = section.number("ystart").value_or(properties.ystart);
-  properties.height = section.number("height").value_or(properties.height);
+  properties.ystart = section.number("ystart", 0, kLastYStart).value_or(properties.ystart);
+  properties.height = section.number("height", kMinHeight, kMaxHeight).value_or(properties.height);
   return properties;
 }
 
@@ -61,14 +61,11 @@ GameImage read_image(const TomlSource& source, const toml::table& table) {
   GameImage image{.md5 = section.text("md5").value_or(""),
                   .properties = properties_of(section),
                   .accepted = section.flag("accepted").value_or(true)};
-  const auto in_range = [&](const char* key, int value, int low, int high) {
-    if (value < low || value > high)
-      section.refuse(*table.get(key), key, "must be " + std::to_string(low) + " to " + std::to_string(high));
-  };
-  in_range("ystart", image.properties.ystart, 0, kLastYStart);
-  in_range("height", image.properties.height, kMinHeight, kMaxHeight);
-  if (image.properties.ystart + image.properties.height > kPictureLines)
-    section.refuse(table, "height", "the sum of ystart and height must be at most 300 lines");
+  const int lines = image.properties.ystart + image.properties.height;
+  if (lines > kPictureLines)
+    section.refuse(table, "height",
+                   "the sum of ystart and height is " + std::to_string(lines) + "; it must be at most " +
+                       std::to_string(kPictureLines));
   if (table.contains("md5") && !is_md5(image.md5))
     section.refuse(*table.get("md5"), "md5", "must be 32 lower-case hexadecimal digits");
   return image;
@@ -92,7 +89,8 @@ void read_default_mode(const Section& section, const toml::table& table, Game& g
     game.two_player_modes = read_numbers(section, "two_player_modes", kLargestMode);
   game.default_mode = section.number("default_mode").value_or(game.modes.front());
   if (std::find(game.modes.begin(), game.modes.end(), game.default_mode) == game.modes.end())
-    section.refuse(*table.get("default_mode"), "default_mode", "must be one of the modes");
+    section.refuse(*table.get("default_mode"), "default_mode",
+                   std::to_string(game.default_mode) + " is not one of the modes");
 }
 
 void read_minimal(const Section& section, const toml::table& table, Game& game) {
@@ -113,7 +111,8 @@ void read_facts(const TomlSource& source, const Section& section, const toml::ta
   game.difficulties = read_numbers(section, "difficulties", kLargestDifficulty);
   game.paddle_max = section.number("paddle_max").value_or(-1);
   if (table.contains("paddle_max") && game.paddle_max < 1)
-    section.refuse(*table.get("paddle_max"), "paddle_max", "must be a resistance in ohms, at least 1");
+    section.refuse(*table.get("paddle_max"), "paddle_max",
+                   std::to_string(game.paddle_max) + " is not a resistance in ohms, at least 1");
 }
 
 // Rule and mode program

@@ -190,17 +190,18 @@ TEST_CASE("facts that cannot be are refused") {
   CHECK_THAT(error_in("modes = ['0-2000000000']"), Contains("modes: must be numbers"));
   CHECK_THAT(error_in("modes = [1, '0-2']"), Contains("1 is listed twice"));
   CHECK_THAT(error_in("difficulties = [4]"), Contains("difficulties: must be numbers from 0 to 3"));
-  CHECK_THAT(error_in("default_mode = 3"), Contains("default_mode: must be one of the modes"));
-  CHECK_THAT(error_in("paddle_max = 0"), Contains("paddle_max: must be a resistance"));
+  CHECK_THAT(error_in("default_mode = 3"), Contains("default_mode: 3 is not one of the modes"));
+  CHECK_THAT(error_in("paddle_max = 0"), Contains("paddle_max: 0 is not a resistance in ohms, at least 1"));
   CHECK_THAT(error_in("[[image]]\nleft = 'mouse'"), Contains("image.left: unknown value 'mouse'"));
   CHECK_THAT(error_in("[[image]]\nformat = 'pal'"), Contains("NTSC"));
   for (const char* ystart : {"-1", "51"})
     CHECK_THAT(error_in("[[image]]\nystart = " + std::string(ystart)),
-               Contains("image.ystart: must be 0 to 50"));
+               Contains("image.ystart: " + std::string(ystart) + " is out of range; accepted: 0 to 50"));
   for (const char* height : {"99", "257"})
     CHECK_THAT(error_in("[[image]]\nheight = " + std::string(height)),
-               Contains("image.height: must be 100 to 256"));
-  CHECK_THAT(error_in("[[image]]\nystart = 50\nheight = 251"), Contains("300 lines"));
+               Contains("image.height: " + std::string(height) + " is out of range; accepted: 100 to 256"));
+  CHECK_THAT(error_in("[[image]]\nystart = 50\nheight = 251"),
+             Contains("the sum of ystart and height is 301; it must be at most 300"));
   const std::string digits = "0123456789abcdef0123456789abcde";
   for (const char* end : {"", "F", "g", "00"})
     CHECK_THAT(error_in("[[image]]\nmd5 = '" + digits + end + "'"), Contains("image.md5: must be 32"));
