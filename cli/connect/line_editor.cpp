@@ -53,13 +53,16 @@ char** complete_word(const char* text, int begin, int) {
   return ::rl_completion_matches(text, next_word);
 }
 
-// The file of the history (XDG base directories); empty if the user has no home.
+// The file of the history (XDG base directories); empty if no folder of the user is known. A relative path
+// would lead to whatever folder the program was started in.
 std::filesystem::path history_file() {
-  const char* state = std::getenv("XDG_STATE_HOME");
-  const char* home = std::getenv("HOME");
-  if (state != nullptr && *state == '/') return std::filesystem::path(state) / "racebeam_history";
-  return home != nullptr ? std::filesystem::path(home) / ".local/state/racebeam_history"
-                         : std::filesystem::path{};
+  const auto folder = [](const char* variable) {
+    const char* const path = std::getenv(variable);
+    return std::filesystem::path(path != nullptr && *path == '/' ? path : "");
+  };
+  if (const auto state = folder("XDG_STATE_HOME"); !state.empty()) return state / "racebeam_history";
+  const auto home = folder("HOME");
+  return home.empty() ? home : home / ".local/state/racebeam_history";
 }
 
 }  // namespace

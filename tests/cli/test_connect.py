@@ -265,16 +265,17 @@ class TestTyped:
     def set_up(self, tmp_path, cleanup):
         self.server = Server("serve", "--listen", "tcp://127.0.0.1:0")
         cleanup(self.server.__exit__)
-        self.state = str(tmp_path)
+        self.folder = self.state = str(tmp_path)
 
-    def run_typed(self, *keys, columns=0):
+    def run_typed(self, *keys, columns=0, **variables):
         """What the terminal shows. Each of `keys` is typed after a prompt. columns: its width, if it is known."""
         words = [BINARY, "connect", f"tcp://127.0.0.1:{self.server.port()}"]
         child, terminal = pty.fork()
         if child == 0:
             if columns:
                 fcntl.ioctl(0, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
-            os.execve(BINARY, words, {**os.environ, "XDG_STATE_HOME": self.state, "TERM": "xterm"})
+            os.chdir(self.folder)
+            os.execve(BINARY, words, {**os.environ, "XDG_STATE_HOME": self.state, "TERM": "xterm", **variables})
         shown, waiting, until = "", list(keys), time.monotonic() + PATIENCE
         prompts = 1
         while time.monotonic() < until and select.select([terminal], [], [], PATIENCE)[0]:
@@ -313,6 +314,17 @@ class TestTyped:
         self.state = os.path.join(self.state, "state", "of programs")
         self.run_typed("games all\n", ":quit\n")
         assert "games\\040all" in pathlib.Path(self.state, "racebeam_history").read_text().splitlines()
+
+    @pytest.mark.usefixtures("libedit")
+    def test_the_history_of_a_user_with_a_home_is_in_it(self):
+        self.run_typed("hello\n", ":quit\n", XDG_STATE_HOME="", HOME=self.state)
+        assert pathlib.Path(self.state, ".local/state/racebeam_history").exists()
+
+    @pytest.mark.usefixtures("libedit")
+    @pytest.mark.parametrize("home", ("", "home"))
+    def test_without_an_absolute_path_no_history_is_written(self, home):
+        self.run_typed("hello\n", ":quit\n", XDG_STATE_HOME="state", HOME=home)
+        assert os.listdir(self.folder) == []
 
     @pytest.mark.parametrize("typed", (True, False))
     def test_if_only_one_side_is_a_terminal_replies_are_whole_and_without_prompts(self, typed):
