@@ -3,6 +3,7 @@
 import contextlib
 import fcntl
 import os
+import pathlib
 import re
 import resource
 import signal
@@ -215,6 +216,27 @@ class TestClients:
             wire.connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, b"\1\0\0\0\0\0\0\0")
             wire.close()
             assert play(connect_tcp(server.port())).endswith(b"DIE\n")
+
+    @pytest.mark.skipif(not os.path.exists("/proc/net/tcp"), reason="it is for Linux")
+    def test_a_machine_that_vanishes_is_noticed_by_keepalive(self):
+        with listening("tcp://127.0.0.1:0") as server:
+            wire = connect_tcp(server.port())
+            wire.line()
+            ends = tuple(f":{port:04X}" for port in (server.port(), wire.connection.getsockname()[1]))
+            rows = [row.split() for row in pathlib.Path("/proc/net/tcp").read_text().splitlines()]
+            [timer] = [row[5] for row in rows if (row[1][-5:], row[2][-5:]) == ends]
+            assert timer.startswith("02:")
+            wire.close()
+
+    @pytest.mark.needs_posix
+    def test_a_server_with_an_idle_session_rests(self):
+        with listening("tcp://127.0.0.1:0") as server:
+            wire = connect_tcp(server.port())
+            wire.line()
+            before = server.processor_seconds()
+            time.sleep(1)  # the subject: nothing is to be done
+            assert server.processor_seconds() - before < 0.05
+            wire.close()
 
     @pytest.mark.needs_posix
     @pytest.mark.skipif(sanitized(), reason="the sanitizer's own checks fail without free descriptors")
