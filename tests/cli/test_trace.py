@@ -245,5 +245,10 @@ class TestRefusals:
         assert (status, printed, len(errors)) == (1, b"", 1), errors
         assert "directory" in errors[0]
 
+    @pytest.mark.slow
+    def test_a_file_has_256_MiB_at_most_when_it_is_inflated(self):
+        mebibyte = gzip.compress(b" " * (1 << 20))
+        self.check_refusal("larger than 268435456 bytes$", 0, mebibyte * 256 + gzip.compress(b" "))
+
     def test_a_gzip_file_that_is_cut(self):
         self.check_refusal("unexpected end of file", 0, gzip.compress(os.urandom(200).hex().encode())[:-30])
