@@ -266,6 +266,7 @@ class TestSubmissions:
                 with pytest.raises(InvalidInput, match="the log has 2097153 bytes before .*; it takes at most 2097152"):
                     log_of(start, [0] * decisions, longest, Origin())
 
+    @pytest.mark.needs_posix
     def test_a_full_disk_is_reported_and_the_game_goes_on(self):
         env = RecordLog(racebeam.AtariEnv("beamfall", max_num_frames_per_episode=40), self.folder)
         limits = resource.getrlimit(resource.RLIMIT_FSIZE)

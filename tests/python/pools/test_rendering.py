@@ -1,5 +1,8 @@
 """racebeam.envpool: pictures, and results that depend on the interface."""
 
+import os
+
+import harness
 import package
 import pytest
 
@@ -42,7 +45,8 @@ class TestRendering:
         assert envs.unwrapped.render(env_ids=2, camera_id=-1).shape == (1, 210, 160, 3)
 
     @pytest.mark.needs_roms("air_raid")
-    def test_the_upper_210_rows_of_higher_screens_are_seen(self):
+    def test_the_upper_210_rows_of_higher_screens_are_seen(self, monkeypatch):
+        monkeypatch.setenv("RACEBEAM_ROMS", os.path.dirname(harness.rom("air_raid")))
         envs = envpool.make_gymnasium(
             "AirRaid-v5", gray_scale=False, stack_num=1, img_height=210, img_width=160, use_inter_area_resize=False
         )
