@@ -150,6 +150,8 @@ class TestRoom(InTerminal):
     def test_only_blocks_that_change_are_drawn_again(self):
         terminal = self.watch(80, 24)
         assert terminal.blocks == 70 * 22
+        # The cursor is placed once for each row of blocks, and in each picture once for the line below.
+        terminal.wait_until(lambda: terminal.moves - terminal.pictures == 22, "a pause between two pictures")
         before, terminal.blocks = dict(terminal.cells), 0
         self.wire.ask("act RIGHT")
         terminal.wait_until(lambda: terminal.line(-1).endswith("action RIGHT"), "the next picture")

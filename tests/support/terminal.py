@@ -24,7 +24,7 @@ class Terminal:
     """`graphics`: of blocks, sixel and kitty. `answers`: whether it answers at all. `keyboard`: whether it has the
     keyboard protocol of kitty. `confirms` may be set to False: it then keeps the questions whether a picture has
     arrived. `size`: of the last picture in pixels, or in cells with the graphics of kitty. `blocks`: the number of
-    half blocks that were drawn."""
+    half blocks that were drawn. `moves`: how often the cursor was placed."""
 
     def __init__(
         self,
@@ -39,7 +39,7 @@ class Terminal:
     ):
         self.graphics, self.answers, self.keyboard, self.confirms = graphics, answers, keyboard, True
         self.rest, self.modes, self.cells, self.drawn, self.pictures, self.chunks = b"", set(), {}, None, 0, []
-        self.size, self.blocks = None, 0
+        self.size, self.blocks, self.moves = None, 0, 0
         self.row = self.column = self.unanswered = 0
         self.colours = ["", ""]
         self.decoder = codecs.getincrementaldecoder("utf-8")()
@@ -141,6 +141,7 @@ class Terminal:
     def control(self, parameters, final):
         numbers = [int(number or 0) for number in re.findall(r"\d+", parameters)]
         if final == "H":
+            self.moves += 1
             self.row, self.column = (number - 1 for number in (numbers or [1, 1]))
         elif final == "J":
             self.cells = {}
