@@ -208,6 +208,17 @@ class TestPng:
         else:
             self.check_refusal(1, "the value of screen is not a whole screen", line)
 
+    @pytest.mark.parametrize(
+        "size, fits", (("1000x1x1", True), ("1x1000x1", True), ("1001x1x1", False), ("0x1x1", False))
+    )
+    def test_a_resized_screen_has_1_to_1000_columns_and_rows(self, size, fits):
+        columns, rows, _ = map(int, size.split("x"))
+        line = f"ok grey{size}={'00' * columns * rows}\n"
+        if fits:
+            assert self.picture(line)[:2] == (columns, rows)
+        else:
+            self.check_refusal(1, "no reply on standard input has a picture", line)
+
     @pytest.mark.parametrize("rows, fits", ((1, True), (1024, True), (1025, False)))
     def test_a_classic_screen_has_at_most_1024_rows(self, rows, fits):
         line = "0EA0" * rows + ":\n"
