@@ -10,9 +10,35 @@ import pytest
 
 package.require("ale_py", "gymnasium", "numpy")
 
+import ale_py
 import numpy as np
 import racebeam
+import racebeam.ale_py
 from both import PONG, pong
+
+
+class TestSettings:
+    @pytest.mark.parametrize(
+        ("kind", "keys"),
+        (
+            (
+                "Int",
+                "frame_skip max_num_frames max_num_frames_per_episode paddle_max paddle_min random_seed reward_max "
+                "reward_min system_random_seed freq tiafreq volume fragsize",
+            ),
+            (
+                "Bool",
+                "color_averaging display_screen restricted_action_set run_length_encoding send_rgb sound sound_obs "
+                "truncate_on_loss_of_life clipvol",
+            ),
+            ("Float", "repeat_action_probability"),
+            ("String", "cpu palette record_screen_dir record_sound_filename rom_file"),
+        ),
+    )
+    def test_they_begin_with_the_same_values(self, kind, keys):
+        ours, theirs = racebeam.ale_py.ALEInterface(), ale_py.ALEInterface()
+        for key in keys.split():
+            assert getattr(ours, f"get{kind}")(key) == getattr(theirs, f"get{kind}")(key), key
 
 
 @pytest.mark.needs_roms("pong")
