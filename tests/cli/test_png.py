@@ -176,6 +176,14 @@ class TestPng:
         assert pictures[0] == pictures[1]
         assert pictures[1] != pictures[2]
 
+    def test_a_picture_of_no_machine_is_not_that_of_machine_0(self):
+        line = "ok grey1x1x1=77 | reward=0\n"
+        self.check_refusal(1, "no reply on standard input has a picture", line, "--machine", "0")
+
+    def test_three_numbers_are_columns_rows_and_screens(self):
+        line = f"ok grey84x90x2={'55' * 84 * 90 * 2}\n"
+        assert self.picture(line)[:2] == (84, 2 * 90)
+
     def test_the_palette_is_that_of_the_loaded_game(self):
         lines = b"load beamfall seed=7 format=pal\nlook screen\n"
         _, printed, _ = run("serve", "--stdio", data=lines)

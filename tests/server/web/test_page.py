@@ -100,6 +100,13 @@ class TestPage(Case):
                         reply += piece
                     assert reply.startswith(status), (status, reply)
 
+    def test_a_client_that_leaves_within_its_request_gets_nothing(self):
+        self.start()
+        with socket.create_connection(("127.0.0.1", port_of(self.server)), timeout=PATIENCE) as connection:
+            connection.sendall(b"GET / HTTP/1.1\r\nHost: x\r\n")
+            connection.shutdown(socket.SHUT_WR)
+            assert connection.recv(1) == b""
+
     def test_other_paths_are_not(self):
         self.start()
         for path, status in (
