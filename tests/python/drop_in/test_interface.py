@@ -167,6 +167,7 @@ class TestInterface:
             (),
             (("setInt", "frame_skip", 3),),
             (("setInt", "reward_max", 0),),
+            (("setInt", "reward_min", 0),),
             (("setBool", "color_averaging", True),),
             (("setInt", "max_num_frames_per_episode", 50),),
             (("setFloat", "repeat_action_probability", 0.9),),
