@@ -332,3 +332,14 @@ class TestDifferences:
             theirs.loadROM(PONG)
             theirs.act(0)
             assert theirs.getFrameNumber() == 1
+
+    @pytest.mark.parametrize(("game", "rows"), (("seaquest", (210, 210)), ("carnival", (214, 210))))
+    def test_21_an_unknown_image_with_the_name_of_a_game(self, game, rows, tmp_path):
+        image = bytearray((package.SOURCE / "games/homebrew/beamfall.bin").read_bytes())
+        image[image.index(b"\xff" * 64)] = 0  # between its program and its data
+        (tmp_path / f"{game}.bin").write_bytes(image)
+        both = pong()
+        for ale in both:
+            ale.loadROM(str(tmp_path / f"{game}.bin"))
+        assert tuple(ale.getScreenDims()[0] for ale in both) == rows
+        assert np.array_equal(*(ale.getRAM() for ale in both))

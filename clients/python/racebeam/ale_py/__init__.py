@@ -40,6 +40,8 @@ and infos are equal to the byte for the same seeds and actions. These are the di
 19. AtariVectorEnv with max_num_frames_per_episode=0 has no limit; ale_py truncates each step.
 20. loadROM() refuses a reward_min above reward_max, a paddle_min above paddle_max, and a negative frame_skip. ale_py
     takes the first two, and hangs with the third.
+21. An unknown image that has the file name of a game also has the game's properties, such as paddles or more rows. In
+    ale_py it has only the rule, and the default properties.
 """
 
 from __future__ import annotations
