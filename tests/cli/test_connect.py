@@ -132,6 +132,28 @@ class TestPiped:
         assert ("0", "0", "0") in colours
         assert len(colours) > 5
 
+    def test_blocks_of_a_screen_have_the_mean_colours_of_its_pixels(self):
+        done = connect(self.address, "load beamfall seed=7\nact FIRE*20\nlook rgb:hex\n:screen\n")
+        _, _, reply, *rows = done.stdout.splitlines()
+        pixels = bytes.fromhex(reply.removeprefix("ok rgb="))
+        for number, row in enumerate(rows):
+            colours, blocks = {}, []
+            for layer, *colour in re.findall("\x1b\\[(38|48);2;(\\d+);(\\d+);(\\d+)m|\u2580", row):
+                if layer:
+                    colours[layer] = tuple(map(int, colour))
+                else:
+                    blocks.append((colours["38"], colours["48"]))
+            for column, block in enumerate(blocks):
+                assert block == (self.mean(pixels, column, 2 * number), self.mean(pixels, column, 2 * number + 1))
+            assert len(blocks) == 80
+
+    @staticmethod
+    def mean(pixels, column, half):
+        """The mean colour of the part of a screen that half of a block shows, of 80 x 52 halves; rounded down."""
+        down, across = range(half * 210 // 52, (half + 1) * 210 // 52), range(2 * column, 2 * column + 2)
+        parts = [pixels[3 * (160 * y + x) :][:3] for y in down for x in across]
+        return tuple(sum(part) // len(parts) for part in zip(*parts))
+
     def test_screen_without_a_game_is_refused(self):
         assert re.search(r"^error no-game .*\nok server=", connect(self.address, ":screen\nhello\n").stdout)
 
