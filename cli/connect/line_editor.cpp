@@ -49,7 +49,7 @@ char** complete_word(const char* text, int begin, int) {
     words.clear();
   }
   const bool goes_on = words.size() == 1 && (words[0].ends_with('=') || words[0].ends_with(':'));
-  ::rl_completion_append_character = goes_on ? '\0' : ' ';
+  ::rl_completion_append_character = static_cast<unsigned char>(goes_on ? '\0' : ' ');
   return ::rl_completion_matches(text, next_word);
 }
 
