@@ -35,7 +35,7 @@ def defined(path):
 
 
 def faults(folder=ROOT / "system", lacking=LACKING):
-    """What a header declares and linux/ defines, but not another system that has the source."""
+    """Lists functions that a header declares and linux/ defines, but that the same source of another system lacks."""
     missing = {}
     for system in FOLDERS:
         for path in sorted((folder / system).glob("*.cpp")):

@@ -23,7 +23,7 @@ from gymnasium.wrappers import ClipReward, FrameStackObservation
 from racebeam import AtariEnv, AtariVectorEnv
 from racebeam.testing import EnvironmentTests, VectorEnvironmentTests, equal
 
-LIVES = {"life_loss": "end", "frameskip": 60}  # an end at a time of its own in each environment
+LIVES = {"life_loss": "end", "frameskip": 60}  # each environment ends at another time
 SHORT = {"max_num_frames_per_episode": 60, "noop_max": 4}
 
 

@@ -29,7 +29,7 @@ def value(reply, key):
 
 
 def seen(reply):
-    """What the file has of a reply."""
+    """Returns the part of a reply that the file records: the hash of the state, and a checksum of the screen."""
     return f"{value(reply, 'state_hash')} {zlib.adler32(bytes.fromhex(value(reply, 'screen'))):08x}"
 
 
