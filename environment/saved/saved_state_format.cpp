@@ -44,9 +44,13 @@ constexpr char kMagic[8] = {'R', 'B', 'S', 'T', 'A', 'T', 'E', '\n'};
 
 void check(const Header& header, std::size_t size) {
   if (!std::ranges::equal(header.magic, kMagic)) refuse("this is not a state saved by racebeam");
-  if (header.version != kSnapshotVersion || header.values_size != sizeof(Values)) {
+  if (header.version != kSnapshotVersion) {
     refuse("the state was saved by another version of racebeam (format " + std::to_string(header.version) +
            "; this one reads format " + std::to_string(kSnapshotVersion) + ")");
+  }
+  if (header.values_size != sizeof(Values)) {
+    refuse("the state was saved by another build of racebeam (with " + std::to_string(header.values_size) +
+           " bytes of values; this one reads " + std::to_string(sizeof(Values)) + ")");
   }
   if (header.total_size != size) {
     refuse("the state has " + std::to_string(size) + " bytes instead of " +

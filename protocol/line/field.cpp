@@ -184,8 +184,7 @@ Field parse_field(std::string_view word) {
 void add(std::vector<Field>& fields, Field field) {
   for (const Field& other : fields) {
     if (other.row == field.row)
-      throw RequestError(ErrorCode::kBadArguments,
-                         "the field " + std::string(field.row->name) + " is given twice");
+      throw RequestError(ErrorCode::kBadArguments, "the field " + field.name + " is given twice");
     if (other.stack && field.stack)
       throw RequestError(
           ErrorCode::kBadArguments,

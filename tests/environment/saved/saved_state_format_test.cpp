@@ -153,6 +153,17 @@ TEST_CASE("A state of another format is refused by its number") {
       Catch::Contains("format 77") && Catch::Contains("reads format " + std::to_string(kSnapshotVersion)));
 }
 
+TEST_CASE("A state of the same format with other values is of another build") {
+  Bytes bytes = some_state();
+  std::uint32_t size = 0;
+  std::memcpy(&size, &bytes[12], sizeof size);
+  const std::string here = std::to_string(size), there = std::to_string(--size);
+  std::memcpy(&bytes[12], &size, sizeof size);
+  CHECK_THROWS_WITH(from_bytes(bytes, counter()),
+                    Catch::Contains("another build of racebeam (with " + there +
+                                    " bytes of values; this one reads " + here + ")"));
+}
+
 TEST_CASE("The image and the game that a state names are printable text") {
   Bytes bytes = some_state();
   const std::size_t name = 24 + sizeof(Identity::md5);

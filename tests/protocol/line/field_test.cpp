@@ -108,6 +108,11 @@ TEST_CASE("A stack that is not whole is refused with an example, and what begins
     CHECK_THAT(refusal(word), Contains("unknown ") || Contains("accepted"));
 }
 
+TEST_CASE("A field that is given twice is named as it was given the second time") {
+  CHECK(refusal("grey84x4 grey84x3") == "the field grey84x3 is given twice");
+  CHECK(refusal("ram ram:zlib") == "the field ram is given twice");
+}
+
 TEST_CASE("A number has no encoding, and bytes have those of the table, without delta for audio_all") {
   CHECK(refusal("reward:hex") == "the field reward is a number, so it takes no encoding");
   CHECK(refusal("screen:delta audio_all:rle") == "accepted");
