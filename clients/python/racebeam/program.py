@@ -9,12 +9,13 @@ import shutil
 import sys
 
 NOT_FOUND = (
-    "the program racebeam is neither beside this package nor on the PATH; install a wheel that has it, or the .deb or "
-    ".tar.gz of racebeam, or set RACEBEAM_PROGRAM to the program; connect() needs no program here"
+    "the program racebeam is neither beside this package nor on the PATH; install a wheel that has it (those for macOS "
+    "and musl lack it), or the .deb or .tar.gz of racebeam, or set RACEBEAM_PROGRAM to the program; connect() needs no "
+    "program here"
 )
 NOT_FOR_WINDOWS = (
-    "the program racebeam is not on the PATH, and wheels for Windows lack it; start a server in WSL 2 or on another "
-    "machine, and use connect(); AtariEnv and AtariVectorEnv need no program"
+    "the program racebeam is not on the PATH, and wheels for Windows lack it; put racebeam.exe on the PATH, or start a "
+    "server in WSL 2 or on another machine, and use connect(); AtariEnv and AtariVectorEnv need no program"
 )
 
 

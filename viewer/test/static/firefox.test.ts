@@ -31,9 +31,12 @@ describe("the page without a server in Firefox", () => {
     assert.equal(folder.asked.length, before);
   });
 
-  test("its memory is inspected", async () => {
+  test("its memory is inspected and searched", async () => {
     await firefox.page.keyboard.press("i");
     const first = await firefox.text("#ram");
     await until(async () => await firefox.text("#ram") !== first, "other bytes");
+    await firefox.page.keyboard.press("p");
+    await (await firefox.page.$("[data-compare=changed]"))!.click();
+    await until(async () => parseInt(await firefox.text("#found")) < 128, "bytes that changed");
   });
 });
