@@ -63,6 +63,11 @@ Cost cost_of(const Program& program, int steps, Look look, int rounds) {
   return {median(times[0]), median(times[1])};
 }
 
+void play(const Program& program, int steps, Look look, CpuKind cpu) {
+  run(std::make_shared<const std::vector<std::uint8_t>>(program.rom), properties_for(program), cpu, steps,
+      look, [](int) {});
+}
+
 Cost longest_step(const Program& program, int steps, Look look, int rounds) {
   const auto image = std::make_shared<const std::vector<std::uint8_t>>(program.rom);
   const Properties properties = properties_for(program);

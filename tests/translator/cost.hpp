@@ -19,6 +19,9 @@ enum class Look { kNone, kEveryFrame };  // whether the picture is read
 // of `rounds` rounds. Each round translates from the beginning.
 Cost cost_of(const Program& program, int steps, Look look, int rounds);
 
+// Does this once with one CPU.
+void play(const Program& program, int steps, Look look, CpuKind cpu);
+
 // The longest step of such a run. For each step, the shortest time of `rounds` rounds counts.
 Cost longest_step(const Program& program, int steps, Look look, int rounds);
 
