@@ -147,8 +147,13 @@ class Server:
         """The number of the process that runs the program. In Wine, it is a child of what the test has started."""
         if not WINDOWS:
             return self.process.pid
-        with open(f"/proc/{self.process.pid}/task/{self.process.pid}/children") as children:
-            return int(children.read().split()[0])
+        deadline = time.monotonic() + PATIENCE
+        while time.monotonic() < deadline:
+            with open(f"/proc/{self.process.pid}/task/{self.process.pid}/children") as children:
+                if found := children.read().split():
+                    return int(found[0])
+            time.sleep(0.01)
+        raise AssertionError("Wine has not started the program")
 
     def processor_seconds(self):
         """What the program has used of a processor."""
