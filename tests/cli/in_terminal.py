@@ -37,11 +37,14 @@ class Wire:
         self.socket.close()
 
     def watch(self, name):
-        """What a shared session shows now."""
+        """What a shared session shows now: the first copy that it makes for this request, or the last one if it makes
+        none for several frames, as in a pause."""
         request = f"watch {name} screen:hex palette"
-        self.ask(request)  # the server makes a copy from now on
-        time.sleep(0.2)  # several frames, each of which is copied
-        return self.ask(request)
+        before = self.ask(request)["frame"]
+        until = time.monotonic() + 0.2
+        while (reply := self.ask(request))["frame"] == before and time.monotonic() < until:
+            time.sleep(0.005)
+        return reply
 
     def picture(self, name):
         """The pixels of a shared session, as red, green and blue."""

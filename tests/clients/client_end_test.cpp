@@ -68,7 +68,7 @@ std::string read_late(std::chrono::milliseconds time, bool& open) {
     }
   });
   loop.poll();
-  std::this_thread::sleep_for(60ms);
+  std::this_thread::sleep_for(60ms);  // the subject: both times pass while nobody looks
   loop.run();
   const bool is_open = open;
   lines.reset();  // which closes it

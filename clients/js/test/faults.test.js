@@ -119,7 +119,7 @@ test("the next request reports why a server ends", async (context) => {
   for (const socket of sockets) {
     socket.end("error stopping the server stops\n");
   }
-  await new Promise((resolve) => setTimeout(resolve, 50));
+  await session.ended;
   await assert.rejects(session.act("FIRE"), { code: "stopping" });
   await assert.rejects(session.act("FIRE"), LostError);
 });
@@ -200,7 +200,7 @@ test("bytes after a line may come in any pieces", async (context) => {
   await session.observe("reward", "ram:raw");
   const replies = [session.act("FIRE"), session.act("FIRE")];
   for (const piece of pieces) {
-    await new Promise((resolve) => setTimeout(resolve, 5));
+    await new Promise((resolve) => setTimeout(resolve, 5)); // the subject: the client reads each piece by itself
     sockets.forEach((socket) => socket.write(piece, "latin1"));
   }
   assert.deepEqual(await Promise.all(replies), [{ reward: 1, ram: Uint8Array.of(1, 10, 2, 255) }, { reward: 2, ram: Uint8Array.of(7) }]);

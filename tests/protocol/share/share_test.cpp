@@ -31,10 +31,15 @@ struct Server {
     player.ask(kLoad);
     CHECK(player.ask("share room") == "ok share=room watchers=1000");
   }
+  // Waits until the last copy is so old that the next request may make another.
+  void wait_until_due() const {
+    const auto share = service.shares->find("room");
+    while (!share->is_due(Snapshot::Clock::now())) std::this_thread::yield();
+  }
   // What the watcher sees after the player's request, once it has been published.
   std::string seen_after(const std::string& request, const std::string& fields = "") {
     watcher.ask("watch room");
-    std::this_thread::sleep_for(20ms);
+    wait_until_due();
     player.ask(request);
     return watcher.ask("watch room" + fields);
   }
@@ -189,7 +194,7 @@ TEST_CASE("A copy is made only after a watcher has asked") {
   Server server;
   server.share();
   server.player.ask("act UP");
-  std::this_thread::sleep_for(20ms);
+  server.wait_until_due();
   server.player.ask("act UP");
   CHECK(value(server.watcher.ask("watch room"), "frame") == "0");
   server.player.ask("act UP");
