@@ -71,6 +71,41 @@ class TestLedger:
                         assert test in page(file), f"{file} lacks the test"
 
 
+class TestWalks:
+    """The tables of HACKING.md that follow a request and a write through the files."""
+
+    def rows(self):
+        """The names and the files of each row. A file's folder may be left out, as that of the one before it."""
+        for heading in ("| Step | File |", "| Step | Function | File |"):
+            for step, *functions, files in table(page("HACKING.md"), heading):
+                names = [name.split("::")[-1] for cell in functions for name in re.findall(r"`([\w:]+)`", cell)]
+                yield step, names, self.paths(re.findall(r"`([\w./]+)`", files))
+
+    def paths(self, files):
+        folder = pathlib.PurePath()
+        for file in files:
+            places = (pathlib.PurePath(), folder, folder.parent)
+            path = next((place / file for place in places if (ROOT / place / file).is_file()), None)
+            assert path, f"{file} does not exist"
+            folder = path.parent
+            yield path
+
+    def test_each_function_is_in_a_file_of_its_row(self, subtests):
+        for step, names, paths in self.rows():
+            text = "".join(page(path) for path in paths)
+            for name in names:
+                with subtests.test(step=step, name=name):
+                    assert re.search(rf"\b{name}\b", text)
+
+    def test_the_files_are_counted(self):
+        text = page("HACKING.md")
+        for heading in ("| Step | File |", "| Step | Function | File |"):
+            after = text[text.index(heading) :]
+            rows = table(text, heading)
+            files = {path for row in rows for path in self.paths(re.findall(r"`([\w./]+)`", row[-1]))}
+            assert f"These are {len(files)} files." in after.split("\n\n")[1].replace("\n", " "), len(files)
+
+
 class TestProgram:
     def subcommands(self):
         names = re.findall(r"^\| `racebeam (\w+)", page("README.md"), re.MULTILINE)
