@@ -52,6 +52,8 @@ class StepTrial {
     if (lost_ == 0) least_ = kUnknown;
   }
 
+  // What a trial and a round are; not numbers to tune. With other ones, costs would be compared of steps that
+  // do different work.
   static constexpr int kSteps = 3, kOther = 1;  // the usual way, the other, the usual
   static constexpr int kTrialsOfRound = 4;      // one of each of four successive steps
 

@@ -4,6 +4,7 @@
 // times the time of the interpreter, holds for all numbers of the translator together.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "system/tuning.hpp"
@@ -28,6 +29,8 @@ RACEBEAM_TUNED(unsigned, kMaxObserved, 2, "frames", "frames");
 
 // Two sets of line records, for games that flicker (emulator/tia/line_cache/flicker_detector.hpp).
 
+// Frames before the first test for flicker.
+RACEBEAM_TUNED(int, kFirstFlickerPeriod, 16, "frames", "frames");
 // Frames from one test for flicker to the next, if the answer changed.
 RACEBEAM_TUNED(int, kShortestFlickerPeriod, 64, "frames", "frames");
 // The most frames from one test for flicker to the next. The number doubles while the answer stays the same.
@@ -35,6 +38,12 @@ RACEBEAM_TUNED(int, kLongestFlickerPeriod, 512, "frames", "frames");
 // A second set of records is tried if at least this many rows of two frames are drawn again with the content
 // of two frames before.
 RACEBEAM_TUNED(int, kFlickeringRows, 16, "rows", "frames");
+
+// Whether reads of collision latches play the log (emulator/tia/tia.cpp).
+
+// Writes between two reads of latches, up to which the writes are examined. If there are more, they are
+// played.
+RACEBEAM_TUNED(std::ptrdiff_t, kMaxExamined, 32, "writes", "frames");
 
 // What is translated at once (emulator/translator/block_discovery.cpp).
 

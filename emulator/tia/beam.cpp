@@ -7,7 +7,9 @@
 namespace racebeam {
 namespace {
 
-constexpr int kGroup = 32;  // pixels that are cheap to write at once
+// Pixels that are written at once. The number is not one to tune: it is that of the bytes of an AVX2 register
+// (line/pixels_x86.cpp), and divides a row.
+constexpr int kGroup = 32;
 static_assert(kLinePixels % kGroup == 0);
 
 constexpr int kCombEnd = kBlankClocks + 8;  // an HMOVE blanks up to this clock of the line

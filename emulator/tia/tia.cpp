@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "emulator/policies/tuning.hpp"
 #include "emulator/tia/line/objects.hpp"
 #include "emulator/tia/line_cache/line_dependencies.hpp"
 #include "emulator/tia/register_effects.hpp"
@@ -126,7 +127,7 @@ bool Tia::play_log(std::int32_t cycle, Collisions latches) {
 // is set, and in each other pair, one object is not enabled, nor will be. Many writes are played instead.
 bool Tia::is_settled(Collisions latches) {
   if (pending_.first != played_) pending_ = {played_, played_};
-  if (log_->next - pending_.last > kMaxExamined) return false;
+  if (log_->next - pending_.last > tuning::kMaxExamined) return false;
   for (; pending_.last != log_->next; ++pending_.last) {
     const TiaWrite write(*pending_.last);
     pending_.control |= kLineEffects[write.reg()].control & kAllObjects;

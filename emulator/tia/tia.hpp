@@ -44,8 +44,6 @@ class Tia {
  private:
   static constexpr Collisions kWholePicture = 0xFFFF;  // a value of `latches`: more than collisions
 
-  static constexpr int kMaxExamined = 32;  // writes between two reads of latches
-
   // Writes that have not been played, from `first` to `last`.
   struct Pending {
     const std::uint32_t *first = nullptr, *last = nullptr;

@@ -7,6 +7,8 @@ namespace racebeam {
 
 using namespace std::chrono_literals;
 
+// Watchers see these, so they are not rows of a tuning table: protocol/PROTOCOL.md promises at most 60 copies
+// a second, and `fps` is the mean of half a second or more.
 constexpr auto kBetweenCopies = 1'000'000us / 60;
 constexpr auto kBetweenCounts = 500ms;  // of frames, for fps
 

@@ -10,6 +10,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
+// These do not affect speed only, so they are not rows of a tuning table: they say who loses a session or its
+// caches when memory is short, and server/README.md, "Memory", promises them.
 constexpr auto kPause = 250ms;   // after which a session releases its caches
 constexpr auto kLongPause = 2s;  // after which a session may be ended
 constexpr auto kSlow = 1s;       // the longest time that a client which reads takes for a reply

@@ -24,13 +24,14 @@ class FlickerDetector {
 
  private:
   // The frames of a try, by their number in the period: rows are hashed from kFirst on, and compared with
-  // those of two frames before from kAgain to kLast.
+  // those of two frames before from kAgain to kLast. These are not numbers to tune: objects flicker with a
+  // period of two frames. The first two only fill the one set with the lines of both kinds of frames.
   static constexpr int kFirst = 2, kAgain = 4, kLast = 5;
 
   void judge();
 
   // The frames since the last try, and those between two tries.
-  int frame_ = 0, period_ = tuning::kShortestFlickerPeriod / 4;
+  int frame_ = 0, period_ = tuning::kFirstFlickerPeriod;
   int alike_ = 0;                                // rows that were drawn again with the same content
   int drawn_with_one_ = 0, drawn_with_two_ = 0;  // rows, in two frames
   bool odd_ = false, found_ = false, counts_ = false;
