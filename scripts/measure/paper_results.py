@@ -18,11 +18,12 @@ from paper.baselines import Baselines
 from paper.conditions import Conditions
 from paper.learners import Learners
 from paper.logs import Logs
+from paper.pairs import Pairs
 from paper.searches import Searches
 from plan_figures import FIGURES, ROOT
 
 
-class Document(Conditions, Baselines, Learners, Searches, Logs):
+class Document(Conditions, Baselines, Learners, Pairs, Searches, Logs):
     """docs/results.md."""
 
     def text(self):
@@ -35,6 +36,7 @@ class Document(Conditions, Baselines, Learners, Searches, Logs):
         self.learners()
         self.long_training()
         self.whole_training()
+        self.pairs()
         self.searches()
         self.simulations()
         self.verification()

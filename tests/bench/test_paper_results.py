@@ -10,7 +10,8 @@ import paper_results
 import plan_figures
 import pytest
 import tomllib
-from paper.parts import PLANS, bounds
+from paper.parts import PLANS
+from paper.student import bounds, quantile, two_tailed, welch
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
 import layout  # noqa: E402
@@ -71,9 +72,25 @@ class TestBounds:
         assert bounds([5]) is None
         assert bounds([4, 6]) == pytest.approx((5 - 12.7062, 5 + 12.7062))
         assert bounds(range(11)) == pytest.approx((5 - 2.22814, 5 + 2.22814))  # whose standard error is 1
-        for count, quantile in ((30, 2.04523), (40, 2.04523)):
+        for count, reach in ((30, 2.04523), (40, 2.02269)):
             low, high = bounds([0, 2] * (count // 2))
-            assert (high - low) / 2 == pytest.approx(quantile / (count - 1) ** 0.5)
+            assert (high - low) / 2 == pytest.approx(reach / (count - 1) ** 0.5)
+
+
+class TestStudent:
+    def test_quantiles_are_those_of_tables(self):
+        for freedom, confidence, value in ((1, 0.95, 12.7062), (4, 0.99, 4.60409), (29, 0.95, 2.04523)):
+            assert quantile(freedom, confidence) == pytest.approx(value, rel=1e-5)
+            assert two_tailed(value, freedom) == pytest.approx(1 - confidence, rel=1e-4)
+
+    def test_the_distribution_of_two_degrees_of_freedom_has_a_closed_form(self):
+        for t in (0, 0.1, 1, 5, 100):
+            assert two_tailed(t, 2) == pytest.approx(1 - t / (2 + t * t) ** 0.5)
+
+    def test_welchs_test_is_that_of_scipy(self):
+        difference, (low, high), p = welch([1, 2, 4], [5, 9, 6])
+        assert (difference, low, high) == pytest.approx((-4.3333333, -8.62334104, -0.0433256283))
+        assert p == pytest.approx(0.0486458215)
 
 
 class TestPaperResults:
@@ -226,6 +243,15 @@ class TestPaperResults:
         assert "| asterix | disco | 5 | 25 | 45 | 65 | 85 | 105 | 125 | 145 | 165 | 185 |" in text
         assert "| disco | 1 | 1 | 1.01 | 1.01 | 1.01 |" in text
         assert "Not run yet: `racebeam experiment ram`." in text
+
+    def test_learners_are_tested_in_pairs(self):
+        results(self.folder / "learners", ["basic", "bass"], {"basic": [[100], [300], [500]], "bass": [[10], [50]]})
+        curves = [f"asterix-{agent}-1,asterix,{agent},1,1,10,1000,200" for agent in ("basic", "bass")]
+        write(self.folder / "learners/curves.csv", ["unit,game,agent,trial,episode,score,frames,decisions", *curves])
+        text = self.text()
+        # by scipy.stats.ttest_ind
+        assert "| asterix | basic, bass | 3 and 2 | 270.0 | -208.2 to 748.2 | 0.141 | no | 2.5 |" in text
+        assert "0 of 1 differences have a p below 0.01" in text
 
     def test_another_length_of_training_is_not_comparable(self):
         results(self.folder / "blob_prost", ["blob_prost"], {"blob_prost": [[700]]})

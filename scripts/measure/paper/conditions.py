@@ -56,9 +56,9 @@ SCALE = (
     (
         "learners, whole training",
         "55 games, 30 trials of 5,000 episodes",
-        "5 games, 1 to 3 trials of 5,000 episodes, as far as they have run",
+        "5 games, 3 trials of 5,000 episodes, of RAM 1",
         "scores of whole training",
-        "the spread over trials, with one trial",
+        "small differences between learners; RAM's spread",
     ),
     (
         "UCT, full tree",

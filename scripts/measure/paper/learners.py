@@ -4,7 +4,8 @@ import statistics
 
 from plan_figures import ROOT
 
-from .parts import Part, agreement, bounds, number, published_training, rows_of
+from .parts import Part, agreement, number, published_training, rows_of
+from .student import bounds
 
 LEARNERS = {"basic": 8000, "lsh": 4000, "disco": 3000, "bass": 1000, "ram": 500}  # decisions a second: the goals
 

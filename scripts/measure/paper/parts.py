@@ -7,6 +7,8 @@ import textwrap
 
 from plan_figures import ROOT, table
 
+from .student import bounds
+
 PUBLISHED = ROOT / "evaluation/racebeam_evaluation/data"
 WIDTH = 100
 PLANS = (
@@ -15,12 +17,6 @@ PLANS = (
 )
 FULL_SEARCHES = ("uct", "full_tree", "iw1", "searches")  # with the whole budget of a decision
 PARTIAL = "baselines-partial"
-# The 97.5 % quantile of Student's t for 1 to 29 degrees of freedom: the paper has 30 trials.
-STUDENT = (
-    *(12.70620, 4.30265, 3.18245, 2.77645, 2.57058, 2.44691, 2.36462, 2.30600, 2.26216, 2.22814),
-    *(2.20099, 2.17881, 2.16037, 2.14479, 2.13145, 2.11991, 2.10982, 2.10092, 2.09302, 2.08596),
-    *(2.07961, 2.07387, 2.06866, 2.06390, 2.05954, 2.05553, 2.05183, 2.04841, 2.04523),
-)
 AGAIN = {  # other episodes of the policies whose score is not the paper's
     "random-again": "Random, other episodes",
     "const-again": "Const, other starts",
@@ -46,15 +42,6 @@ def published_training():
 
 def number(value, digits=1):
     return f"{round(value, digits) + 0:,.{digits}f}" if value is not None else "-"  # + 0: not -0.0
-
-
-def bounds(sample):
-    """The 95 % interval of a mean, by Student's t; None of a single score. That of more than 30 is too wide."""
-    if len(sample) < 2:
-        return None
-    half = STUDENT[min(len(sample), len(STUDENT) + 1) - 2] * statistics.stdev(sample) / len(sample) ** 0.5
-    mean = statistics.mean(sample)
-    return mean - half, mean + half
 
 
 def agreement(sample, theirs, unit):
