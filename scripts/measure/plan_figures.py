@@ -88,15 +88,14 @@ class Results:
         return {game: sorted(each) for game, each in scores.items()}
 
     def curves(self):
-        """{agent: {game: the scores of training by tenths of the episodes, means over trials}}."""
+        """{agent: {game: [the scores of training of each trial, by tenths of the episodes]}}."""
         path = self.folder / "curves.csv"
         scores = {}
         for row in table(path) if path.exists() else []:
             scores.setdefault((row["agent"], row["game"]), {}).setdefault(row["trial"], []).append(float(row["score"]))
         curves = {}
         for (agent, game), trials in scores.items():
-            parts = [tenths(each) for each in trials.values()]
-            curves.setdefault(agent, {})[game] = [statistics.mean(part) for part in zip(*parts)]
+            curves.setdefault(agent, {})[game] = [tenths(each) for each in trials.values()]
         return curves
 
     def settings(self, agent):

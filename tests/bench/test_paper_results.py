@@ -55,16 +55,22 @@ def results(folder, agents, scores, seconds="2.0", frames="1000"):
 
 
 class TestPicture:
-    def test_the_learning_curves_are_those_of_the_results_that_are_kept(self):
-        root = plan_figures.ROOT
+    def test_the_learning_curves_are_those_of_the_results_that_are_kept(self, subtests):
+        for plan, picture in (("hour", "learning-curves"), ("learners", "learning-curves-whole")):
+            with subtests.test(plan=plan):
+                drawn = (plan_figures.ROOT / f"docs/pictures/{picture}.svg").read_text()
+                assert f"sha256:{self.digest_of_curves(plan)}" in drawn
+
+    def digest_of_curves(self, name):
+        """The SHA-256 of the curves.csv that the kept units of a plan make."""
         table = hashlib.sha256(b"unit,game,agent,trial,episode,score,frames,decisions\n")
-        with tarfile.open(root / "docs/results/kept/hour.tar.xz") as kept:
-            plan = tomllib.loads(kept.extractfile("hour/plan.toml").read().decode())
+        with tarfile.open(plan_figures.ROOT / f"docs/results/kept/{name}.tar.xz") as kept:
+            plan = tomllib.loads(kept.extractfile(f"{name}/plan.toml").read().decode())
             for game in plan["games"]:
                 for agent in plan["agents"]:
                     for trial in range(1, plan["agent"][agent]["trials"] + 1):
-                        table.update(kept.extractfile(f"hour/units/{game}-{agent}-{trial}.curves.csv").read())
-        assert f"sha256:{table.hexdigest()}" in (root / "docs/pictures/learning-curves.svg").read_text()
+                        table.update(kept.extractfile(f"{name}/units/{game}-{agent}-{trial}.curves.csv").read())
+        return table.hexdigest()
 
 
 class TestBounds:
@@ -240,9 +246,16 @@ class TestPaperResults:
         text = self.text()
         # half the difference of 20, times 12.706
         assert "| asterix | disco | 2 | 3 | 760.0 | 632.9 to 887.1 | 754.6 | 1.01 | yes |" in text
-        assert "| asterix | disco | 5 | 25 | 45 | 65 | 85 | 105 | 125 | 145 | 165 | 185 |" in text
+        tenths = " | ".join(f"{mean}.0" if mean < 100 else str(mean) for mean in range(5, 200, 20))
+        assert f"| asterix | disco | {tenths} |" in text
         assert "| disco | 1 | 1 | 1.01 | 1.01 | 1.01 |" in text
         assert "Not run yet: `racebeam experiment ram`." in text
+
+    def test_curves_of_several_trials_have_intervals(self):
+        results(self.folder / "learners", ["disco"], {"disco": [[700], [770]]})
+        curves = [f"asterix-disco-{trial},asterix,disco,{trial},1,{40 * trial},1000,200" for trial in (1, 2)]
+        write(self.folder / "learners/curves.csv", ["unit,game,agent,trial,episode,score,frames,decisions", *curves])
+        assert "| asterix | disco | 60.0 ± 254.1 |" in self.text()  # 20 times 12.706
 
     def test_learners_are_tested_in_pairs(self):
         results(self.folder / "learners", ["basic", "bass"], {"basic": [[100], [300], [500]], "bass": [[10], [50]]})

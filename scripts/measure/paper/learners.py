@@ -27,6 +27,13 @@ def summary(ratios):
     return [str(len(ratios)), str(above), *(number(part, 2) for part in parts)]
 
 
+def tenth(trials):
+    """A part of a learning curve: the mean over trials, and half of its interval."""
+    mean, within = statistics.mean(trials), bounds(trials)
+    digits = 0 if mean >= 100 else 1
+    return number(mean, digits) + (f" ± {number(mean - within[0], digits)}" if within else "")
+
+
 class Learners(Part):
     """Scores of learners."""
 
@@ -57,9 +64,7 @@ class Learners(Part):
             )
         )
         self.speeds_of_learners(found, agents)
-        if (ROOT / "docs/pictures/learning-curves.svg").exists():
-            self.add("![Scores of training episodes by frames, a panel for each game](pictures/learning-curves.svg)")
-            self.say("The bands in the picture are standard errors over the trials.")
+        self.picture("learning-curves", "Scores of training episodes by frames, a panel for each game")
 
     def speeds_of_learners(self, found, agents):
         """In how many games each learner is above Random, and its decisions a second."""
@@ -130,17 +135,27 @@ class Learners(Part):
             elif theirs:
                 ratios.setdefault(agent, []).append(score / theirs)
             rows.append([*row, number(score / theirs, 2) if theirs else "-", same])
-            curves.append([game, agent, *(number(part, 0) for part in found["curves"][agent][game])])
+            curves.append([game, agent, *(tenth(part) for part in zip(*found["curves"][agent][game]))])
         header = ["game", "agent", "trials", "episodes", "score", "95 % interval", "published", "score / published"]
         self.add(rows_of([*header, "agrees"], *rows))
         if ratios:
             self.say("The next table has the same ratios by agent, without those that are not comparable.")
             self.add(rows_of(RATIOS, *([agent, *summary(each)] for agent, each in ratios.items())))
-        self.say("""The next table has the mean scores of training episodes, by tenths of the training. The agent
+        self.picture("learning-curves-whole", "Scores of whole training by frames, a panel for each game")
+        self.say("""Trials have equal numbers of episodes, not of frames. Where a trial has ended, the curve is the mean
+            of the others, so that it can jump.""")
+        self.say("""The next table has the mean scores of training episodes, by tenths of the training. After the
+            sign ± is half of the 95 % interval, by Student's t over the trials; a single trial has none. The agent
             explores in training as it does in evaluation.""")
         width = max(len(row) for row in curves)
         tenths = [f"{place}" for place in range(1, width - 1)]
         self.add(rows_of(["game", "agent", *tenths], *(row + ["-"] * (width - len(row)) for row in curves)))
+
+    def picture(self, name, caption):
+        """A picture of the report of racebeam-evaluate, if docs/pictures has it."""
+        if (ROOT / f"docs/pictures/{name}.svg").exists():
+            self.add(f"![{caption}](pictures/{name}.svg)")
+            self.say("`racebeam-evaluate` drew the picture. Its bands are standard errors over the trials.")
 
     def trained(self, plans):
         """(game, agent, figures) of each learner that was trained in a game, by game."""
