@@ -4,10 +4,9 @@
     paper_results.py [FOLDER] [--into FILE]
 
 FOLDER has PLAN.json for plans of PLANS, as scripts/measure/plan_figures.py gathers them; docs/results/figures unless it
-is named. A plan without figures is said to be not run yet. Where only some games of `baselines` were run again,
-baselines-partial.json has these: its plan is that of `baselines` with fewer games. random-again.json, const-again.json
-and perturb-again.json have other episodes of the policies that do not agree with the paper. Published scores are those
-of evaluation/.
+is named. A plan without figures is said to be not run yet. random-again.json, const-again.json and perturb-again.json
+have other episodes of the policies that do not agree with the paper. perturb-sample.json has units of a plan that were
+run again. Published scores are those of evaluation/.
 """
 
 import argparse

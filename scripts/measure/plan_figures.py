@@ -7,6 +7,7 @@ FOLDER/PLAN is what `racebeam experiment PLAN --into FOLDER/PLAN` makes, or a pa
 are finished. FOLDER may have besides:
 
     machine.txt             lines "KEY: VALUE": where and with what the plan was run
+    PLAN.checked            units, digests of their rows, and who confirmed them: scripts/measure/paper_plans
     PLAN.verify             what `racebeam verify` printed for each part; after each, a line "processor seconds: N"
     PLAN.ale                what `scripts/check/verify-with-ale` printed for each part
     bench/GAME-search.json  what `racebeam bench --rom GAME --frame-skip 5 --search --json` printed
@@ -19,6 +20,7 @@ FILE is docs/results/figures/PLAN.json unless it is named.
 import argparse
 import collections
 import csv
+import hashlib
 import json
 import pathlib
 import re
@@ -30,6 +32,9 @@ import tomllib
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FIGURES = ROOT / "docs/results/figures"
 PARTS = ("training", "evaluation")
+CHECKERS = ("verify", "ale")
+DIGITS = 16  # of a digest of rows
+MOST_NAMED = 10  # units
 
 
 def table(path):
@@ -152,6 +157,26 @@ class Results:
         (seconds,) = sums(r"processor seconds: ([0-9.]+)", text)
         return {**dict(zip(names, map(int, counts))), "seconds": seconds, "bench_seconds": self.bench_seconds()}
 
+    def checked(self):
+        """{who: the number of rows that they confirmed}, without rows that are no longer here, and the units that ALE
+        has not played if they are few; None if nobody said."""
+        text = self.beside(f"{self.folder.name}.checked")
+        if text is None:
+            return None
+        rows = collections.Counter(row["unit"] for row in self.rows)
+        confirmed = {checker: set() for checker in CHECKERS}
+        for unit, digest, *checkers in map(str.split, text.splitlines()):
+            if rows[unit] and digest == self.digest(unit):
+                for checker in checkers:
+                    confirmed[checker].add(unit)
+        unplayed = [unit for unit in rows if unit not in confirmed["ale"]]
+        counts = {checker: sum(rows[unit] for unit in units) for checker, units in confirmed.items()}
+        return {**counts, "unplayed": unplayed if len(unplayed) <= MOST_NAMED else []}
+
+    def digest(self, unit):
+        """The digest of a unit's rows, as PLAN.checked has it."""
+        return hashlib.sha256((self.folder / f"units/{unit}.results.csv").read_bytes()).hexdigest()[:DIGITS]
+
     def bench_seconds(self):
         """How long the bench would take for the same frames, with the same decisions; None if a game was not
         measured."""
@@ -204,6 +229,7 @@ class Results:
             },
             "verified": self.verified(),
             "ale": self.ale(),
+            "checked": self.checked(),
         }
 
 

@@ -73,6 +73,22 @@ class TestPicture:
         return table.hexdigest()
 
 
+class TestKept:
+    def test_all_units_that_are_kept_were_checked_as_they_are(self, subtests):
+        kept = plan_figures.ROOT / "docs/results/kept"
+        for archive in sorted(kept.glob("*.tar.xz")):
+            name = archive.name.removesuffix(".tar.xz")
+            with subtests.test(plan=name), tarfile.open(archive) as units:
+                rows = {
+                    pathlib.Path(member).name.removesuffix(".results.csv"): units.extractfile(member).read()
+                    for member in units.getnames()
+                    if member.endswith(".results.csv")
+                }
+                digests = {f"{unit} {hashlib.sha256(each).hexdigest()[:16]} verify" for unit, each in rows.items()}
+                lines = (kept / f"{name}.checked").read_text().splitlines()
+                assert {line.removesuffix(" ale") for line in lines} == digests
+
+
 class TestBounds:
     def test_they_are_those_of_students_t_for_as_many_scores(self):
         assert bounds([5]) is None
@@ -140,23 +156,15 @@ class TestPaperResults:
         assert "1 for Random, 0 for Const, 0 for Perturb." in " ".join(text.split())
         assert "| `baselines` | random | largest | 4 | at most 12,288 |" in text
 
-    def test_baselines_of_some_games_that_were_run_again_are_shown_as_such(self):
+    def test_perturb_as_it_was_is_not_shown(self):
         agents = ["random", "const", "perturb"]
-        scores = {"random": [[100]], "const_noop": [[10]], "perturb_up": [[330]]}
-        results(self.folder / "baselines", agents, {**scores, "perturb_up": [[33]]})
-        results(self.folder / "baselines-partial", agents, scores)
-        for name in ("baselines-partial", "baselines"):
-            plan = self.folder / name / "plan.toml"
-            text = plan.read_text().replace("[agent.perturb]\nframe_skip = 5", "[agent.perturb]\nframe_skip = 1")
-            plan.write_text(text)
+        results(self.folder / "baselines", agents, {"random": [[1]], "const_noop": [[1]], "perturb_up": [[33, 35]]})
+        assert "as it was" not in self.text()
+        results(self.folder / "perturb", ["perturb"], {"perturb_up": [[330]]})
         text = " ".join(self.text().split())
+        assert "Of the episodes of `baselines`, 2 are of Perturb as it was, with an action for 5 frames." in text
+        assert "| 330.0 | up | 337.8 | random, const |" in text
         assert "1 for Perturb." in text
-        assert "| asterix | 100.0 | 288.1 | 10.0 | noop | 650.0 | 330.0 | up | 337.8 | random, const |" in text
-        assert "| `baselines`, 1 games again | 3 |" in text
-        (self.folder / "figures/baselines-partial.json").unlink()
-        (self.folder / "baselines-partial/plan.toml").unlink()
-        text = " ".join(self.text().split())
-        assert "0 for Perturb." in text
 
     def test_perturb_that_is_far_from_the_paper_has_a_cause(self, subtests):
         results(self.folder / "baselines", ["random", "const"], {"random": [[1]], "const_noop": [[1]]})
@@ -182,7 +190,8 @@ class TestPaperResults:
         ):
             with subtests.test(cause=cause):
                 results(self.folder / "const-again", ["const"], {"const_up": [others]})
-                row = f"| asterix | const up | 600.0 | {min(others):.1f} to {max(others):.1f} | 650.0 | {cause} |"
+                extent = " to ".join(f"{score:.1f}" for score in sorted({min(others), max(others)}))
+                row = f"| asterix | const up | 600.0 | {extent} | 650.0 | {cause} |"
                 assert row in self.text()
 
     def test_another_action_with_the_papers_score_is_named(self):
@@ -216,25 +225,17 @@ class TestPaperResults:
             ["1 rows confirmed, 0 wrong, 0 could not be checked; 1000 frames in 9.0 s", "processor seconds: 0.05"],
         )
         write(self.folder / "iw1.ale", ["1 rows agree with ALE, 0 do not, 0 have no image"])
-        assert "| `iw1` | 1 | 0 | 0 | 20,000 | - | 2.0% | 1 | 0 |" in self.text()
+        assert "| `iw1` | 1 | 1 | 0 | 0 | 1 | 0 | 0 | 20,000 | - | 2.0% |" in self.text()
         write(self.folder / "bench/asterix-none-5.json", ['{"frames_per_second": 25000}'])
-        assert "| `iw1` | 1 | 0 | 0 | 20,000 | 0.80 | 2.0% | 1 | 0 |" in self.text()
+        assert "| `iw1` | 1 | 1 | 0 | 0 | 1 | 0 | 0 | 20,000 | 0.80 | 2.0% |" in self.text()
 
     def test_figures_of_agents_that_have_changed_are_named(self):
-        results(
-            self.folder / "baselines",
-            ["random", "const", "perturb"],
-            {"random": [[100]], "const_noop": [[10]], "perturb_up": [[33]]},
-        )
         results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
         text = self.text()
-        assert "| `baselines` | perturb | an action for 5 frames; now for each frame |" in text
         assert "| `iw1` | iw1 | built its tree anew" in text
         assert "| `hour` | disco |" not in text
-        for name in ("baselines", "iw1"):
-            plan = self.folder / name / "plan.toml"
-            settings = plan.read_text().replace("[agent.perturb]\nframe_skip = 5", "[agent.perturb]\nframe_skip = 1")
-            plan.write_text(settings.replace("[agent.iw1]", "[agent.iw1]\nreuse_tree = 1"))
+        plan = self.folder / "iw1/plan.toml"
+        plan.write_text(plan.read_text().replace("[agent.iw1]", "[agent.iw1]\nreuse_tree = 1"))
         assert "Agents that have changed" not in self.text()
 
     def test_whole_training_stands_beside_the_paper(self):
@@ -290,12 +291,38 @@ class TestPaperResults:
         assert row in self.text()
 
     def test_kept_units_have_no_logs_and_parts_of_a_verification_add_up(self):
-        results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
+        results(self.folder / "iw1", ["iw1"], {"iw1": [[500], [500]]})
         (self.folder / "iw1/logs/asterix-iw1-1/1.episode").unlink()
         part = ["1 rows confirmed, 0 wrong, 0 could not be checked; 1000 frames in 9.0 s", "processor seconds: 0.05"]
         write(self.folder / "iw1.verify", [*part, *part])
         write(self.folder / "iw1.ale", ["1 rows agree with ALE, 0 do not, 0 have no image"] * 2)
-        assert "| `iw1` | 2 | 0 | 0 | 20,000 | - | 4.0% | 2 | 0 |" in self.text()
+        assert "| `iw1` | 2 | 2 | 0 | 0 | 2 | 0 | 0 | 20,000 | - | 2.0% |" in self.text()
+
+    def test_rows_that_have_changed_since_they_were_checked_do_not_count(self):
+        results(self.folder / "iw1", ["iw1"], {"iw1": [[500], [600], [700]]})
+        write(self.folder / "iw1.verify", ["4 rows confirmed, 0 wrong, 0 could not be checked; 1000 frames in 9.0 s"])
+        write(self.folder / "iw1.verify", [(self.folder / "iw1.verify").read_text(), "processor seconds: 0.05"])
+        write(self.folder / "iw1.ale", ["4 rows agree with ALE, 0 do not, 0 have no image"])
+        lines = []
+        for trial, checkers in ((1, "verify ale"), (2, "verify"), (3, "verify ale")):
+            rows = self.folder / f"iw1/units/asterix-iw1-{trial}.results.csv"
+            write(rows, ["rows"])
+            lines.append(f"asterix-iw1-{trial} {hashlib.sha256(rows.read_bytes()).hexdigest()[:16]} {checkers}")
+        write(self.folder / "iw1.checked", lines)
+        write(self.folder / "iw1/units/asterix-iw1-3.results.csv", ["other rows"])
+        text = self.text()
+        assert "| `iw1` | 3 | 2 | 0 | 0 | 1 | 0 | 2 |" in text
+        assert "units of `iw1`, whose logs were not kept: `asterix-iw1-2`, `asterix-iw1-3`." in " ".join(text.split())
+
+    def test_a_sample_that_was_run_again_has_the_same_means(self):
+        results(self.folder / "perturb", ["perturb"], {"perturb_up": [[300]], "perturb_down": [[301]]})
+        results(self.folder / "perturb-sample", ["perturb"], {"perturb_up": [[300]], "perturb_down": [[302]]})
+        results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
+        write(self.folder / "iw1.verify", ["1 rows confirmed, 0 wrong, 0 could not be checked; 9 frames in 9.0 s"])
+        write(self.folder / "iw1.verify", [(self.folder / "iw1.verify").read_text(), "processor seconds: 0.05"])
+        text = " ".join(self.text().split())
+        assert "2 of the 2 units of `perturb` were run again, for ALE to play their logs." in text
+        assert "The means of 1 of them are" in text
 
     def test_the_document_is_laid_out_as_all_are(self):
         results(self.folder / "uct", ["uct"], {"uct": [[5]]})

@@ -2,7 +2,7 @@
 
 import math
 
-from .parts import AGAIN, PARTIAL, Part, best, number, rows_of
+from .parts import AGAIN, Part, best, number, rows_of
 
 POLICIES = ("random", "const", "perturb")
 PAPER_EPISODES = 30  # of Random and Perturb; not printed
@@ -89,15 +89,11 @@ class Baselines(Part):
             self.disagreements(others)
 
     def baseline_scores(self):
-        """{policy: {game: (score, agent)}}, of const and perturb the best; Perturb as it is now, from all plans that
-        have it."""
+        """{policy: {game: (score, agent)}}, of const and perturb the best; Perturb as it is now."""
         found = self.figures["baselines"]
-        again = [self.figures[name] for name in (PARTIAL, "perturb") if name in self.figures]
         each = {"random": {game: (score, "random") for game, score in found["scores"]["random"].items()}}
         each["const"] = best(found, "const")
-        each["perturb"] = {}
-        for figures in again or [found]:
-            each["perturb"] |= best(figures, "perturb")
+        each["perturb"] = best(self.figures.get("perturb", found), "perturb")
         return each
 
     def not_again(self, perturb, games):
@@ -107,7 +103,7 @@ class Baselines(Part):
 
     def disagreements(self, cells):
         """A table of the cells that do not agree with the paper's, with causes."""
-        errors = self.of_plans("errors", (PARTIAL, "perturb"))
+        errors = self.of_plans("errors", ("perturb",))
         number_of = {
             policy: settings["evaluation_episodes"]
             for name in AGAIN

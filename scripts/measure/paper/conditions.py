@@ -1,15 +1,9 @@
 """The sections of docs/results.md about how the plans were run."""
 
-from .parts import AGAIN, FULL_SEARCHES, PARTIAL, PLANS, Part, episodes, item_of_list, number, rows_of
+from .parts import AGAIN, FULL_SEARCHES, PLANS, SAMPLES, Part, episodes, item_of_list, number, rows_of
 
 # Agents that have changed: the plan and the agent; whether settings are those of the agent as it is now; what it did.
 CHANGED = (
-    (
-        "baselines",
-        "perturb",
-        lambda settings: settings["frame_skip"] == 1,
-        "an action for 5 frames; now for each frame",
-    ),
     (
         "hour",
         "disco",
@@ -85,20 +79,20 @@ class Conditions(Part):
     def conditions(self):
         self.add("## Commands, machine, versions")
         self.say("""The plans are part of the program. `scripts/measure/paper_plans FOLDER PLAN` runs a plan, verifies
-            its rows, and gathers its figures. Times are
-            seconds of processor time, so that other programs hardly change them. Rows, curves and digests of logs of
-            long plans are kept in `docs/results/kept`. The same command on another
-            machine continues a plan from there. The plans that are most worth continuing come first in this list:
-            `learners`, `perturb`, `iw1`, `ram`, `searches` and `blob_prost`.""")
+            its rows, and gathers its figures. Times are seconds of processor time, so that other programs hardly change
+            them. Rows, curves and digests of logs of long plans are kept in `docs/results/kept`. The same command on
+            another machine continues a plan from there. The plans that are most worth continuing come first in this
+            list: `learners`, `perturb`, `iw1`, `ram`, `searches` and `blob_prost`. Plans with other episodes, and
+            samples, are in `docs/results/plans`.""")
         rows = []
-        for name in (*PLANS, *(each for each in (PARTIAL, *AGAIN) if each in self.figures)):
+        for name in (*PLANS, *(each for each in (*AGAIN, *SAMPLES) if each in self.figures)):
             found = self.figures.get(name)
             rows.append(
                 [
                     self.title(name),
                     *(
                         [
-                            f"{found['units']:,}" + (", goes on" if found.get("unfinished") else ""),
+                            f"{found['units']:,}" + (", goes on" if name in PLANS and found.get("unfinished") else ""),
                             f"{episodes(found):,}",
                             str(found["diverged"]),
                             number(found["seconds"] / 3600, 2),
@@ -110,6 +104,16 @@ class Conditions(Part):
                 ]
             )
         self.add(rows_of(["plan", "units", "episodes", "trials that diverged", "core-hours", *MACHINE], *rows))
+        self.old_perturb()
+
+    def old_perturb(self):
+        """Says that the tables do not show Perturb as it was."""
+        found = self.figures.get("baselines", {})
+        old = [games for agent, games in found.get("episodes", {}).items() if agent.startswith("perturb_")]
+        if old and found["settings"]["perturb"]["frame_skip"] != 1 and "perturb" in self.figures:
+            self.say(f"""Of the episodes of `baselines`, {sum(sum(games.values()) for games in old):,} are of Perturb as
+                it was, with an action for {found["settings"]["perturb"]["frame_skip"]} frames. No table of scores shows
+                them; the scores of Perturb are those of the plan `perturb`.""")
 
     def scale(self):
         self.add("## What was scaled down")
@@ -167,7 +171,7 @@ class Conditions(Part):
         rows = [
             [f"`{plan}`", agent, then]
             for plan, agent, is_now, then in CHANGED
-            if (settings := self.figures_of(plan).get("settings", {}).get(agent)) and not is_now(settings)
+            if (settings := self.figures.get(plan, {}).get("settings", {}).get(agent)) and not is_now(settings)
         ]
         if not rows:
             return

@@ -1,11 +1,11 @@
 """The sections of docs/results.md about the logs of episodes."""
 
 from .learners import LEARNERS
-from .parts import Part, episodes, number, rows_of, share_of_bench
+from .parts import SAMPLES, Part, episodes, number, rows_of, share_of_bench
 
 VERIFICATION = (
-    *("plan", "confirmed", "wrong", "not checked", "frames a second and core", "of the bench"),
-    *("of the time of the run", "ALE agrees", "ALE does not"),
+    *("plan", "episodes", "confirmed", "wrong", "not checked", "ALE agrees", "ALE does not", "not played in ALE"),
+    *("frames a second and core", "of the bench", "of the time of the run"),
 )
 
 
@@ -23,28 +23,48 @@ class Logs(Part):
         if not rows:
             self.say("Not run yet.")
             return
+        self.say("""Rows of units that were run again, because an agent was corrected, are not counted: a digest of the
+            rows of each unit tells whether they are those that were checked. Of
+            `baselines`, ALE has played the logs of the five training games. Of samples and of other episodes, it has
+            played the first three episodes of each unit. Of `perturb`, it has played only those of the sample.""")
         unverified = [self.title(name) for name, found in self.figures.items() if not found["verified"]]
         if unverified:
             self.say(f"Not verified yet: {'; '.join(unverified)}.")
         for name, found in self.figures.items():
-            if found["verified"] and (more := found["verified"]["confirmed"] - episodes(found)) > 0:
-                self.say(f"""The figures of {self.title(name)} include {more:,} rows that the tables no longer have,
-                    because an agent was corrected and its units were run again.""")
+            if units := (found.get("checked") or {}).get("unplayed"):
+                self.say(f"""ALE has not played these units of {self.title(name)}, whose logs were not kept:
+                    {", ".join(f"`{unit}`" for unit in units)}.""")
+        for sample, plan in SAMPLES.items():
+            if sample in self.figures and plan in self.figures:
+                self.say(self.same_again(sample, plan))
         self.add(rows_of(VERIFICATION, *rows))
         self.bench_speeds()
+
+    def same_again(self, sample, plan):
+        """What a sample shows of its plan, as a sentence."""
+        scores = self.figures[plan]["scores"]
+        means = [
+            mean == scores.get(agent, {}).get(game)
+            for agent, games in self.figures[sample]["scores"].items()
+            for game, mean in games.items()
+        ]
+        return f"""{len(means)} of the {self.figures[plan]["units"]:,} units of {self.title(plan)} were run again, for
+            ALE to play their logs. The means of {sum(means)} of them are those of the first run."""
 
     def verification_row(self, name, found):
         """The row of a plan that was verified, with the columns of VERIFICATION."""
         verified, ale = found["verified"], found["ale"] or {}
-        if not any(ale.values()):
-            ale = {}  # ALE played none of its games
+        every = episodes(found)
+        checked = found.get("checked") or {"verify": verified["confirmed"], "ale": ale.get("agree", 0)}
+        differ = ale.get("differ", 0)
+        share = min(every / verified["confirmed"], 1)  # of the time: some rows have been run again since
         return [
             self.title(name),
-            *(f"{verified[key]:,}" for key in ("confirmed", "wrong", "not_checked")),
+            *(f"{count:,}" for count in (every, checked["verify"], verified["wrong"], verified["not_checked"])),
+            *(f"{count:,}" for count in (checked["ale"], differ, max(every - checked["ale"] - differ, 0))),
             number(verified["frames"] / verified["seconds"], 0),
             share_of_bench(verified),
-            number(100 * verified["seconds"] / found["seconds"], 1) + "%",
-            *(f"{ale[key]:,}" if ale else "-" for key in ("agree", "differ")),
+            number(100 * verified["seconds"] * share / found["seconds"], 1) + "%",
         ]
 
     def bench_speeds(self):

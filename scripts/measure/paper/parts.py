@@ -16,12 +16,12 @@ PLANS = (
     *("uct", "uct10", "uct50", "uct150", "full_tree", "iw1", "searches"),
 )
 FULL_SEARCHES = ("uct", "full_tree", "iw1", "searches")  # with the whole budget of a decision
-PARTIAL = "baselines-partial"
 AGAIN = {  # other episodes of the policies whose score is not the paper's
     "random-again": "Random, other episodes",
     "const-again": "Const, other starts",
     "perturb-again": "Perturb, other episodes",
 }
+SAMPLES = {"perturb-sample": "perturb"}  # units of a plan that were run again, for ALE to play their logs
 
 
 def published(name):
@@ -107,7 +107,7 @@ class Part:
     def __init__(self, folder):
         self.figures = {
             name: json.loads((folder / f"{name}.json").read_text())
-            for name in (*PLANS, PARTIAL, *AGAIN)
+            for name in (*PLANS, *AGAIN, *SAMPLES)
             if (folder / f"{name}.json").exists()
         }
         self.paper = paper()
@@ -128,10 +128,6 @@ class Part:
 
     def title(self, name):
         """What a table calls a plan."""
-        if name == PARTIAL:
-            return f"`baselines`, {len(self.figures[name]['games'])} games again"
+        if name in SAMPLES:
+            return f"`{SAMPLES[name]}`, a sample"
         return AGAIN.get(name, f"`{name}`")
-
-    def figures_of(self, plan):
-        """The figures whose changed agents the document shows."""
-        return self.figures.get(f"{plan}-partial", self.figures.get(plan, {}))
