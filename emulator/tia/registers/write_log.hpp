@@ -31,7 +31,8 @@ class TiaWrite {
 // The writes of a step that have not been played yet. Machines of a thread share one log, one machine at a
 // time. A write that repeats the register's value is left out, and so are reads. Where their order can be
 // observed, the step is run again, access by access (Board::end_step, Console::Impl::run_step). Translated
-// code appends as append_change() does, and expects the members at fixed offsets.
+// code appends as append() and append_change() do (tests/translator/writes_test.cpp compares them), and
+// expects the members at fixed offsets.
 struct WriteLog {
   // A step has at most half as many instructions, and a plain store is one entry. A caller that appends more,
   // or waits, calls is_short_of_room() first. So no program can make the list or the cycle's 18 bits
