@@ -105,7 +105,7 @@ void LineRecord::close(const TiaState& tia, std::int32_t first_clock) {
   view.seen = without_hidden_object(view.seen, tia);
   end = tia;
   hmove_clock = static_cast<std::int16_t>(tia.hmove_clock - static_cast<std::uint32_t>(first_clock));
-  if ((start.cosmic | tia.cosmic) != 0 || (view.seen & kMayBeCosmic) != 0) start.spare[0] = kNever;
+  set_foreseen((start.cosmic | tia.cosmic) == 0 && (view.seen & kMayBeCosmic) == 0);
 }
 
 std::uint8_t LineRecord::hash() const {
@@ -158,7 +158,7 @@ void LineRecord::summarize(bool pal) {
   mask = found;
   clear_but(start, mask->counts);
   clear_but(end, mask->sets);
-  start.spare[0] = foreseen ? 0 : kNever;
+  set_foreseen(foreseen);
 }
 
 bool LineRecord::is_repetition_of(const LineRecord& before) const {

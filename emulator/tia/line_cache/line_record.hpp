@@ -72,7 +72,9 @@ struct alignas(64) LineRecord {
   bool repeats = false;  // the line is that of the row before, and ends as it starts: see is_repetition_of()
   alignas(16) std::array<std::uint32_t, kMaxEvents> event;  // the writes, LineWrite::packed()
 
-  // Derived from what each state brings, so that nothing more is stored.
+  // Derived from values that the comparisons need anyway, so that a line that recurs costs no test of a
+  // state. No row shows kNoLine, so that no open record is recalled. kWhole compares all bytes of a line that
+  // is drawn but not summarized. open() sets both.
   LineState state() const {
     assert(!is_summarized() || number != kNoLine);
     if (is_open()) return LineState::kOpen;
@@ -126,8 +128,9 @@ struct alignas(64) LineRecord {
   }
 
  private:
-  // The registers at the end depend on more than those at the start. No line starts with this record then,
-  // because `start` has a byte that no machine has.
+  // If the registers at the end depend on more than those at the start, no line starts with this record:
+  // `start` then has a byte that no machine has. So starts_with() needs no test of its own.
+  void set_foreseen(bool foreseen) { start.spare[0] = foreseen ? 0 : kNever; }
   static constexpr std::uint8_t kNever = 1;
   bool must_be_played() const { return start.spare[0] == kNever; }
 
