@@ -2,15 +2,10 @@
 
 import math
 
-from .parts import AGAIN, Part, best, number, rows_of
+from .parts import AGAIN, Part, best, known_cause, number, rows_of
 
 POLICIES = ("random", "const", "perturb")
 PAPER_EPISODES = 30  # of Random and Perturb; not printed
-# Causes that a comparison of scores does not find, by game, or by game and policy. {noop}: the score of const noop.
-CAUSES = {
-    "skiing": "the reward was near 0 then, and adds up to about -17,000 for random play now",
-    "journey_escape const": "the paper's policy does nothing and loses nothing; here, doing nothing scores {noop}",
-}
 MOST_NAMED = 3  # actions that a cause names
 EMULATOR = "the emulator or the rules of 2012"
 
@@ -36,18 +31,22 @@ def cause(more, theirs):
     return f"{EMULATOR}: the others differ, too"
 
 
-def cause_of_const(scores, theirs, equal):
-    """Why a constant action has another score in the paper: by its scores after some no-ops. equal: actions whose score
-    is the paper's."""
+def cause_of_const(scores, theirs):
+    """Why a constant action has another score in the paper: by its scores after some no-ops."""
     if not scores:
         return "not known"
     if theirs in scores:
         return "the frame in which play begins: after some no-ops, it is the paper's score"
     if scores[0] < theirs < scores[-1]:
         return "the frame in which play begins: no-ops give lower and higher scores"
-    verb = "gives" if len(equal) == 1 else "give"
-    others = f", but {', '.join(equal[:MOST_NAMED])} {verb} it" if equal else ""
-    return f"{EMULATOR}: none of these starts gives the paper's score{others}"
+    if len(scores) > 1:
+        return f"the frame in which play begins, or {EMULATOR}: none of these starts gives the paper's score"
+    return f"{EMULATOR}: none of these starts gives the paper's score"
+
+
+def equal_actions(actions):
+    """The end of a cause: other actions whose score is the paper's."""
+    return f"; the paper's score is that of {', '.join(actions[:MOST_NAMED])} here" if actions else ""
 
 
 class Baselines(Part):
@@ -116,14 +115,14 @@ class Baselines(Part):
             of its policy. The paper does not print its number of episodes; the causes assume {PAPER_EPISODES}. The
             other episodes of Const begin with 0 to 29 no-ops (`noop_max=30`), drawn for each; the column has their
             lowest and highest score. The action that is best here need not be the paper's. If others give the paper's
-            score, the cause names up to three of them.""")
+            score, the cause names up to three of them. Causes that experiments have shown are those of `causes.csv` and
+            `not_comparable.csv` in `evaluation/racebeam_evaluation/data`, which `racebeam-evaluate` prints, too.""")
         rows = []
         for game, policy, agent, score, theirs in cells:
             others, why = self.others(game, policy, agent, theirs)
             error = errors.get(agent, {}).get(game)
             row = [game, agent.replace("_", " "), shown(score, error), others, number(theirs)]
-            known = CAUSES.get(game) or CAUSES.get(f"{game} {policy}", "")
-            rows.append([*row, known.format(noop=number(self.consts(game).get("noop"))) or why])
+            rows.append([*row, (known_cause(game, policy) or why) + equal_actions(self.equal(game, policy, theirs))])
         self.add(rows_of(["game", "policy", "score", "in other episodes", "paper's", "cause"], *rows))
 
     def others(self, game, policy, agent, theirs):
@@ -131,11 +130,14 @@ class Baselines(Part):
         if policy == "const":
             scores = self.of_plans("distinct", AGAIN).get(agent, {}).get(game, [])
             extent = " to ".join(dict.fromkeys(number(score) for score in (*scores[:1], *scores[-1:])))
-            equal = [action for action, other in self.consts(game).items() if other == theirs]
-            return extent or "-", cause_of_const(scores, theirs, equal)
+            return extent or "-", cause_of_const(scores, theirs)
         each = [self.of_plans(key, AGAIN).get(agent, {}).get(game) for key in ("scores", "errors", "episodes")]
         more = None if None in each else each
         return shown(*more[:2]) if more else "-", cause(more, theirs)
+
+    def equal(self, game, policy, theirs):
+        """The actions of Const whose score is the paper's."""
+        return [action for action, score in self.consts(game).items() if policy == "const" and score == theirs]
 
     def consts(self, game):
         """{action: score of Const}."""

@@ -4,10 +4,12 @@ import statistics
 
 from plan_figures import ROOT
 
-from .parts import Part, agreement, number, published_training, rows_of
+from .parts import Part, agreement, known_cause, number, published_training, rows_of
 from .student import bounds
 
 LEARNERS = {"basic": 8000, "lsh": 4000, "disco": 3000, "bass": 1000, "ram": 500}  # decisions a second: the goals
+
+ENOUGH = 0.9  # of the published score
 
 RATIOS = ("agent", "games", "score above the published", "median of score / published", "lowest", "highest")
 
@@ -123,7 +125,7 @@ class Learners(Part):
             of the trials to each side. The published mean has an interval, too, which nobody printed. And these five
             games are not independent of the agents: where the paper is silent, their scores decided some defaults
             ([paper-notes.md](paper-notes.md)).""")
-        rows, curves, ratios = [], [], {}
+        rows, curves, ratios, causes = [], [], {}, []
         for game, agent, found in self.trained(plans):
             theirs, score = self.paper[game].get(agent), found["scores"][agent][game]
             trials = found["trials"][agent][game]
@@ -134,6 +136,9 @@ class Learners(Part):
                 same = f"not comparable: the published agent was trained for {published}"
             elif theirs:
                 ratios.setdefault(agent, []).append(score / theirs)
+                if same == "no" or score / theirs < ENOUGH:
+                    cause = known_cause(game, agent) or "unknown"
+                    causes.append([game, agent, number(score / theirs, 2), same, cause])
             rows.append([*row, number(score / theirs, 2) if theirs else "-", same])
             curves.append([game, agent, *(tenth(part) for part in zip(*found["curves"][agent][game]))])
         header = ["game", "agent", "trials", "episodes", "score", "95 % interval", "published", "score / published"]
@@ -141,6 +146,13 @@ class Learners(Part):
         if ratios:
             self.say("The next table has the same ratios by agent, without those that are not comparable.")
             self.add(rows_of(RATIOS, *([agent, *summary(each)] for agent, each in ratios.items())))
+        if causes:
+            self.say(f"""The next table has the scores that do not agree, and those below {ENOUGH} of the published
+                score. The causes are those of `causes.csv` in `evaluation/racebeam_evaluation/data`;
+                paper-notes.md has the experiments ([the end of
+                training](paper-notes.md#the-end-of-training), [DISCO and
+                LSH](paper-notes.md#disco-and-lsh-above-the-paper)).""")
+            self.add(rows_of(["game", "agent", "score / published", "agrees", "cause"], *causes))
         self.picture("learning-curves-whole", "Scores of whole training by frames, a panel for each game")
         self.say("""Trials have equal numbers of episodes, not of frames. Where a trial has ended, the curve is the mean
             of the others, so that it can jump.""")

@@ -40,6 +40,15 @@ def published_training():
     return {row["agent"]: row["training"] for row in table(PUBLISHED / "protocols.csv")}
 
 
+def known_cause(game, agent):
+    """Why a score differs from the published one, or cannot be compared, as experiments have shown; None: unknown."""
+    for name, column, prefix in (("not_comparable", "reason", "not comparable: "), ("causes", "cause", "")):
+        for row in table(PUBLISHED / f"{name}.csv"):
+            if row["game"] == game and row["agent"] in (agent, "*"):
+                return prefix + row[column]
+    return None
+
+
 def number(value, digits=1):
     return f"{round(value, digits) + 0:,.{digits}f}" if value is not None else "-"  # + 0: not -0.0
 

@@ -2,19 +2,26 @@
 
 import statistics
 
-from .parts import FULL_SEARCHES, Part, agreement, number, rows_of
+from .parts import FULL_SEARCHES, Part, agreement, known_cause, number, rows_of
 
 SEARCH_GOALS = {("uct", "boxing"): 95, ("uct", "asterix"): 100000, ("uct", "seaquest"): 2500}
 SIMULATIONS = {10: "uct10", 50: "uct50", 150: "uct150", 500: "uct"}
 
 SEARCHES = (
     *("agent", "game", "score", "published", "agrees", "goal", "decisions"),
-    *("seconds a decision", "frames a second", "of the bench"),
+    *("seconds a decision", "frames a second", "of the bench", "cause"),
 )
 
 
 def seconds_a_decision(episode):
     return episode["seconds"] / episode["decisions"]
+
+
+def cause(agent, game, score, published):
+    """Why a score is more than a fifth from the published one."""
+    if published is None or abs(score - published) <= abs(published) / 5:
+        return "-"
+    return known_cause(game, agent) or "unknown"
 
 
 class Searches(Part):
@@ -23,11 +30,13 @@ class Searches(Part):
     def searches(self):
         self.add("## Search")
         plans = [plan for plan in FULL_SEARCHES if not self.lacks(plan)]
-        every = [(self.figures[plan], episode) for plan in plans for episode in self.figures[plan]["searches"]]
+        every = self.different_episodes(plans)
         if every:
             self.say("""Each row is one episode, at the full budget of a decision. The published scores of UCT and of
-                the full tree are means of 10 episodes, from which one episode can differ by chance. The last column
-                compares the speed with that of `racebeam bench --search --frame-skip 5`.""")
+                the full tree are means of 10 episodes, from which one episode can differ by chance. "Of the bench"
+                compares the speed with that of `racebeam bench --search --frame-skip 5`. The last column has the cause
+                of a score that is more than a fifth from the published one, by `causes.csv` in
+                `evaluation/racebeam_evaluation/data`. An episode that two plans have is shown once.""")
             self.add(rows_of(SEARCHES, *(self.search_row(*each) for each in every)))
         seconds_of_uct = [seconds_a_decision(episode) for _, episode in every if episode["agent"] == "uct"]
         if seconds_of_uct:
@@ -50,7 +59,18 @@ class Searches(Part):
             f"{seconds_a_decision(episode):.2g}",
             number(speed, 0),
             number(speed / bench, 2) if bench else "-",
+            cause(agent, game, score, published),
         ]
+
+    def different_episodes(self, plans):
+        """(figures of its plan, episode) of each, without those that an earlier plan has: seeds follow from the names
+        of agent and game, so that plans repeat episodes."""
+        every = {}
+        for plan in plans:
+            for episode in self.figures[plan]["searches"]:
+                key = tuple(episode[name] for name in ("agent", "game", "score", "decisions"))
+                every.setdefault(key, (self.figures[plan], episode))
+        return list(every.values())
 
     def simulations(self):
         self.add("## UCT: score against simulations")
