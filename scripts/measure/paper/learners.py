@@ -157,7 +157,7 @@ class Learners(Part):
         self.say("""Trials have equal numbers of episodes, not of frames. Where a trial has ended, the curve is the mean
             of the others, so that it can jump.""")
         self.say("""The next table has the mean scores of training episodes, by tenths of the training. After the
-            sign ± is half of the 95 % interval, by Student's t over the trials; a single trial has none. The agent
+            sign ± is half of the 95 % interval, by Student's t over the trials, if there are several. The agent
             explores in training as it does in evaluation.""")
         width = max(len(row) for row in curves)
         tenths = [f"{place}" for place in range(1, width - 1)]
