@@ -123,7 +123,8 @@ constexpr std::array kWidthSettings = {
     kWidthGamma,
     merge(0, "docs/paper-notes.md, Full tree"),
     reuse(1, "docs/paper-notes.md, IW(1)"),
-    AgentSetting{"reward_aside", 1, 0, 1, true, "docs/paper-notes.md, IW(1)"},
+    AgentSetting{"reward_aside", 1, 0, 2, true, "docs/paper-notes.md, IW(1)"},
+    AgentSetting{"limit_branches", 0, 0, 1, true, "docs/paper-notes.md, IW(1)"},
     kRewardScale};
 constexpr std::array kRolloutSettings = {frames_of(150000, "docs/paper-notes.md, Rollout-IW(1)"), kWidthGamma,
                                          reuse(1, kBandres), kRewardScale};
@@ -228,7 +229,11 @@ std::unique_ptr<Agent> make_full_tree(const AgentContext& context) {
 std::unique_ptr<Agent> make_iw1(const AgentContext& context) {
   TreeSettings settings = tree_settings(context.values);
   settings.needs_novelty = true;
-  settings.reward_aside = context.values["reward_aside"] != 0;
+  settings.reward_aside = static_cast<RewardAside>(context.values.whole("reward_aside"));
+  // A branch is full when it has as many nodes as one search can make.
+  if (context.values["limit_branches"] != 0)
+    settings.full_branch = static_cast<std::size_t>(
+        std::max<std::int64_t>(settings.frames / context.play.machine.frame_skip, 1));
   return planner<TreeSearch>(context, settings);
 }
 

@@ -68,10 +68,19 @@ void TreeSearch::begin(const Model::State& root) {
   aside_.clear();
   model_.enter(root);
   seen_.assign(model_.features().size() * kByteValues, false);
-  if (std::exchange(kept_, false)) return;
+  if (std::exchange(kept_, false)) return mark_full_branches();
   nodes_.clear();
   nodes_.push_back({.state = root});
   is_novel();
+}
+
+void TreeSearch::mark_full_branches() {
+  const Number first = nodes_[0].first_child;
+  if (settings_.full_branch == 0 || first == 0) return;
+  std::vector<Number> sizes(nodes_.size(), 1);  // of the subtrees
+  for (std::size_t i = nodes_.size() - 1; i > 0; --i) sizes[nodes_[i].parent] += sizes[i];
+  for (Number child = first; child < first + order_.size(); ++child)
+    nodes_[child].full = sizes[child] >= settings_.full_branch;
 }
 
 TreeSearch::Number TreeSearch::next_open() {
@@ -89,8 +98,17 @@ void TreeSearch::visit(Number number) {
     Node& node = nodes_[child];
     const bool known = reused && node.opened;  // to a search before
     if (reused) look_again(node);
-    if (node.opened) (settings_.reward_aside && node.reward > 0 && !known ? aside_ : open_).push_back(child);
+    if (node.opened && !node.full) (is_put_aside(node, known) ? aside_ : open_).push_back(child);
   }
+}
+
+bool TreeSearch::is_put_aside(const Node& node, bool known) const {
+  switch (settings_.reward_aside) {
+    case RewardAside::kNone: return false;
+    case RewardAside::kNew: return node.reward > 0 && !known;
+    case RewardAside::kAll: return node.reward != 0;
+  }
+  return false;
 }
 
 // Draws the order of the actions anew at each node, so that no action is preferred if the frames are used up

@@ -13,6 +13,10 @@
 
 namespace racebeam {
 
+// Which nodes are put aside, and opened when no others are left: none, those with a positive reward in the
+// search that finds them, or all whose reward is not 0, in each search.
+enum class RewardAside { kNone, kNew, kAll };
+
 // Defaults: the paper, appendix C, where not said otherwise.
 struct TreeSettings {
   std::int64_t frames = 133000;  // that a decision may take; no node is expanded after them
@@ -20,11 +24,14 @@ struct TreeSettings {
   bool merge_duplicates = false;  // paper-notes: of siblings in the same state, one is expanded for all
   bool needs_novelty = false;     // IW(1)
   bool reuse_tree = false;        // paper-notes: the next tree begins with the chosen child's
-  bool reward_aside = false;      // paper-notes: new nodes with a reward are opened when no others are left
+  RewardAside reward_aside = RewardAside::kNone;   // paper-notes
   RewardScale reward_scale = RewardScale::kFirst;  // paper-notes
   // No node is expanded while the tree has more, so that its memory has a limit: kept subtrees can grow with
   // each decision. Trees of Asterix and Beam Rider had about a million with the published budget.
   std::size_t most_nodes = 4'000'000;
+  // A child of the root whose kept subtree has this many nodes is left out of a search; 0: none is left out
+  // (paper-notes).
+  std::size_t full_branch = 0;
 };
 
 class TreeSearch {
@@ -62,17 +69,20 @@ class TreeSearch {
     std::int32_t frames = 0;  // of the action
     bool over = false;
     bool opened = false;  // it was novel when it was made or examined, so that it is to be expanded
+    bool full = false;    // a child of the root that is not opened, because of settings_.full_branch
     double reward = 0;
     double best = 0;  // the largest value of a child: reward + discount * best
   };
 
   void begin(const Model::State& root);
   Number next_open();
+  void mark_full_branches();
   void visit(Number number);
   void expand(Number parent);
   void add_child(Number parent, int action, Number first_sibling);
   void find_twin(Node& child, Number first_sibling) const;
   Number twin_of(const Node& child, Number first_sibling) const;
+  bool is_put_aside(const Node& node, bool known) const;
   void look_again(Node& node);
   bool is_novel();  // whether the model's state has a byte that this search has not seen
   double value(const Node& child) const { return child.reward + settings_.discount * child.best; }

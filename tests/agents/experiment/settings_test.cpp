@@ -53,6 +53,7 @@ const std::vector<Case> kCases = {
     {"iw1",
      "frames = 1000\n",
      {{"frames", "300"}, {"gamma", "0.1"}, {"reuse_tree", "0"}, {"reward_aside", "0"}}},
+    {"iw1", "frames = 10000\n", {{"limit_branches", "1"}, {"reward_aside", "2"}}},
     {"rollout_iw1", "frames = 1500\n", {{"frames", "300"}, {"gamma", "0.1"}, {"reuse_tree", "0"}}},
     {"uct",
      "simulations = 20\n",

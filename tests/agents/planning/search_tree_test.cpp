@@ -278,38 +278,97 @@ TEST_CASE("Nodes with a reward are opened when no others are left") {
     return {place == 50 ? 50 : place + 1, 0};
   };
   ToyModel model(2, world);
-  for (const bool aside : {false, true}) {
+  for (const RewardAside aside : {RewardAside::kNone, RewardAside::kNew, RewardAside::kAll}) {
     TreeSettings settings = iw1(5 * 2 * 21);
     settings.reward_aside = aside;
     TreeSearch search(model, settings, 1);
     CHECK(search.choose(ToyModel::place(0)) == 0);
     search.keep(0, ToyModel::place(1000));
-    CHECK(search.nodes() == (aside ? 1 : 21));  // half of the other 20 nodes, or none
+    CHECK(search.nodes() == (aside == RewardAside::kNone ? 21 : 1));  // half of the other 20 nodes, or none
   }
   TreeSettings rich = iw1(1000000);
-  rich.reward_aside = true;
+  rich.reward_aside = RewardAside::kNew;
   TreeSearch search(model, rich, 1);
   search.choose(ToyModel::place(0));
   search.keep(0, ToyModel::place(1000));
   CHECK(search.nodes() > 40);  // in the end it was opened
 }
 
-TEST_CASE("A node that was put aside is opened like others in the next search") {
-  // Both actions lead from 0 to 1. There, action 0 begins a line of rewards, and action 1 one without.
-  const auto world = [](int place, int action) -> Arrow {
-    if (place == 0) return {1, 0};
-    if (place == 1) return action == 0 ? Arrow{1000, 1} : Arrow{2, 0};
-    return {place + 1, place >= 1000 ? 1.0 : 0.0};
-  };
-  ToyModel model(2, world);
+namespace {
+
+// Both actions lead from 0 to 1. There, action 0 begins a line with rewards, and action 1 one without.
+Arrow two_lines(int place, int action) {
+  if (place == 0) return {1, 0};
+  if (place == 1) return action == 0 ? Arrow{1000, 1} : Arrow{2, 0};
+  return {place + 1, place >= 1000 ? 1.0 : 0.0};
+}
+
+// A search at 0, which puts the line with rewards aside, and then the search at 1.
+struct Fork {
+  ToyModel model{2, two_lines};
+  TreeSearch search;
+  std::size_t kept = 0;
+
+  explicit Fork(const TreeSettings& settings) : search(model, settings, 1) {
+    search.keep(search.choose(ToyModel::place(0)), ToyModel::place(1));
+    kept = search.nodes();
+    search.choose(ToyModel::place(1));
+  }
+};
+
+TreeSettings fork_settings(RewardAside aside) {
   TreeSettings settings = iw1(5 * 2 * 21);
-  settings.reward_aside = true;
-  TreeSearch search(model, settings, 1);
-  const int action = search.choose(ToyModel::place(0));
-  CHECK(search.value(action) == settings.discount);  // of the first reward only
-  search.keep(action, ToyModel::place(1));
-  CHECK(search.choose(ToyModel::place(1)) == 0);
-  CHECK(search.value(0) == 1 + settings.discount);  // and now of the second, which is new and put aside
+  settings.reward_aside = aside;
+  return settings;
+}
+
+}  // namespace
+
+TEST_CASE("A node that was put aside is opened like others in the next search, or put aside again") {
+  ToyModel model(2, two_lines);
+  const TreeSettings settings = fork_settings(RewardAside::kNew);
+  TreeSearch first(model, settings, 1);
+  const int action = first.choose(ToyModel::place(0));
+  CHECK(first.value(action) == settings.discount);  // of the first reward only
+  // The second reward is new, and put aside.
+  CHECK(Fork(settings).search.value(0) == 1 + settings.discount);
+  CHECK(Fork(fork_settings(RewardAside::kAll)).search.value(0) == 1);
+}
+
+TEST_CASE("A node with a negative reward is put aside only if all with a reward are") {
+  ToyModel model(2, [](int place, int action) -> Arrow {
+    if (place == 0) return action == 0 ? Arrow{1000, -1} : Arrow{1, 0};
+    return {place + 1, 0};
+  });
+  for (const RewardAside aside : {RewardAside::kNew, RewardAside::kAll}) {
+    TreeSearch search(model, fork_settings(aside), 1);
+    search.choose(ToyModel::place(0));
+    search.keep(0, ToyModel::place(1000));
+    CHECK(search.nodes() == (aside == RewardAside::kNew ? 21 : 1));
+  }
+}
+
+TEST_CASE("A branch of the kept tree that is full gets no frames, and keeps its value") {
+  TreeSettings settings = fork_settings(RewardAside::kNew);
+  const Fork open(settings);
+  REQUIRE(open.search.frames() == 210);
+  const std::size_t long_line = open.kept - 2;  // without the root and the node that was put aside
+  settings.full_branch = 1;                     // both branches are full
+  const Fork none(settings);
+  CHECK(none.search.frames() == 0);
+  CHECK(none.search.nodes() == none.kept);
+  CHECK(none.search.value(0) == 1);
+  settings.full_branch = long_line;  // only the line without rewards is full
+  Fork one(settings);
+  CHECK(one.search.frames() == 210);
+  one.search.keep(1, ToyModel::place(2));
+  CHECK(one.search.nodes() == long_line);
+  one.search.choose(ToyModel::place(2));  // its branches are smaller than it was
+  CHECK(one.search.frames() == 210);
+  settings.full_branch = long_line + 1;
+  Fork neither(settings);
+  neither.search.keep(1, ToyModel::place(2));
+  CHECK(neither.search.nodes() > long_line);
 }
 
 TEST_CASE("Of equal actions, one that ends the episode is not chosen") {
