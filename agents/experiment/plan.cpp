@@ -37,8 +37,11 @@ void append_agent(std::string& out, const PlanAgent& agent) {
   append_line(out, "frame_skip", std::to_string(agent.frame_skip));
   for (const LengthKey& key : kLengthKeys)
     append_line(out, key.name, std::to_string(agent.length.*key.member));
-  for (const AgentSetting& setting : agent.values.settings())
-    append_line(out, setting.name, value_text(setting, agent.values[setting.name]));
+  for (const AgentSetting& setting : agent.values.settings()) {
+    const double value = agent.values[setting.name];
+    if (!setting.is_later || value != setting.value)
+      append_line(out, setting.name, value_text(setting, value));
+  }
 }
 
 // The settings of the environment without a seed, as words of `load`. They do not depend on the game.

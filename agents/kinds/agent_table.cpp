@@ -124,7 +124,13 @@ constexpr std::array kWidthSettings = {
     merge(0, "docs/paper-notes.md, Full tree"),
     reuse(1, "docs/paper-notes.md, IW(1)"),
     AgentSetting{"reward_aside", 1, 0, 2, true, "docs/paper-notes.md, IW(1)"},
-    AgentSetting{"limit_branches", 0, 0, 1, true, "docs/paper-notes.md, IW(1)"},
+    AgentSetting{.name = "limit_branches",
+                 .value = 0,
+                 .least = 0,
+                 .most = 1,
+                 .whole = true,
+                 .source = "docs/paper-notes.md, IW(1)",
+                 .is_later = true},
     kRewardScale};
 constexpr std::array kRolloutSettings = {frames_of(150000, "docs/paper-notes.md, Rollout-IW(1)"), kWidthGamma,
                                          reuse(1, kBandres), kRewardScale};

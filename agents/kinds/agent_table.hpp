@@ -26,6 +26,9 @@ struct AgentSetting {
   std::string_view source;  // of the default: the paper's line, or docs/paper-notes.md
   std::span<const std::string_view> choices = {};
   int divides = 0;  // the value must divide this number; 0: it need not
+  // Its default is what racebeam did before it had the setting. A plan names it only if it has another value,
+  // so that results of earlier plans can be continued.
+  bool is_later = false;
 };
 
 // The settings of one agent, each with a value within its range.

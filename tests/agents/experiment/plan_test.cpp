@@ -264,6 +264,15 @@ TEST_CASE("There is a Const for each action of the plan's set") {
   CHECK(names("full").size() == 18);
 }
 
+TEST_CASE("A plan names a setting that earlier plans lack only if it is not the default") {
+  const std::string start = "games = [\"beamfall\"]\nagents = [\"iw1\"]\n[agent.iw1]\n";
+  const auto plan = [&](const std::string& line) { return text_of(parse_plan(start + line, "")); };
+  CHECK(plan("") == plan("limit_branches = 0\n"));
+  CHECK(plan("").find("limit_branches") == std::string::npos);
+  CHECK(plan("limit_branches = 1\n").find("limit_branches = 1\n") != std::string::npos);
+  CHECK(plan("").find("reward_aside = 1\n") != std::string::npos);
+}
+
 TEST_CASE("A plan with other settings of training reads back the same") {
   for (const std::string preset : {"atari100k", "dqn2015"}) {
     const std::string text = text_of(parse_plan("preset = \"" + preset + "\"\n" + kStart, ""));
