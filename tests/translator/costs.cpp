@@ -36,7 +36,7 @@ double judged(const Cost& cost) { return (cost.translated - kAllowance) / cost.i
 
 constexpr double kSuspicious = 1.3;  // measured again, more often
 constexpr int kSteps = 120, kRounds = 3, kMoreRounds = 25, kShown = 12;
-constexpr int kAttempts = 4;  // other work disturbs a measurement; what costs too much does so each time
+constexpr int kAttempts = 8;  // other work disturbs a measurement; what costs too much does so each time
 
 struct Result {
   std::string name;
