@@ -158,8 +158,8 @@ class Results:
         return {**dict(zip(names, map(int, counts))), "seconds": seconds, "bench_seconds": self.bench_seconds()}
 
     def checked(self):
-        """{who: the number of rows that they confirmed}, without rows that are no longer here, and the units that ALE
-        has not played if they are few; None if nobody said."""
+        """A dictionary of how many of the present rows each program confirmed. It also names the units that ALE has not
+        played, if they are few. None if the plan has no such file."""
         text = self.beside(f"{self.folder.name}.checked")
         if text is None:
             return None

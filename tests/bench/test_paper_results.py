@@ -178,7 +178,7 @@ class TestPaperResults:
         assert "as it was" not in self.text()
         results(self.folder / "perturb", ["perturb"], {"perturb_up": [[330]]})
         text = " ".join(self.text().split())
-        assert "Of the episodes of `baselines`, 2 are of Perturb as it was, with an action for 5 frames." in text
+        assert "The plan `baselines` includes 2 episodes of Perturb as it was, with one action for 5 frames." in text
         assert "| 330.0 | up | 337.8 | random, const |" in text
         assert "1 for Perturb." in text
 

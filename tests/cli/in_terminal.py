@@ -37,8 +37,8 @@ class Wire:
         self.socket.close()
 
     def watch(self, name):
-        """What a shared session shows now: the first copy that it makes for this request, or the last one if it makes
-        none for several frames, as in a pause."""
+        """Asks for the picture of a shared session. Waits for the next copy; in a pause, when none comes, the last copy
+        counts."""
         request = f"watch {name} screen:hex palette"
         before = self.ask(request)["frame"]
         until = time.monotonic() + 0.2

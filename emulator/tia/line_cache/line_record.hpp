@@ -129,7 +129,7 @@ struct alignas(64) LineRecord {
 
  private:
   // If the registers at the end depend on more than those at the start, no line starts with this record:
-  // `start` then has a byte that no machine has. So starts_with() needs no test of its own.
+  // a byte of `start` then has a value that no machine's has, so that starts_with() finds a difference.
   void set_foreseen(bool foreseen) { start.spare[0] = foreseen ? 0 : kNever; }
   static constexpr std::uint8_t kNever = 1;
   bool must_be_played() const { return start.spare[0] == kNever; }

@@ -111,9 +111,9 @@ class Conditions(Part):
         found = self.figures.get("baselines", {})
         old = [games for agent, games in found.get("episodes", {}).items() if agent.startswith("perturb_")]
         if old and found["settings"]["perturb"]["frame_skip"] != 1 and "perturb" in self.figures:
-            self.say(f"""Of the episodes of `baselines`, {sum(sum(games.values()) for games in old):,} are of Perturb as
-                it was, with an action for {found["settings"]["perturb"]["frame_skip"]} frames. No table of scores shows
-                them; the scores of Perturb are those of the plan `perturb`.""")
+            self.say(f"""The plan `baselines` includes {sum(sum(games.values()) for games in old):,} episodes of Perturb
+                as it was, with one action for {found["settings"]["perturb"]["frame_skip"]} frames. No table of scores
+                shows them; the scores of Perturb are those of the plan `perturb`.""")
 
     def scale(self):
         self.add("## What was scaled down")

@@ -46,7 +46,7 @@ class Logs(Part):
         self.bench_speeds()
 
     def same_again(self, sample, plan):
-        """What a sample shows of its plan, as a sentence."""
+        """A sentence that says whether the units of a sample score what those of its plan did."""
         scores = self.figures[plan]["scores"]
         means = [
             mean == scores.get(agent, {}).get(game)
