@@ -1,8 +1,5 @@
 #include "cli/commands/play.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -13,11 +10,13 @@
 #include "cli/arguments/own_games.hpp"
 #include "cli/commands/serve.hpp"
 #include "cli/commands/serve_options.hpp"
-#include "cli/commands/supervisor.hpp"
 #include "cli/connect/browser.hpp"
 #include "cli/connect/page_address.hpp"
 #include "cli/connect/player.hpp"
 #include "games/catalogue.hpp"
+#include "system/program/private_folder.hpp"
+#include "system/program/standard_streams.hpp"
+#include "system/program/supervisor.hpp"
 #include "system/similar.hpp"
 
 namespace racebeam {
@@ -103,26 +102,10 @@ std::string page_of(const std::filesystem::path& announce, const std::string& ga
   return page.append("#token=").append(token);
 }
 
-// The standard error of the server, which would be drawn over by pictures.
-class KeptLog {
- public:
-  explicit KeptLog(const PrivateFolder& folder) : path_(folder.path() / "log") {}
-
-  void take() const {  // by the server's process
-    const int file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
-    if (file < 0 || ::dup2(file, STDERR_FILENO) < 0)
-      throw std::runtime_error("cannot write " + path_.string());
-    ::close(file);
-  }
-
-  void show() const {
-    std::ifstream log(path_);
-    if (log.peek() != std::ifstream::traits_type::eof()) std::cerr << log.rdbuf();
-  }
-
- private:
-  std::filesystem::path path_;
-};
+void show_file(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (file.peek() != std::ifstream::traits_type::eof()) std::cerr << file.rdbuf();
+}
 
 int play_in_browser(PlayCommand& options, const std::vector<Setting>& settings) {
   Supervisor supervisor;
@@ -139,19 +122,16 @@ int play_in_browser(PlayCommand& options, const std::vector<Setting>& settings) 
 }
 
 int play_here(PlayCommand& options, const std::vector<Setting>& settings) {
-  if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDOUT_FILENO) == 0)
+  if (!is_terminal(kStandardInput) || !is_terminal(kStandardOutput))
     throw UsageError("--terminal: standard input and output must be a terminal");
   Supervisor supervisor;
   const PrivateFolder folder;
-  const KeptLog log(folder);
+  const std::filesystem::path log = folder.path() / "log";  // messages would be drawn over by pictures
   ServeOptions& serve = options.serve;
   serve.server.announce = folder.path() / "announce";
   const std::string address = "unix:" + (folder.path() / "socket").string();
   serve.addresses.push_back(address);
-  if (supervisor.fork_server()) {
-    log.take();
-    return run_server(serve, settings);
-  }
+  if (supervisor.fork_server(log)) return run_server(serve, settings);
   int status = supervisor.wait_until_ready(serve.server.announce);
   if (status == 0) {
     if (supervisor.fork_command()) {
@@ -161,7 +141,7 @@ int play_here(PlayCommand& options, const std::vector<Setting>& settings) {
     status = supervisor.wait_for_command();
     supervisor.stop_server();
   }
-  log.show();
+  show_file(log);
   return status;
 }
 

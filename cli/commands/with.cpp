@@ -1,14 +1,14 @@
 #include "cli/commands/with.hpp"
 
-#include <sys/un.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
 
 #include "cli/commands/serve.hpp"
 #include "cli/commands/serve_options.hpp"
-#include "cli/commands/supervisor.hpp"
+#include "system/program/private_folder.hpp"
+#include "system/program/sockets.hpp"
+#include "system/program/supervisor.hpp"
 
 namespace racebeam {
 namespace {
@@ -49,7 +49,7 @@ void check_for_command(const ServeOptions& options) {
 std::vector<std::string> usual_addresses(const PrivateFolder& folder) {
   std::vector<std::string> addresses{"tcp://127.0.0.1:0"};
   const std::string socket = folder.path() / "socket";
-  if (socket.size() < sizeof(sockaddr_un::sun_path)) addresses.insert(addresses.begin(), "unix:" + socket);
+  if (socket.size() <= longest_socket_path()) addresses.insert(addresses.begin(), "unix:" + socket);
   return addresses;
 }
 

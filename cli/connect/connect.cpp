@@ -1,7 +1,5 @@
 #include "cli/connect/connect.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -144,7 +142,7 @@ class Conversation {
     const TerminalPicture picture{look.bytes("screen"), look.bytes("palette")};
     Room room;
     if (editor_.interactive()) ask_terminal(room);
-    room.rows = Room::kNoLimit;
+    room.rows = kScrollingRows;
     std::cout << inline_picture(graphics_, picture, room) << std::flush;
   }
 
@@ -152,7 +150,7 @@ class Conversation {
   void ask_terminal(Room& room) {
     Tty tty;
     if (graphics_ == Graphics::kAuto) graphics_ = choose_graphics(graphics_, ask_abilities(tty));
-    room = tty.room();
+    room = tty.size();
   }
 
   client::Session session_;

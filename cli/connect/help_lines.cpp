@@ -1,12 +1,10 @@
 #include "cli/connect/help_lines.hpp"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <vector>
 
 #include "system/folded.hpp"
+#include "system/program/standard_streams.hpp"
 
 namespace racebeam {
 namespace {
@@ -54,9 +52,8 @@ std::string help_lines(std::string_view reply, std::size_t columns) {
 }
 
 std::size_t columns_of_output() {
-  winsize size{};
-  const bool is_known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return is_known ? size.ws_col : kUsualColumns;
+  const int columns = terminal_columns(kStandardOutput);
+  return columns > 0 ? static_cast<std::size_t>(columns) : kUsualColumns;
 }
 
 }  // namespace racebeam

@@ -1,7 +1,5 @@
 #include "cli/connect/line_editor.hpp"
 
-#include <unistd.h>
-
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -9,6 +7,8 @@
 #include <iostream>
 #include <memory>
 #include <utility>
+
+#include "system/program/standard_streams.hpp"
 
 #ifdef RACEBEAM_LIBEDIT
 #include <editline/readline.h>
@@ -68,7 +68,7 @@ std::filesystem::path history_file() {
 }  // namespace
 
 LineEditor::LineEditor(std::string prompt, Complete complete)
-    : prompt_(std::move(prompt)), interactive_(::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0) {
+    : prompt_(std::move(prompt)), interactive_(is_terminal(kStandardInput) && is_terminal(kStandardOutput)) {
   if (!interactive_) return;
   static char blank[] = " ";  // libedit's type has no const
   completions().complete = std::move(complete);
@@ -99,7 +99,7 @@ std::optional<std::string> LineEditor::next() {
 }
 #else
 LineEditor::LineEditor(std::string prompt, Complete)
-    : prompt_(std::move(prompt)), interactive_(::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0) {}
+    : prompt_(std::move(prompt)), interactive_(is_terminal(kStandardInput) && is_terminal(kStandardOutput)) {}
 
 LineEditor::~LineEditor() = default;
 

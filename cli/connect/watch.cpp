@@ -1,7 +1,5 @@
 #include "cli/connect/watch.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -18,6 +16,8 @@
 #include "cli/connect/server_address.hpp"
 #include "cli/terminal/display.hpp"
 #include "system/printable.hpp"
+#include "system/program/execute.hpp"
+#include "system/program/standard_streams.hpp"
 
 namespace racebeam {
 namespace {
@@ -76,7 +76,7 @@ class Watcher {
   // Writes one picture.
   void show(Graphics graphics) {
     if (!look()) throw std::runtime_error(line_);
-    std::cout << inline_picture(graphics, picture_, {.rows = Room::kNoLimit}) << line_ << std::endl;
+    std::cout << inline_picture(graphics, picture_, {.rows = kScrollingRows}) << line_ << std::endl;
   }
 
  private:
@@ -145,17 +145,14 @@ void open_page(const WatchOptions& options) {
   std::cout << page << std::endl;
   const auto command = browser_command(page);
   if (!command) return;
-  std::vector<char*> words;
-  for (const std::string& word : *command) words.push_back(const_cast<char*>(word.c_str()));
-  words.push_back(nullptr);
-  ::execvp(words[0], words.data());
+  execute(*command);
   throw std::runtime_error("cannot run " + command->front() + "; open the page by hand");
 }
 
 void watch(const WatchOptions& options) {
   if (!options.terminal) return open_page(options);
   Watcher watcher(client::connect(server_address(options.address)), options.session);
-  ::isatty(STDOUT_FILENO) != 0 ? watcher.watch(options.graphics) : watcher.show(options.graphics);
+  is_terminal(kStandardOutput) ? watcher.watch(options.graphics) : watcher.show(options.graphics);
 }
 
 }  // namespace

@@ -85,10 +85,10 @@ bool Display::is_ready() {
   return abilities_.answers ? under_way_ < kMaxUnderWay : now >= last_time_ + kUnanswered;
 }
 
-bool Display::is_resized() const { return differ(tty_.room(), room_); }
+bool Display::is_resized() const { return differ(tty_.size(), room_); }
 
 void Display::show(const TerminalPicture* picture, const std::string& line) {
-  Room room = tty_.room();
+  Room room = tty_.size();
   std::string text(kBegin);
   if (differ(room, room_)) {
     text.append(kClear);

@@ -7,7 +7,7 @@
 
 #include "cli/terminal/graphics.hpp"
 #include "cli/terminal/input.hpp"
-#include "cli/terminal/tty.hpp"
+#include "system/program/tty.hpp"
 
 namespace racebeam {
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "system/program/tty.hpp"
+
 namespace racebeam {
 
 constexpr std::size_t kPixelsARow = 160;
@@ -21,12 +23,8 @@ struct TerminalPicture {
   }
 };
 
-// A part of the terminal, in cells, and the pixels of a cell.
-struct Room {
-  static constexpr std::size_t kNoLimit = 10'000;  // rows, where text scrolls
-
-  std::size_t columns = 80, rows = 24;
-  std::size_t cell_width = 8, cell_height = 16;
-};
+// The part of the terminal that a picture may take.
+using Room = TerminalSize;
+constexpr std::size_t kScrollingRows = 10'000;  // where text scrolls: no limit
 
 }  // namespace racebeam

@@ -7,6 +7,7 @@
 
 #include "server/access/address.hpp"
 #include "system/file_lock.hpp"
+#include "system/program/sockets.hpp"
 #include "system/regular_file.hpp"
 
 namespace racebeam {
@@ -60,9 +61,9 @@ class FolderLock {
 
 void bind_unix_socket(const std::string& path, const std::string& name,
                       const std::function<void(const Protocol::endpoint&)>& bind) {
-  constexpr std::size_t kLongestPath = sizeof(SocketFile::sun_path) - 1;
-  if (path.size() > kLongestPath) {
-    throw AddressError(name + " is too long; a socket's path has at most " + std::to_string(kLongestPath) +
+  const std::size_t longest = longest_socket_path();
+  if (path.size() > longest) {
+    throw AddressError(name + " is too long; a socket's path has at most " + std::to_string(longest) +
                        " bytes");
   }
   const FolderLock lock(std::filesystem::path(path).parent_path());

@@ -4,6 +4,7 @@
 #include <netinet/tcp.h>
 #include <sys/event.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
@@ -21,6 +22,7 @@ void set_option(SocketNumber socket, int level, int option, int value) {
 }  // namespace
 
 bool has_local_channels() { return true; }
+std::size_t longest_socket_path() { return sizeof(sockaddr_un::sun_path) - 1; }
 void claim_address(SocketNumber socket) { set_option(socket, SOL_SOCKET, SO_REUSEADDR, 1); }
 void close_socket(SocketNumber socket) { ::close(number_of(socket)); }
 void acknowledge_at_once(SocketNumber) {}

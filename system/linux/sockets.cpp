@@ -7,6 +7,7 @@
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
@@ -92,6 +93,7 @@ std::optional<std::uint32_t> inode(const Question& question) {
 }  // namespace
 
 bool has_local_channels() { return true; }
+std::size_t longest_socket_path() { return sizeof(sockaddr_un::sun_path) - 1; }
 
 void claim_address(SocketNumber socket) {
   constexpr int kOn = 1;

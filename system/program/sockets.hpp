@@ -1,6 +1,7 @@
 // Sockets, by the numbers that the system has for them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -11,6 +12,7 @@ using SocketNumber = std::intptr_t;
 // Whether the system has Unix sockets, named pipes, and sockets that another process passes on. On Windows, a
 // server has only TCP and standard streams.
 bool has_local_channels();
+std::size_t longest_socket_path();  // of a Unix socket, in bytes; 0 if the system does not have them
 
 // Called before a socket is bound. The address is then free as soon as no other socket listens there.
 void claim_address(SocketNumber socket);

@@ -12,6 +12,7 @@ SOCKET number_of(SocketNumber socket) { return static_cast<SOCKET>(socket); }
 }  // namespace
 
 bool has_local_channels() { return false; }
+std::size_t longest_socket_path() { return 0; }
 
 // With SO_REUSEADDR, Windows would let two sockets listen at one address.
 void claim_address(SocketNumber socket) {

@@ -1,4 +1,4 @@
-#include "cli/commands/supervisor.hpp"
+#include "system/program/supervisor.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -6,72 +6,58 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <string>
 #include <system_error>
 
-#include "cli/arguments/options.hpp"
 #include "system/printable.hpp"
+#include "system/program/execute.hpp"
 #include "system/program/parent_process.hpp"
 
 namespace racebeam {
 namespace {
 
 constexpr int kHandled[] = {SIGCHLD, SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2};
-constexpr int kNotFound = 127, kNotExecutable = 126, kSignalled = 128;
-
-[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+constexpr int kFailed = 1, kNotFound = 127, kNotExecutable = 126, kSignalled = 128;
 
 int status_of(int ended) { return WIFEXITED(ended) ? WEXITSTATUS(ended) : kSignalled + WTERMSIG(ended); }
 
-[[noreturn]] void execute(const std::vector<std::string>& command) {
-  std::vector<char*> words;
-  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
-  words.push_back(nullptr);
-  ::execvp(words[0], words.data());
-  const int reason = errno;
+[[noreturn]] void become(const std::vector<std::string>& command) {
+  const int reason = execute(command);
   std::cerr << "racebeam: cannot execute " << printable(command[0]) << ": " << std::strerror(reason) << "\n";
   ::_exit(reason == ENOENT ? kNotFound : kNotExecutable);
 }
 
+// Puts a file in the place of a standard stream.
+void replace(int stream, const char* path, int flags) {
+  const int file = ::open(path, flags | O_CLOEXEC, 0600);
+  if (file < 0 || ::dup2(file, stream) < 0)
+    throw std::system_error(errno, std::generic_category(), "cannot open " + std::string(path));
+  if (file != stream) ::close(file);
+}
+
 }  // namespace
-
-PrivateFolder::PrivateFolder() : owner_(::getpid()) {
-  const char* const parent = std::getenv("TMPDIR");
-  std::string name =
-      (parent == nullptr || *parent == '\0' ? "/tmp" : std::string(parent)) + "/racebeam-XXXXXX";
-  if (::mkdtemp(name.data()) == nullptr) fail(("cannot make a folder " + name).c_str());
-  path_ = name;
-}
-
-PrivateFolder::~PrivateFolder() {
-  if (::getpid() != owner_ && ::getppid() == owner_) return;
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 Supervisor::Supervisor() : signals_(kHandled) {}
 
-pid_t Supervisor::fork_child() const {
-  const pid_t parent = ::getpid();
-  const pid_t child = ::fork();
-  if (child < 0) fail("cannot start a process");
+int Supervisor::fork_child() const {
+  const int parent = ::getpid();
+  const int child = ::fork();
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "cannot start a process");
   if (child > 0) return child;
-  if (!end_with_parent(parent)) ::_exit(kExitFailure);
+  if (!end_with_parent(parent)) ::_exit(kFailed);
   signals_.handle_as_before();
   return 0;
 }
 
 // In its own process group, the server does not get the signals of the terminal.
-bool Supervisor::fork_server() {
+bool Supervisor::fork_server(const std::filesystem::path& log) {
   server_.process = fork_child();
   if (server_.process != 0) return false;
   ::setpgid(0, 0);
-  if (const int nothing = ::open("/dev/null", O_RDONLY); nothing > STDIN_FILENO) {
-    ::dup2(nothing, STDIN_FILENO);
-    ::close(nothing);
-  }
+  replace(STDIN_FILENO, "/dev/null", O_RDONLY);
+  if (!log.empty()) replace(STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND);
   return true;
 }
 
@@ -80,7 +66,7 @@ int Supervisor::wait_until_ready(const std::filesystem::path& announce) {
   std::error_code ignored;
   while (!std::filesystem::exists(announce, ignored)) {
     const int signal = next_signal(kBetweenLooks).number;
-    if (server_.process == 0) return server_.status == 0 ? kExitFailure : server_.status;
+    if (server_.process == 0) return server_.status == 0 ? kFailed : server_.status;
     if (signal == 0 || signal == SIGCHLD) continue;
     stop_server();
     return kSignalled + signal;
@@ -94,7 +80,7 @@ bool Supervisor::fork_command() {
 }
 
 void Supervisor::start(const std::vector<std::string>& command) {
-  if (fork_command()) execute(command);
+  if (fork_command()) become(command);
 }
 
 int Supervisor::run(const std::vector<std::string>& command) {

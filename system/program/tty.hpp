@@ -1,13 +1,18 @@
-// The controlling terminal, from which keys are read at once, and not shown.
+// The controlling terminal, from which keys are read at once, and not shown. Not available on Windows.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
-#include "cli/terminal/picture.hpp"
-
 namespace racebeam {
+
+// In cells, and the pixels of a cell. These are the usual values.
+struct TerminalSize {
+  std::size_t columns = 80, rows = 24;
+  std::size_t cell_width = 8, cell_height = 16;
+};
 
 // At most one at a time. However the process ends, except by SIGKILL, the terminal is as before: the signals
 // that end a process restore it first. Ctrl-Z does nothing.
@@ -30,7 +35,7 @@ class Tty {
   // Throws std::runtime_error if the terminal is gone.
   std::string wait(Time until, bool writes_too = false);
 
-  Room room() const;  // the whole terminal
+  TerminalSize size() const;  // what the terminal does not say has its usual value
 
  private:
   void flush();

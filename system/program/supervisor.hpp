@@ -1,7 +1,6 @@
-// Runs a command beside a server: two child processes, of which neither outlives this one.
+// Runs a command beside a server: two child processes, of which neither outlives this one. Not available on
+// Windows.
 #pragma once
-
-#include <sys/types.h>
 
 #include <filesystem>
 #include <string>
@@ -11,22 +10,6 @@
 
 namespace racebeam {
 
-// A new folder that only this user can read. The process that has made it removes it, with what is in it. If
-// that process is killed, its child does.
-class PrivateFolder {
- public:
-  PrivateFolder();  // in TMPDIR, else /tmp; throws std::runtime_error
-  ~PrivateFolder();
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-  pid_t owner_;
-};
-
 // For a process with one thread. From the construction on, signals are blocked; they are handled while a
 // member function waits. All exit statuses are those of shells: 128 and the number of the signal that ended a
 // process.
@@ -34,9 +17,9 @@ class Supervisor {
  public:
   Supervisor();
 
-  // Makes the server's process, with /dev/null as standard input. Returns true there. Throws
-  // std::system_error.
-  bool fork_server();
+  // Makes the server's process, with /dev/null as standard input and, if `log` has a name, with this file as
+  // standard error; only this user may read it. Returns true there. Throws std::system_error.
+  bool fork_server(const std::filesystem::path& log = {});
 
   // Waits until the server has made the file `announce`. Returns 0; or an exit status, if the server has
   // ended, or a signal has come.
@@ -65,11 +48,11 @@ class Supervisor {
 
  private:
   struct Child {
-    pid_t process = 0;  // 0: not running
+    int process = 0;  // 0: not running
     int status = 0;
   };
 
-  pid_t fork_child() const;  // returns 0 in the child
+  int fork_child() const;  // returns 0 in the child
   AwaitedSignals::Signal next_signal(int milliseconds = -1);
   void reap();
 

@@ -1,4 +1,4 @@
-#include "cli/terminal/tty.hpp"
+#include "system/program/tty.hpp"
 
 #include <fcntl.h>
 #include <sys/ioctl.h>
@@ -173,17 +173,18 @@ std::string Tty::read() {
   throw std::runtime_error("the terminal is gone");
 }
 
-Room Tty::room() const {
-  Room room;
-  winsize size{};
-  if (::ioctl(saved.descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) return room;
-  room.columns = size.ws_col;
-  room.rows = size.ws_row;
-  if (size.ws_xpixel >= size.ws_col && size.ws_ypixel >= size.ws_row) {
-    room.cell_width = size.ws_xpixel / size.ws_col;
-    room.cell_height = size.ws_ypixel / size.ws_row;
+TerminalSize Tty::size() const {
+  TerminalSize size;
+  winsize found{};
+  if (::ioctl(saved.descriptor, TIOCGWINSZ, &found) != 0 || found.ws_col == 0 || found.ws_row == 0)
+    return size;
+  size.columns = found.ws_col;
+  size.rows = found.ws_row;
+  if (found.ws_xpixel >= found.ws_col && found.ws_ypixel >= found.ws_row) {
+    size.cell_width = found.ws_xpixel / found.ws_col;
+    size.cell_height = found.ws_ypixel / found.ws_row;
   }
-  return room;
+  return size;
 }
 
 }  // namespace racebeam
