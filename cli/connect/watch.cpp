@@ -87,15 +87,17 @@ class Watcher {
     return event.key == 'q';
   }
 
-  // Goes this many sessions on in the list.
+  // Goes this many sessions on in the list. If the session is not there any more, 1 leads to the first, and
+  // -1 to the last.
   void choose(std::ptrdiff_t steps) {
     std::vector<std::string> names;
     const client::Reply shared = session_.request("shared");
     for (const client::Group& group : shared.rest()) names.push_back(group.text("name"));
     frame_.reset();
     if (names.empty()) return name_.clear();
-    const auto count = std::ssize(names), here = std::ranges::find(names, name_) - names.begin();
-    name_ = names[static_cast<std::size_t>(((here == count ? 0 : here) + steps + count) % count)];
+    const auto count = std::ssize(names), place = std::ranges::find(names, name_) - names.begin();
+    const auto here = place < count ? place : steps > 0 ? -1 : 0;
+    name_ = names[static_cast<std::size_t>((here + steps + count) % count)];
   }
 
   // Asks for the newest picture. Returns whether there is another one.

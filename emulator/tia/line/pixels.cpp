@@ -37,7 +37,7 @@ void paint(std::uint8_t* row, std::uint64_t covered, std::uint8_t color) {
   }
 }
 
-constexpr int kNarrow = 32;
+constexpr int kNarrow = 32;  // pixels
 
 // Draws group by group, all layers at once.
 void draw_narrow(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first, int last) {
