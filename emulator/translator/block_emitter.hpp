@@ -62,6 +62,7 @@ class BlockEmitter {
   void fetch(std::uint16_t address);
   Value read_zero_page_indexed(const Instruction& instruction, Reg index);
   Value read_indexed(const Instruction& instruction, Reg index);
+  Value read_ram_or_device(const Instruction& instruction, Reg index);
   Value read_through_pointer(const Instruction& instruction);
   bool load_pointer(const Instruction& instruction);
   void read_at_address(const Instruction& instruction);

@@ -109,11 +109,30 @@ Value BlockEmitter::read_indexed(const Instruction& instruction, Reg index) {
     load_rom();
     return {Value::Kind::kTable, as_.window.offset_of(base), index};
   }
+  if (!is_cartridge(base) && !is_cartridge(static_cast<std::uint16_t>(base + 0xFF)))
+    return read_ram_or_device(instruction, index);
   host_.index_address(base, index);
   host_.wrap_address();
   add_penalty(instruction, index);
   host_.keep_bus(high_byte(base));
   read_at_address(instruction);
+  return {Value::Kind::kByte};
+}
+
+// Reads RAM or a device.
+Value BlockEmitter::read_ram_or_device(const Instruction& instruction, Reg index) {
+  Label device, done;
+  add_penalty(instruction, index);
+  host_.offset_in_ram_at(instruction.operand, index, device);
+  host_.read_ram();
+  host_.bind(done);
+  cold([this, instruction, index, exit = exit_state(), device, done]() mutable {
+    host_.bind(device);
+    host_.index_address(instruction.operand, index);
+    host_.load_latch(high_byte(instruction.operand));
+    read_device(instruction, exit);
+    host_.jump(done);
+  });
   return {Value::Kind::kByte};
 }
 

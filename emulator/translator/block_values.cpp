@@ -119,7 +119,7 @@ void BlockEmitter::modify(const Instruction& instruction, Flags live) {
     if (instruction.mode == Mode::zero_page_x)
       host_.offset_in_ram(instruction.operand, Reg::kX, outside);
     else
-      host_.offset_in_ram_at_x(instruction.operand, outside);
+      host_.offset_in_ram_at(instruction.operand, Reg::kX, outside);
     exit_out_of_line(outside, instruction, before);
     host_.modify_ram_at_offset(operation, carry, live);
   }

@@ -115,11 +115,11 @@ class Host : private target::Processor {
   void wrap_address();                           // to 16 bits
   void load_pointer(unsigned pointer);           // the address
   void load_pointer_at_x(unsigned pointer, Label& outside);
-  void add_y();                                                      // to the address: 17 bits
-  void add_y_with_penalty();                                         // to the address: 16 bits
-  void offset_in_ram(unsigned zero_page, Reg index, Label& device);  // zero page, indexed
-  void offset_in_ram_at_x(unsigned base, Label& outside);            // absolute, indexed
-  void address_of_device();                                          // of an offset that is not in RAM
+  void add_y();                                                          // to the address: 17 bits
+  void add_y_with_penalty();                                             // to the address: 16 bits
+  void offset_in_ram(unsigned zero_page, Reg index, Label& device);      // zero page, indexed
+  void offset_in_ram_at(std::uint16_t base, Reg index, Label& outside);  // absolute, indexed
+  void address_of_device();                                              // of an offset that is not in RAM
   void add_cycle_if(Reg index, int least);
   void remove_cycle_if(Reg index, int least);
   void remove_cycle_of_pointer(unsigned pointer);
@@ -155,16 +155,6 @@ class Host : private target::Processor {
   // calls.cpp
   void skip_timer_loop(const std::uint8_t* branch, int period);
 };
-
-// Code that all blocks of an image share. `enter` saves the host's registers, loads the 6507's and jumps to a
-// block. `leave` does the reverse.
-struct Stubs {
-  const void* enter;
-  const void* leave;
-  std::size_t size;
-};
-
-Stubs emit_stubs(void* memory, std::size_t size, const Layout& layout);
 
 // A flag in the result of translated code: the interpreter must execute the instruction at PC. The low 16
 // bits of the result are the PC.

@@ -113,11 +113,10 @@ View* ImageCode::view(const CodeWindow& window, const Rom& rom, bool make) {
 }
 
 void ImageCode::make_stubs(const Layout& layout) {
-  const Stubs stubs = emit_stubs(memory_.writable(), memory_.left(), layout);
-  exit_stub_ = stubs.leave;
-  count(memory_.seal(stubs.size));
+  stubs_ = emit_stubs(memory_.writable(), memory_.left(), layout);
+  count(memory_.seal(stubs_.size));
   enter_ = reinterpret_cast<Enter>(
-      reinterpret_cast<std::uintptr_t>(stubs.enter));  // NOLINT(performance-no-int-to-ptr)
+      reinterpret_cast<std::uintptr_t>(stubs_.enter));  // NOLINT(performance-no-int-to-ptr)
 }
 
 const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout) {
@@ -128,7 +127,7 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
   const CodeWriting writing;
   if (enter_ == nullptr) make_stubs(layout);
   const Window window{wiring_, rom_.data(), view.code, view.entries.data()};
-  Assembler assembler(memory_.writable(), memory_.left(), layout, window, exit_stub_);
+  Assembler assembler(memory_.writable(), memory_.left(), layout, window, stubs_);
   const std::vector<Block> blocks = discover(view.code, pc, view.known);
   try {
     for (const Block& block : blocks) assembler.blocks[block.pc];

@@ -87,7 +87,7 @@ class ImageCode {
   // Views by offset of the first byte in the image, first address, and number of addresses.
   std::map<std::tuple<std::size_t, std::uint16_t, std::uint16_t>, std::unique_ptr<View>> views_;
   Enter enter_ = nullptr;
-  const void* exit_stub_ = nullptr;
+  Stubs stubs_{};
   std::atomic<bool> full_ = false;
   const bool shared_;                   // false: its image has an owner, and its memory counts as the owner's
   std::atomic<std::size_t> bytes_ = 0;  // of code, views, and the copy of the image

@@ -140,6 +140,8 @@ TEST_CASE("A jump to code of another batch has its distance") {
   encoder.ret();
   encoder.b(words.data());
   CHECK(words[2] == 0x17FFFFFE);
+  encoder.bl(words.data());
+  CHECK(words[3] == 0x97FFFFFD);
 }
 
 TEST_CASE("What AArch64 cannot encode is refused") {

@@ -45,7 +45,8 @@ void show(const char* image, std::uint16_t pc, const char* path) {
   const translator::Window window{
       {board->plain_registers(), board->slot.scheme.port_reader}, rom->data(), code, entries.data()};
   std::vector<std::uint8_t> memory(65536);
-  translator::Assembler as(memory.data(), memory.size(), layout, window, memory.data());
+  const translator::Stubs stubs{memory.data(), memory.data(), memory.data(), 0};
+  translator::Assembler as(memory.data(), memory.size(), layout, window, stubs);
   for (const translator::Block& block : translator::discover(code, pc, std::vector<bool>(code.span))) {
     if (block.pc != pc) continue;
     list(block, window);

@@ -19,9 +19,8 @@ void aarch64::Processor::call(Function* function) {
 }
 
 void Host::read_bus(int cycles) {
-  as_.mov(kArguments[0], kBoard);
   add_constant(kTime, kCycle, cycles);
-  call(bus::read);
+  as_.bl(as_.stubs.read_bus);
 }
 
 void Host::read_port(PortReader reader, std::uint16_t address, int cycles) {

@@ -203,6 +203,11 @@ void Encoder::b(const void* code) {
   set_distance(count_ - 1, words);
 }
 
+void Encoder::bl(const void* code) {
+  b(code);
+  words_[count_ - 1] |= 0x80000000;
+}
+
 void Encoder::b(Condition condition, Label& label) {
   jump(0x54000000 | static_cast<std::uint32_t>(condition), label);
 }

@@ -92,6 +92,7 @@ class Encoder {
   // Jumps
   void b(Label& label);
   void b(const void* code);
+  void bl(const void* code);
   void b(Condition condition, Label& label);
   void cbz(Register reg, Label& label);
   void cbnz(Register reg, Label& label);

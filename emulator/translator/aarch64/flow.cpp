@@ -44,7 +44,7 @@ void Host::jump_at_limit(Label& reached, Distance) {
 
 void Host::leave(std::uint32_t exit) {
   as_.mov(kByte, exit);
-  as_.b(as_.exit_stub);
+  as_.b(as_.stubs.leave);
 }
 
 void Host::add_cycles(int cycles) { add_constant(kCycle, kCycle, cycles); }
@@ -162,7 +162,7 @@ void Host::leave_to_return_address(int cycles, Label& interpret) {
   drop_return_address();
   add_cycles(cycles);
   as_.ubfx(kByte, kTarget, 0, 16);
-  as_.b(as_.exit_stub);
+  as_.b(as_.stubs.leave);
 }
 
 }  // namespace racebeam::translator

@@ -6,6 +6,7 @@
 
 #include "emulator/translator/aarch64/encoder.hpp"
 #include "emulator/translator/layout.hpp"
+#include "emulator/translator/stubs.hpp"
 #include "emulator/translator/window.hpp"
 
 namespace racebeam::translator::aarch64 {
@@ -22,14 +23,13 @@ constexpr Register kScratch = w(16), kOther = w(17), kPointer = x(16);
 
 class Assembler : public Encoder {
  public:
-  // Writes to `memory`. out: the exit stub, to which translated code jumps at its end. w0 then holds the PC,
-  // and kInterpretNext if the interpreter must execute the next instruction.
-  Assembler(void* memory, std::size_t size, const Layout& places, const Window& seen, const void* out)
-      : Encoder(memory, size), layout(places), window(seen), exit_stub(out) {}
+  // Writes to `memory`.
+  Assembler(void* memory, std::size_t size, const Layout& places, const Window& seen, const Stubs& shared)
+      : Encoder(memory, size), layout(places), window(seen), stubs(shared) {}
 
   const Layout& layout;
   const Window& window;
-  const void* exit_stub;
+  const Stubs& stubs;
   std::unordered_map<std::uint16_t, Label> blocks;  // labels of this batch's blocks, by address
 
   const void* address_of(std::uint16_t block) { return Encoder::address_of(blocks[block]); }

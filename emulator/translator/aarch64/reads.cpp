@@ -53,8 +53,8 @@ void aarch64::Processor::compare_with_ram(Register address) {
   as_.cmp(kScratch, 0x80U);
 }
 
-void Host::offset_in_ram_at_x(unsigned base, Label& outside) {
-  add_constant(kOffset, kX, static_cast<int>(base));
+void Host::offset_in_ram_at(std::uint16_t base, Reg index, Label& outside) {
+  add_constant(kOffset, reg_of(index), base);
   compare_with_ram(kOffset);
   as_.b(Condition::ne, outside);
   as_.and_(kOffset, kOffset, 0x7FU);

@@ -10,6 +10,7 @@
 
 #include "emulator/translator/label.hpp"
 #include "emulator/translator/layout.hpp"
+#include "emulator/translator/stubs.hpp"
 #include "emulator/translator/window.hpp"
 
 namespace racebeam::translator::x86_64 {
@@ -18,14 +19,13 @@ using AssemblyError = Xbyak::Error;  // the memory is full
 
 class Assembler : public Xbyak::CodeGenerator {
  public:
-  // Writes to `memory`. out: the exit stub, to which translated code jumps at its end. eax then holds the PC,
-  // and kInterpretNext if the interpreter must execute the next instruction.
-  Assembler(void* memory, std::size_t size, const Layout& places, const Window& seen, const void* out)
-      : CodeGenerator(size, memory), layout(places), window(seen), exit_stub(out) {}
+  // Writes to `memory`.
+  Assembler(void* memory, std::size_t size, const Layout& places, const Window& seen, const Stubs& shared)
+      : CodeGenerator(size, memory), layout(places), window(seen), stubs(shared) {}
 
   const Layout& layout;
   const Window& window;
-  const void* exit_stub;
+  const Stubs& stubs;
   std::unordered_map<std::uint16_t, Label> blocks;  // labels of this batch's blocks, by address
 
   std::size_t size() const { return getSize(); }

@@ -17,10 +17,8 @@ void x86_64::Processor::call(Function* function) {
 
 void Host::read_bus(int cycles) {
   as_.lea(as_.edx, as_.ptr[as_.rbp + cycles]);
-  as_.mov(as_.rdi, as_.rbx);
-  as_.mov(as_.esi, as_.eax);
-  as_.xchg(as_.ecx, as_.edx);
-  call(bus::read);
+  as_.call(as_.stubs.read_bus);
+  clobbered_flags();
 }
 
 void Host::read_port(PortReader reader, std::uint16_t address, int cycles) {

@@ -22,7 +22,7 @@ void Host::jump_at_limit(Label& reached, Distance distance) {
 
 void Host::leave(std::uint32_t exit) {
   as_.mov(as_.eax, exit);
-  as_.jmp(as_.exit_stub, kNear);
+  as_.jmp(as_.stubs.leave, kNear);
 }
 
 void Host::add_cycles(int cycles) { as_.add(as_.ebp, cycles); }
@@ -160,7 +160,7 @@ void Host::leave_to_return_address(int cycles, Label& interpret) {
   drop_return_address();
   as_.add(as_.ebp, cycles);
   as_.movzx(as_.eax, as_.dx);
-  as_.jmp(as_.exit_stub, kNear);
+  as_.jmp(as_.stubs.leave, kNear);
 }
 
 }  // namespace racebeam::translator

@@ -43,8 +43,8 @@ void Host::offset_in_ram(unsigned zero_page, Reg index, Label& device) {
   clobbered_flags();
 }
 
-void Host::offset_in_ram_at_x(unsigned base, Label& outside) {
-  as_.lea(as_.ecx, as_.ptr[as_.r13 + base]);
+void Host::offset_in_ram_at(std::uint16_t base, Reg index, Label& outside) {
+  as_.lea(as_.ecx, as_.ptr[reg_of(index).cvt64() + base]);
   as_.mov(as_.eax, as_.ecx);
   as_.and_(as_.eax, 0x1280);
   as_.cmp(as_.eax, 0x80);

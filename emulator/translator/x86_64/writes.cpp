@@ -59,10 +59,10 @@ Xbyak::Reg32 x86_64::Processor::logged_value(unsigned reg, Reg value, Reg32 scra
 }
 
 void Host::append_change(unsigned reg, Reg value, int cycles) {
-  const Xbyak::Reg32 logged = logged_value(reg, value, as_.ecx);
-  const auto before = as_.word[as_.r15 + place_of_written(reg)];
   Label repeated;
   if (WriteLog::kOnRepeat[reg] == 0) {
+    const Xbyak::Reg32 logged = logged_value(reg, value, as_.ecx);
+    const auto before = as_.word[as_.r15 + place_of_written(reg)];
     const unsigned other = kRegisters[reg].renews;
     if (other != kNone) as_.movzx(as_.edx, before);
     as_.cmp(before, logged.cvt16());
