@@ -1,6 +1,7 @@
 #include "emulator/console.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 #include <utility>
 
@@ -80,6 +81,20 @@ void Console::Impl::take(const FrameBuffers& others) {
   };
   displace(pictures.current, others.current, spare.current);
   displace(pictures.previous, others.previous, spare.previous);
+}
+
+void Console::Impl::release_undrawn() {
+  for (const FrameBuffers* const both : {&pictures, &spare}) {
+    for (const std::shared_ptr<FrameBuffer>* const picture : {&both->current, &both->previous})
+      if (is_own(*picture)) (*picture)->release_rows();
+  }
+}
+
+// Spreads the probes of successive machines.
+unsigned Console::Impl::delay_of_probes() {
+  constexpr unsigned kStep = 197;  // frames; any odd number passes through all delays
+  static std::atomic<unsigned> delay = 0;
+  return delay.fetch_add(kStep, std::memory_order_relaxed);
 }
 
 Format Console::Impl::detect_format() {

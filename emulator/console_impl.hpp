@@ -44,7 +44,8 @@ struct Console::Impl {
     Collisions unknown = 0;  // latches of the state that have not been computed
   } latches;
 
-  DeferredRenderPolicy render_policy{policies_are_fixed()};
+  DeferredRenderPolicy render_policy{policies_are_fixed(), delay_of_probes()};
+  int undrawn_frames = 0;  // since the last picture was drawn
 
   const std::unique_ptr<Translator> translator;  // null: the interpreter executes everything
 
@@ -59,6 +60,8 @@ struct Console::Impl {
   void blank(std::shared_ptr<FrameBuffer>& picture);
   Format detect_format();
   void take(const FrameBuffers& others);
+  void release_undrawn();
+  static unsigned delay_of_probes();
   void check_ram_size(std::span<const std::uint8_t> cartridge_ram) const;
 
   // frame_runner.cpp

@@ -25,6 +25,8 @@ void Console::Impl::step(bool observed, bool follow) {
   } else {
     run_frame(draw);
   }
+  if (draw) undrawn_frames = 0;
+  if (!draw && ++undrawn_frames % tuning::kUndrawnFrames == 0) release_undrawn();
   if (pace != nullptr) pace->frame();
 }
 
@@ -118,6 +120,7 @@ void Console::Impl::draw_now(std::shared_ptr<FrameBuffer>& picture) {
   if (!is_own(picture)) picture = own_copy(*picture);
   picture->make_room(rows());
   if (!picture->is_undrawn) return;
+  undrawn_frames = 0;
   board.replay(picture->undrawn, *picture, other_than(*picture), RenderMode::kDrawn);
   picture->is_undrawn = false;
 }

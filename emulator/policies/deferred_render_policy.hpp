@@ -13,8 +13,10 @@ namespace racebeam {
 
 class DeferredRenderPolicy {
  public:
-  // fixed: frames are always followed.
-  explicit DeferredRenderPolicy(bool fixed = false) : period_(fixed ? kEndless : tuning::kShortestPeriod) {}
+  // fixed: frames are always followed. delay: more frames until the first probe, up to kShortestPeriod. It
+  // keeps machines that run side by side from drawing in their probes all at once.
+  explicit DeferredRenderPolicy(bool fixed = false, unsigned delay = 0)
+      : period_(fixed ? kEndless : tuning::kShortestPeriod + delay % tuning::kShortestPeriod) {}
 
   // Whether the next frame, which is not observed, is to be drawn. Advances to it.
   bool next_is_drawn() {

@@ -27,6 +27,10 @@ RACEBEAM_TUNED(unsigned, kLongestPeriod, 4096, "frames", "frames");
 // A probe measures up to this many observed frames in succession. More belong to another use of the machine.
 RACEBEAM_TUNED(unsigned, kMaxObserved, 2, "frames", "frames");
 
+// A machine that has drawn no picture for this many frames releases its pictures' memory. An agent that looks
+// at pictures does so more often.
+RACEBEAM_TUNED(int, kUndrawnFrames, 32, "frames", "frames");
+
 // Two sets of line records, for games that flicker (emulator/tia/line_cache/flicker_detector.hpp).
 
 // Frames before the first test for flicker.

@@ -49,6 +49,13 @@ class FrameBuffer {
     is_undrawn = false;
   }
 
+  // Releases the memory of rows that will be drawn anew.
+  void release_rows() {
+    if (!is_undrawn) return;
+    rows_ = MachineVector<Row>(rows_.get_allocator());
+    shows_ = MachineVector<LineNumber>(shows_.get_allocator());
+  }
+
   // Bytes of memory.
   std::size_t footprint() const {
     return sizeof(Row) * rows_.capacity() + sizeof(LineNumber) * shows_.capacity() +

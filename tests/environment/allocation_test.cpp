@@ -2,6 +2,7 @@
 // so it has no other tests.
 #include <malloc.h>
 
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -147,6 +148,51 @@ TEST_CASE("A machine of a batch takes less than 70 KiB beside its pictures") {
   INFO(of_one << " bytes");
   CHECK(of_one > kPictures);
   CHECK(of_one - kPictures < 70 * 1024);
+}
+
+// In probes, machines draw pictures. If all did so in the same frames, they would take 67 KiB more each.
+TEST_CASE("Machines that nobody looks at have pictures only in their probes, and in turns") {
+  constexpr std::size_t kMachines = 64;
+  constexpr int kFrames = 3000;
+  std::vector<SystemGenerator> power_on(kMachines, SystemGenerator(1));
+  std::vector<std::unique_ptr<Console>> consoles;
+  const auto image = load_image("builtin:beamfall")->bytes;
+  Properties properties;
+  properties.format = Format::kNtsc;
+  for (SystemGenerator& generator : power_on)
+    consoles.push_back(std::make_unique<Console>(image, properties, generator, kCpu));
+  const auto step = [&] {
+    for (const auto& console : consoles) console->step(false);
+  };
+  for (int frame = 0; frame < 60; ++frame) step();
+  const long at_first = bytes_in_use;
+  long most = 0;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    step();
+    most = std::max(most, bytes_in_use - at_first);
+  }
+  const long of_all = 2 * 210 * 160 * static_cast<long>(kMachines);
+  INFO(most << " bytes of " << of_all);
+  CHECK(most > of_all / 64);  // there are probes
+  CHECK(most < of_all / 3);
+}
+
+TEST_CASE("A machine that is looked at every 31 frames keeps its pictures") {
+  SystemGenerator power_on(1);
+  Properties properties;
+  properties.format = Format::kNtsc;
+  Console console(load_image("builtin:beamfall")->bytes, properties, power_on, kCpu);
+  const auto play = [&](int looks, int frames) {
+    const long before = allocations;
+    for (int frame = 1; frame <= looks * frames; ++frame) {
+      console.step(false);
+      if (frame % frames == 0) REQUIRE(!console.picture().empty());
+    }
+    return allocations - before;
+  };
+  play(40, 31);
+  CHECK(play(40, 31) == 0);
+  CHECK(play(40, 40) > 40);
 }
 
 // How many machines have results among the first `count`, each counted once, that have played.

@@ -160,6 +160,15 @@ TEST_CASE("A probe draws 16 frames and follows 16, and the first four of each do
   CHECK(measured == 24);
 }
 
+TEST_CASE("A delay moves the first probe by as many frames, up to 511") {
+  for (const unsigned delay : {0U, 1U, 197U, 511U, 512U}) {
+    DeferredRenderPolicy policy(false, delay);
+    int frames = 0;
+    while (!policy.next_is_drawn()) ++frames;
+    CHECK(frames == 479 + static_cast<int>(delay % 512));
+  }
+}
+
 TEST_CASE("Frames that take the same time both ways are followed") {
   CHECK(frames_of(1000, 7000, 7000).drawn == std::vector{479});
   CHECK(frames_of(1000, 7000, 6999).drawn == std::vector{479, 511});
