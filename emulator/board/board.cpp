@@ -31,9 +31,9 @@ constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::min() / 4;
 }  // namespace
 
 Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
-    : video{properties.ystart, properties.height, properties.hmove_blanks, false},
+    : BoardMemory(*rom, scheme_of(*rom, properties.scheme)),
+      video{properties.ystart, properties.height, properties.hmove_blanks, false},
       tia(state.tia, state.frame, video),
-      slot{*rom, scheme_of(*rom, properties.scheme), state, {}, map},
       cartridge_ram(ram_beside_state(slot.scheme)),
       ram_select_bits(slot.scheme.watches(Scheme::Watch::kMirrors) ? kRamBits | kMirrorBit : kRamBits),
       rom_(std::move(rom)),
@@ -104,7 +104,7 @@ void Board::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog&
                        Collisions sought) {
   log = &scratch;
   log->begin(state.cycle);
-  last_access_ = kNever;
+  last_access = kNever;
   exact_mode_ = mode == RenderMode::kExact;
   fetched_latches_ = false;
   plain_registers_ = exact_mode_ ? 0 : plain_registers();
@@ -116,11 +116,11 @@ void Board::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog&
 // up to 5 clocks ahead (docs/spec/tia.md, 4). That is visible if the picture stops inside the window. An
 // access that closes the frame is at least 9 clocks later.
 void Board::end_step() {
-  const bool closed = !state.frame.open && last_access_ == state.cycle;
+  const bool closed = !state.frame.open && last_access == state.cycle;
   if (closed && !exact_mode_) {
-    picture_is_exact_ = tia.end_picture(last_access_);
+    picture_is_exact_ = tia.end_picture(last_access);
   } else {
-    tia.catch_up(last_access_);
+    tia.catch_up(last_access);
     picture_is_exact_ = exact_mode_ || !tia.stopped_inside(state.cycle);
   }
 }
@@ -129,8 +129,8 @@ void Board::record_step(RecordedStep& step, const TiaState& start, std::int32_t 
   step.start = start;
   step.lines = lines;
   step.base = log->base;
-  step.last_access = last_access_;
-  step.closed = !state.frame.open && last_access_ == state.cycle;
+  step.last_access = last_access;
+  step.closed = !state.frame.open && last_access == state.cycle;
   step.writes.assign(log->entry.data(), log->next);
 }
 
@@ -171,7 +171,7 @@ Collisions Board::replay(const RecordedStep& step, FrameBuffer& picture, const F
 }
 
 bool Board::needs_exact_step() const {
-  const bool untouched = last_access_ == kNever && log->size() == 0;
+  const bool untouched = last_access == kNever && log->size() == 0;
   return !exact_mode_ && (fetched_latches_ || (!untouched && !picture_is_exact_));
 }
 
@@ -322,7 +322,7 @@ void Board::write_riot(std::uint16_t address, std::uint8_t value, std::int32_t c
 
 // An access that draws up to its clock, and changes no register.
 void Board::touch_tia(std::int32_t cycle) {
-  last_access_ = cycle;
+  last_access = cycle;
   if (exact_mode_) tia.catch_up(cycle);
 }
 
@@ -351,7 +351,7 @@ bool Board::gun_sees_beam(unsigned side, std::int32_t cycle) const {
 
 // These are the only reads that depend on the picture: the log is played up to `cycle`.
 std::uint8_t Board::collision_bits(unsigned reg, std::int32_t cycle) {
-  last_access_ = cycle;
+  last_access = cycle;
   tia.find_collisions(cycle, static_cast<Collisions>(3U << (2 * reg)));
   return static_cast<std::uint8_t>((state.tia.collisions >> (2 * reg) & 3) << 6);
 }
@@ -373,7 +373,7 @@ std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::in
     touch_tia(cycle);
     return cycle;
   }
-  last_access_ = cycle;
+  last_access = cycle;
   make_room(cycle);
   log->append(cycle, reg, value);
   if (exact_mode_) tia.play_log(cycle);
@@ -416,8 +416,8 @@ void Board::write_dump(bool on, std::int32_t cycle) {
 
 // The inputs are the same in the whole step.
 void Board::set_pins() {
-  pin_high_from_.fill(Ports::kNever);
-  for (unsigned pin = 0; pin < Ports::kPins; ++pin) pin_high_from_[pin] = ports_.high_from(pin, state);
+  pin_high_from.fill(Ports::kNever);
+  for (unsigned pin = 0; pin < Ports::kPins; ++pin) pin_high_from[pin] = ports_.high_from(pin, state);
 }
 
 }  // namespace racebeam

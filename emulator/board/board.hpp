@@ -8,37 +8,23 @@
 #include <memory>
 #include <vector>
 
-#include "emulator/board/context.hpp"
+#include "emulator/board/board_memory.hpp"
 #include "emulator/board/ports.hpp"
-#include "emulator/cartridge/cartridge.hpp"
-#include "emulator/cartridge/memory_map.hpp"
-#include "emulator/state/state.hpp"
 #include "emulator/tia/registers/motion.hpp"
-#include "emulator/tia/sound.hpp"
 #include "emulator/tia/tia.hpp"
 
 namespace racebeam {
 
-namespace translator {
-struct Layout;
-}
-
-class Board {
+class Board : public BoardMemory {
  public:
   Board(std::shared_ptr<const Rom> rom, const Properties& properties);
   Board(const Board&) = delete;
   Board& operator=(const Board&) = delete;
 
-  State state;
-  MemoryMap map;
   Video video;
   Tia tia;
-  Sound sound;
-  CartridgeSlot slot;
   std::vector<std::uint8_t> cartridge_ram;  // RAM that does not fit into the state; empty for most schemes
   WriteLog* log = nullptr;                  // of the step in progress
-  CodeWindow code;    // where the CPU fetches; empty after the map has changed or the frame has closed
-  bool stop = false;  // the CPU stops after this instruction: the frame has closed, or must be run again
 
   // Read a byte for the CPU: from any address, and from an address that the memory map does not show. latch:
   // the byte on the data bus before the access. cycle: that of the access, as in all functions here.
@@ -48,7 +34,7 @@ class Board {
   // Whether INPT0-5 depend neither on the beam nor on the cartridge.
   bool has_plain_pins() const { return has_plain_pins_ && !exact_mode_; }
   std::uint8_t read_plain_pin(unsigned number, std::uint8_t latch, std::int32_t cycle) {
-    last_access_ = cycle;
+    last_access = cycle;
     return static_cast<std::uint8_t>(pin(number, cycle) | (latch & 0x3F));
   }
 
@@ -73,7 +59,7 @@ class Board {
     if ((address & 0x3F) != WSYNC || plain_registers_ == 0 || cycle >= overlong_cycle_) return false;
     if (log->is_short_of_room(cycle)) [[unlikely]]
       return false;
-    last_access_ = cycle;
+    last_access = cycle;
     cycle += (overlong_cycle_ - cycle) % kLineCycles;
     return true;
   }
@@ -86,7 +72,6 @@ class Board {
   // closes the frame.
   std::uint64_t plain_registers() const;
   std::int32_t overlong_cycle() const { return overlong_cycle_; }
-  translator::Context translator_context;
 
   void open_frame();  // docs/spec/tia.md, 2: action 1 of a step; the pictures have been exchanged already
   void turn_back_clocks(std::int32_t cycles);
@@ -125,7 +110,6 @@ class Board {
   void restore(const State& other);  // replaces the state
 
  private:
-  friend translator::Layout;
   class PresentState;
 
   std::uint8_t read_cartridge(std::uint16_t address, std::int32_t cycle);
@@ -137,7 +121,7 @@ class Board {
   std::uint8_t read_watched(std::uint16_t address, std::int32_t cycle);
   void write_watched(std::uint16_t address, std::uint8_t value, std::int32_t cycle);
   std::uint8_t pin(unsigned number, std::int32_t cycle) const {
-    return static_cast<std::uint32_t>(cycle) >= pin_high_from_[number] ? 0x80 : 0;
+    return static_cast<std::uint32_t>(cycle) >= pin_high_from[number] ? 0x80 : 0;
   }
   [[gnu::noinline]] bool gun_sees_beam(unsigned side, std::int32_t cycle) const;
   std::int32_t write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
@@ -170,16 +154,12 @@ class Board {
   const bool has_gun_ = ports_.has_light_gun();
   const bool has_plain_pins_ = !has_gun_ && !slot.scheme.watches(Scheme::Watch::kTia);
   const std::uint32_t unwatched_;  // the bit of addresses that only the RIOT sees; 0 if the cartridge watches
-  // The first cycle in which each of INPT0-5 reads high. The two addresses after them never do.
-  std::array<std::uint32_t, 8> pin_high_from_{};
   std::uint64_t plain_registers_ = 0;
   // The first cycle, at a line's start, from which a TIA write closes the frame.
   std::int32_t overlong_cycle_ = 0;
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
-  // The cycle of the last TIA access that was not a plain write: the picture is drawn up to there.
-  std::int32_t last_access_ = 0;
-  bool exact_mode_ = false;       // each access is played on its own
-  bool picture_is_exact_ = true;  // of the last step, even if it ran in another mode
+  bool exact_mode_ = false;                // each access is played on its own
+  bool picture_is_exact_ = true;           // of the last step, even if it ran in another mode
   bool fetched_latches_ = false;  // an opcode was to be fetched from a collision register, and ended the step
 };
 

@@ -16,8 +16,9 @@
 #include "emulator/translator/host.hpp"
 
 namespace racebeam {
+class Board;
 struct WriteLog;
-}
+}  // namespace racebeam
 
 namespace racebeam::translator {
 

@@ -1,11 +1,11 @@
 #include "emulator/translator/layout.hpp"
 
-#include "emulator/board/board.hpp"
+#include "emulator/board/board_memory.hpp"
 #include "emulator/cartridge/mappers/dpc.hpp"
 
 namespace racebeam::translator {
 
-Layout::Layout(Board& board) {
+Layout::Layout(const BoardMemory& board) {
   const auto at = [&board](const auto& member) {
     return static_cast<std::int32_t>(reinterpret_cast<const char*>(&member) -
                                      reinterpret_cast<const char*>(&board));
@@ -21,10 +21,10 @@ Layout::Layout(Board& board) {
   stop = at(board.stop);
   code = at(board.code.memory);
   code_span = at(board.code.span);
-  last_access = at(board.last_access_);
+  last_access = at(board.last_access);
   slot = at(board.slot);
   sound = at(board.sound.registers);
-  pins = at(board.pin_high_from_);
+  pins = at(board.pin_high_from);
   cartridge_ram = at(state.cartridge.ram);
   limit = at(board.translator_context.limit);
   first_line = at(board.translator_context.first_line);

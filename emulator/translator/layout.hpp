@@ -4,15 +4,15 @@
 #include <cstdint>
 
 namespace racebeam {
-class Board;
+struct BoardMemory;
 }
 
 namespace racebeam::translator {
 
-// Offsets in bytes from the start of a Board to the fields that translated code uses. They are the same for
-// all Boards.
+// Offsets in bytes from the start of a BoardMemory, which is also that of its Board, to the fields that
+// translated code uses. They are the same for all boards.
 struct Layout {
-  explicit Layout(Board& board);
+  explicit Layout(const BoardMemory& board);
 
   std::int32_t ram, a, x, y, sp, cycle, pages, stop, code, code_span, last_access, slot, sound, pins;
   std::int32_t cartridge_ram, limit, first_line, waited, nz, carry, overflow, decimal, interrupt;
