@@ -1,6 +1,7 @@
 #include "server/scheduling/turns.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <boost/asio/redirect_error.hpp>
 
@@ -8,28 +9,39 @@ namespace racebeam {
 
 namespace net = boost::asio;
 
-// A session's place among those that wait. Its destructor removes the session, if wake_next() has not done
-// so.
+// A session's place among those that wait. Its timer never expires, but is cancelled to wake the session.
 class Turns::Place {
  public:
-  Place(std::vector<Waiting>& all, Waiting one) : all_(all), timer_(one.timer) { all_.push_back(one); }
-  ~Place() {
-    std::erase_if(all_, [this](const Waiting& one) { return one.timer == timer_; });
-  }
+  Place(Waiting& all, Usage usage, net::io_context& loop)
+      : timer_(loop, net::steady_timer::time_point::max()), all_(all), at_(all.emplace(usage, this)) {}
+  ~Place() { leave(); }
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;
 
+  Task<> wait() {
+    boost::system::error_code cancelled;
+    co_await timer_.async_wait(net::redirect_error(use_task, cancelled));
+  }
+
+  // Leaves at once, since the session only runs later.
+  void wake() {
+    leave();
+    timer_.cancel();
+  }
+
  private:
-  std::vector<Waiting>& all_;
-  const net::steady_timer* timer_;
+  void leave() {
+    if (at_ != all_.end()) all_.erase(std::exchange(at_, all_.end()));
+  }
+
+  net::steady_timer timer_;
+  Waiting& all_;
+  Waiting::iterator at_;
 };
 
-// The timer never expires. It is cancelled to wake the session.
-Task<> Turns::wait(net::io_context& loop, const Usage& usage) {
-  net::steady_timer timer(loop, net::steady_timer::time_point::max());
-  const Place place(waiting_, {&usage, &timer});
-  boost::system::error_code cancelled;
-  co_await timer.async_wait(net::redirect_error(use_task, cancelled));
+Task<> Turns::wait(net::io_context& loop, Usage usage) {
+  Place place(waiting_, usage, loop);
+  co_await place.wait();
 }
 
 std::chrono::microseconds Turns::slice() const {
@@ -38,10 +50,7 @@ std::chrono::microseconds Turns::slice() const {
 }
 
 void Turns::wake_next() {
-  const auto next = std::ranges::min_element(waiting_, {}, [](const Waiting& one) { return *one.usage; });
-  next->timer->cancel();
-  *next = waiting_.back();
-  waiting_.pop_back();
+  waiting_.begin()->second->wake();
   worked_ = {};
 }
 

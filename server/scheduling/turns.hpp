@@ -8,11 +8,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <utility>  // needed by Asio 1.74
-#include <vector>
 
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/steady_timer.hpp>
 
 #include "server/scheduling/task.hpp"
 #include "server/tuning.hpp"
@@ -29,20 +28,21 @@ class Turns {
   // Whether a session that wants to work may do so at once. Otherwise it waits for its turn.
   bool may_work(Usage& usage) const {
     usage = std::max(usage, now_ - tuning::kCreditOfPause);
-    return worked_ < tuning::kLongestSlice &&
-           std::ranges::all_of(waiting_, [usage](const Waiting& other) { return usage <= *other.usage; });
+    return worked_ < tuning::kLongestSlice && (waiting_.empty() || usage <= waiting_.begin()->first);
   }
 
   // Returns when it is the session's turn to work for one slice. Meanwhile, `loop` handles other events.
-  Task<> wait(boost::asio::io_context& loop, const Usage& usage);
+  Task<> wait(boost::asio::io_context& loop, Usage usage);
 
   // For how long a session works before it asks for another turn. If many sessions wait, slices are short,
   // since each session waits for the slices of all others.
   std::chrono::microseconds slice() const;
 
+  // A slice lasts longer if another program takes the processor away. Not all of that time is charged to the
+  // session, which would otherwise wait until each other session had worked for as long.
   void worked(Usage& usage, Duration time) {
     now_ = std::max(now_, usage);
-    usage += time + tuning::kCostOfSlice;
+    usage += std::min<Duration>(time, tuning::kMostCharged * slice()) + tuning::kCostOfSlice;
     worked_ += time;
   }
 
@@ -52,13 +52,10 @@ class Turns {
   void wake_next();  // there must be a session that waits
 
  private:
-  struct Waiting {
-    const Usage* usage;
-    boost::asio::steady_timer* timer;
-  };
   class Place;
+  using Waiting = std::multimap<Usage, Place*>;
 
-  std::vector<Waiting> waiting_;
+  Waiting waiting_;
   Usage now_{};  // usage of the session that worked last, at the start of its slice
   Duration worked_{};
 };

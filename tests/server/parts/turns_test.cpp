@@ -116,12 +116,25 @@ TEST_CASE("without others that wait, sessions work until the turn has lasted as 
 TEST_CASE("a session that comes is treated as if it had worked until now, less a credit of 250 us") {
   Turns turns;
   Usage one{}, other{}, ahead{1s};
-  for (int slice = 0; slice < 2; ++slice) turns.worked(one, 10ms);  // each costs 20 us more
-  CHECK(one == 20040us);
+  for (int slice = 0; slice < 2; ++slice) turns.worked(one, 5ms);  // each costs 20 us more
+  CHECK(one == 10040us);
   turns.may_work(other);
-  CHECK(other == 10020us - 250us);
+  CHECK(other == 5020us - 250us);
   turns.may_work(ahead);
   CHECK(ahead == 1s);
+}
+
+TEST_CASE("a slice that another program interrupted costs a session as much as four slices") {
+  Busy busy;
+  Usage interrupted{}, other{}, usages[63] = {};
+  busy.turns.worked(interrupted, 1s);
+  CHECK(interrupted == 4 * 2ms + 20us);
+  for (Usage& usage : usages) busy.begin('a', usage, 2);
+  REQUIRE(busy.turns.slice() == 250us);
+  busy.turns.worked(other, 999us);
+  CHECK(other == 999us + 20us);
+  busy.turns.worked(other, 1s);
+  CHECK(other == 999us + 20us + 1000us + 20us);
 }
 
 TEST_CASE("slices are shorter while many wait") {
@@ -130,6 +143,16 @@ TEST_CASE("slices are shorter while many wait") {
   CHECK(busy.turns.slice() == 2ms);
   for (Usage& usage : usages) busy.begin('a', usage, 2);
   CHECK(busy.turns.slice() == 250us);
+}
+
+TEST_CASE("sessions with equal usage are woken in the order in which they came") {
+  Busy busy;
+  std::vector<Usage> usages(26);
+  busy.turns.worked(usages[0], 2ms);  // nobody may work at once
+  usages[0] = {};
+  for (std::size_t i = 0; i < usages.size(); ++i) busy.begin(static_cast<char>('a' + i), usages[i], 1);
+  busy.wake(100);
+  CHECK(busy.worked == "abcdefghijklmnopqrstuvwxyz");
 }
 
 TEST_CASE("a session gets its turn though events are always ready") {
