@@ -115,8 +115,8 @@ View* ImageCode::view(const CodeWindow& window, const Rom& rom, bool make) {
 void ImageCode::make_stubs(const Layout& layout) {
   stubs_ = emit_stubs(memory_.writable(), memory_.left(), layout);
   count(memory_.seal(stubs_.size));
-  enter_ = reinterpret_cast<Enter>(
-      reinterpret_cast<std::uintptr_t>(stubs_.enter));  // NOLINT(performance-no-int-to-ptr)
+  // NOLINTNEXTLINE(performance-no-int-to-ptr)
+  enter_ = reinterpret_cast<Enter>(reinterpret_cast<std::uintptr_t>(stubs_.enter));
 }
 
 const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout) {
