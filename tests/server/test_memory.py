@@ -189,7 +189,7 @@ class TestMemory:
         assert re.search(b"^ok ", ask(waiting, b"step NOOP"))
 
     def test_clients_without_room_wait_together_and_are_refused(self):
-        port = self.start("--max-memory", "48M")
+        port = self.start("--max-memory", "24M")
         crowd = []
         while len(crowd) < 800:  # one owner, whose sessions hold equally little: none of them is ended
             crowd.append(self.connect(port))
