@@ -20,7 +20,7 @@ RACEBEAM_TUNED(std::chrono::microseconds, kLongestSlice, 2000, "us", "none");
 // What a slice costs in addition to its work: to receive and to send.
 RACEBEAM_TUNED(std::chrono::microseconds, kCostOfSlice, 20, "us", "none");
 // A session is charged at most this many slices for one. More time was another program's.
-RACEBEAM_TUNED(int, kMostCharged, 4, "slices", "none");
+RACEBEAM_TUNED(int, kMostCharged, 2, "slices", "none");
 // The time of a round of slices, one for each session that waits.
 RACEBEAM_TUNED(std::chrono::microseconds, kRoundOfSlices, 16'000, "us", "none");
 

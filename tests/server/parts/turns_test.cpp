@@ -116,25 +116,25 @@ TEST_CASE("without others that wait, sessions work until the turn has lasted as 
 TEST_CASE("a session that comes is treated as if it had worked until now, less a credit of 250 us") {
   Turns turns;
   Usage one{}, other{}, ahead{1s};
-  for (int slice = 0; slice < 2; ++slice) turns.worked(one, 5ms);  // each costs 20 us more
-  CHECK(one == 10040us);
+  for (int slice = 0; slice < 2; ++slice) turns.worked(one, 4ms);  // each costs 20 us more
+  CHECK(one == 8040us);
   turns.may_work(other);
-  CHECK(other == 5020us - 250us);
+  CHECK(other == 4020us - 250us);
   turns.may_work(ahead);
   CHECK(ahead == 1s);
 }
 
-TEST_CASE("a slice that another program interrupted costs a session as much as four slices") {
+TEST_CASE("a slice that another program interrupted costs a session as much as two slices") {
   Busy busy;
   Usage interrupted{}, other{}, usages[63] = {};
   busy.turns.worked(interrupted, 1s);
-  CHECK(interrupted == 4 * 2ms + 20us);
+  CHECK(interrupted == 2 * 2ms + 20us);
   for (Usage& usage : usages) busy.begin('a', usage, 2);
   REQUIRE(busy.turns.slice() == 250us);
-  busy.turns.worked(other, 999us);
-  CHECK(other == 999us + 20us);
+  busy.turns.worked(other, 499us);
+  CHECK(other == 499us + 20us);
   busy.turns.worked(other, 1s);
-  CHECK(other == 999us + 20us + 1000us + 20us);
+  CHECK(other == 499us + 20us + 500us + 20us);
 }
 
 TEST_CASE("slices are shorter while many wait") {
