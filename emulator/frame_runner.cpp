@@ -25,8 +25,11 @@ void Console::Impl::step(bool observed, bool follow) {
   } else {
     run_frame(draw);
   }
-  if (draw) undrawn_frames = 0;
-  if (!draw && ++undrawn_frames % tuning::kUndrawnFrames == 0) release_undrawn();
+  undrawn_frames = draw ? 0 : undrawn_frames + 1;
+  if (undrawn_frames == tuning::kUndrawnFrames) {
+    release_undrawn();
+    undrawn_frames = 0;  // counted anew, so that the number stays small
+  }
   if (pace != nullptr) pace->frame();
 }
 

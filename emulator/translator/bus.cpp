@@ -3,23 +3,12 @@
 #include "emulator/board/board.hpp"
 #include "emulator/cpu/decimal.hpp"
 #include "emulator/cpu/timer_loop.hpp"
-#include "emulator/translator/addresses.hpp"
 
 namespace racebeam::translator::bus {
-namespace {
-
-// Inline, because games with paddles read pins in each line.
-RACEBEAM_INLINE std::uint8_t read_device(Board& board, std::uint16_t address, std::uint8_t latch,
-                                         std::int32_t cycle) {
-  if (is_pin(address) && board.has_plain_pins()) return board.read_plain_pin(address & 7, latch, cycle);
-  return board.read_device(address, latch, cycle);
-}
-
-}  // namespace
 
 std::uint32_t RACEBEAM_SYSV_ABI read(Board* board, std::uint32_t address, std::uint32_t latch,
                                      std::int32_t cycle) {
-  return read_device(*board, static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch), cycle);
+  return board->read_device(static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch), cycle);
 }
 
 std::int32_t RACEBEAM_SYSV_ABI write(Board* board, std::uint32_t address, std::uint32_t value,
@@ -38,7 +27,7 @@ std::uint32_t RACEBEAM_SYSV_ABI pull(Board* board, std::int32_t cycle) {
   CpuState& cpu = board->state.cpu;
   const auto read_at = [&](std::uint8_t sp, std::uint8_t latch) {
     return sp & 0x80 ? board->state.riot.ram[sp & 0x7F]
-                     : read_device(*board, static_cast<std::uint16_t>(0x100 | sp), latch, cycle);
+                     : board->read_device(static_cast<std::uint16_t>(0x100 | sp), latch, cycle);
   };
   const std::uint8_t unused = read_at(cpu.SP, kOpcode);
   return read_at(++cpu.SP, unused);
