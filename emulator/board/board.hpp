@@ -31,13 +31,6 @@ class Board : public BoardMemory {
   std::uint8_t read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
   std::uint8_t read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
 
-  // Whether INPT0-5 depend neither on the beam nor on the cartridge.
-  bool has_plain_pins() const { return has_plain_pins_ && !exact_mode_; }
-  std::uint8_t read_plain_pin(unsigned number, std::uint8_t latch, std::int32_t cycle) {
-    last_access = cycle;
-    return static_cast<std::uint8_t>(pin(number, cycle) | (latch & 0x3F));
-  }
-
   // Returns the bytes of the instruction at `pc`. Moves the code window there if plain memory holds them,
   // else reads them over the bus.
   const std::uint8_t* locate_code(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
@@ -152,7 +145,6 @@ class Board : public BoardMemory {
   std::array<KnownWindow, 64> known_windows_{};
   Ports ports_;
   const bool has_gun_ = ports_.has_light_gun();
-  const bool has_plain_pins_ = !has_gun_ && !slot.scheme.watches(Scheme::Watch::kTia);
   const std::uint32_t unwatched_;  // the bit of addresses that only the RIOT sees; 0 if the cartridge watches
   std::uint64_t plain_registers_ = 0;
   // The first cycle, at a line's start, from which a TIA write closes the frame.
